@@ -135,7 +135,7 @@ def test_tables_tell_what_is_identified_and_what_not() -> None:
     assert f"{1e-6 * complex(RUBBER.complex_modulus(10.0)).real:.3f}" in rows[2]
     band.relative = True
     remarks = [" ".join(row.split()[9:]) for row in modulus_lines(made)[1:]]
-    assert remarks == ["not identified"] * 2 + ["level not identified"] * 2 + ["not identified"] * 2
+    assert remarks == ["not identified"] * 2 + ["magnitude not identified"] * 2 + ["not identified"] * 2
     assert len(family_lines(made)) == 3
     assert "× 0.5" in family_lines(made)[1]
     made.family = ()

@@ -240,9 +240,9 @@ def test_curves_without_errors_say_what_the_errors_of_their_shift_are(tmp_path: 
     path = curves(tmp_path / "curves.csv", noise=0.0)
     done = call("master", path)
     assert done.exit_code == 0, done.output
-    assert "follow from how the points scatter about one curve" in done.stdout
+    assert "from the scatter of the points about one curve" in done.stdout
     assert "± 0.000" not in done.stdout
-    assert "follow from how" not in call("master", curves(tmp_path / "noisy.csv")).stdout
+    assert "from the scatter" not in call("master", curves(tmp_path / "noisy.csv")).stdout
 
 
 def test_a_law_is_found_among_few_temperatures(tmp_path: Path) -> None:

@@ -105,7 +105,7 @@ def test_cases_beyond_the_measured_frequencies_are_counted(tree: xr.DataTree) ->
     part["within_measured_frequencies"][:3] = 0
     tree["prediction"].dataset = part
     said = words(tree, "Measured frequency range")
-    assert "3 of 21 cases asked for, 0 of 18 measured points and 0 of 41 cases" in said
+    assert "3 of 21 requested cases, 0 of 18 measured points and 0 of 41 cases" in said
     assert "0.00010 to 1.0 × 10⁶ rad/s" in said
 
 

@@ -39,7 +39,7 @@ def test_doubtful_rows_are_marked_and_counted_in_the_headline(tree: xr.DataTree)
     assert "reaching beyond 0.3 ball radii from the axis" in glance.note
     remark = key_numbers(tree)[0].remark
     assert "doubtful in 1 of 21" in remark
-    assert "extrapolated in 1 of 21" in remark
+    assert "extrapolated beyond the measured frequencies in 1 of 21" in remark
 
 
 def test_measured_point_without_a_prediction_keeps_its_row(tree: xr.DataTree) -> None:
@@ -49,7 +49,7 @@ def test_measured_point_without_a_prediction_keeps_its_row(tree: xr.DataTree) ->
     tree["agreement"].attrs["left_out"] = 1
     (table,) = [table for table in detail_tables(tree) if table.key == "measured-and-predicted"]
     row = dict(zip(table.headings, table.rows[0], strict=True))
-    assert (row["predicted"], row["predicted less measured"]) == ("–", "–")
+    assert (row["predicted"], row["predicted minus measured"]) == ("–", "–")
     assert "remark" not in row
     agreement = agreement_table(tree)
     assert agreement is not None
@@ -75,7 +75,7 @@ def test_synthetic_points_are_not_called_measured(
 ) -> None:
     tree = make_tree(data_origin=origin)
     assert ("synthetic measurement" in captions(tree)["friction_against_speed"]) == said
-    assert ("18 synthetic (made, not measured) points" in what_was_asked(tree)[2].replace("\xa0", " ")) == said
+    assert ("18 synthetic (calculated, not measured) points" in what_was_asked(tree)[2].replace("\xa0", " ")) == said
 
 
 def test_speeds_of_metres_per_second_are_written_so(tree: xr.DataTree) -> None:

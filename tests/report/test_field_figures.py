@@ -155,7 +155,7 @@ def test_errors_are_drawn_below_the_accuracy_that_was_asked_for(make_sweep: Call
     assert figure is not None
     errors, cells = figure.axes
     shown = {str(line.get_label()): line for line in errors.lines}
-    assert set(shown) == {"error estimate", "error estimate, interpolated", "accuracy asked for"}
+    assert set(shown) == {"error estimate", "error estimate, interpolated", "requested accuracy"}
     # The maker of sweeps takes 4e-4 of the friction for its error.
     np.testing.assert_allclose(shown["error estimate"].get_ydata(), 4e-4)
     np.testing.assert_allclose(cells.lines[0].get_ydata(), 256.0)

@@ -63,15 +63,15 @@ def test_shift_factors_of_friction_are_judged_by_their_probability(
 
 
 def test_friction_does_not_test_the_rubber_identified_from_it(tree: xr.DataTree) -> None:
-    assert "Nothing of this friction enters the prediction" in " ".join(what_was_asked(tree))
+    assert "The prediction does not use this friction" in " ".join(what_was_asked(tree))
     tree = with_friction_shifts(tree)
     tree.attrs["identified_from_friction"] = 1
     verdict, words = check(tree, "Shift factors from friction")
     assert verdict == "noted"
     assert not any(number.name == "Shift factors from friction" for number in key_numbers(tree))
-    assert "this tests nothing" in words
+    assert "the comparison tests nothing" in words
     asked = " ".join(what_was_asked(tree))
-    assert "Nothing of this friction" not in asked
+    assert "does not use this friction" not in asked
     assert "tests no prediction" in asked
 
 
@@ -111,7 +111,7 @@ def test_assumptions_are_plain_checks(tree: xr.DataTree) -> None:
     }
     tree["assumptions"] = xr.DataTree(xr.Dataset({key: column(values, "a") for key, values in words.items()}))
     assert check(tree, "Half-space") == ("noted", "A sentence about half-space.")
-    assert check(tree, "Linear rubber")[0] == "look at this"
+    assert check(tree, "Linear viscoelasticity")[0] == "look at this"
     assert check(tree, "Isothermal")[0] == "passed"
     # Small contacts are counted case by case, from the contacts themselves.
     assert not any("small contact" in one.words for one in all_checks(tree))
@@ -124,7 +124,7 @@ def test_bands_are_in_the_tables_and_the_captions_say_what_they_are(tree: xr.Dat
         friction = found["friction_coefficient"]
         tree[name] = xr.DataTree(found.assign(friction_lower=0.98 * friction, friction_upper=1.02 * friction))
     for name in ("friction_against_speed", "friction_master_curve"):
-        assert "95 % band that the uncertainty of the rubber" in captions(tree)[name]
+        assert "95 % band from the uncertainty of the material" in captions(tree)[name]
     (table,) = [table for table in detail_tables(tree) if table.key == "prediction"]
     row = dict(zip(table.headings, table.rows[0], strict=True))
     assert float(row["95 % from"]) == pytest.approx(0.98 * float(row["friction coefficient"]), rel=1e-3)
@@ -143,6 +143,6 @@ def test_agreement_says_whether_the_material_is_counted(tree: xr.DataTree) -> No
     row = dict(zip(table.headings, table.rows[1], strict=True))
     assert row["its standard error"] == "0.50\N{NO-BREAK SPACE}%"
     assert row["within the scatter"] == "–"
-    (number,) = [item for item in key_numbers(tree) if item.name == "Prediction less measurement"]
+    (number,) = [item for item in key_numbers(tree) if item.name == "Prediction minus measurement"]
     assert "+0.4\N{NO-BREAK SPACE}% ± 0.37\N{NO-BREAK SPACE}%" in number.remark
     assert "with the material's own" in number.remark

@@ -197,7 +197,7 @@ def test_synthetic_data_are_announced_first(
     _, page = write(make_tree(data_origin=origin), tmp_path)
     assert ("Synthetic data" in page.text) == banner
     if banner:
-        assert page.text.index("Synthetic data:") < page.text.index("The question")
+        assert page.text.index("Synthetic data:") < page.text.index("Viscoelastic friction of a material")
 
 
 @pytest.mark.usefixtures("unrendered")
@@ -206,7 +206,7 @@ def test_page_without_measurement_does_not_speak_of_one(make_tree: Callable[...,
     ids = page.attributes("id")
     assert "table-agreement" not in ids
     assert "table-measured-and-predicted" not in ids
-    assert "Prediction less measurement" not in page.text
+    assert "Prediction minus measurement" not in page.text
     assert "Coulomb" not in page.text
 
 

@@ -73,7 +73,7 @@ def test_every_study_has_a_report(make_study: Callable[..., xr.DataTree], tmp_pa
     assert ("figure-friction_map" in page) == ("speed" in STUDIES[name])
     assert set(images) <= set(captions(tree))
     assert len(what_was_asked(tree)) >= 2
-    assert {"cases", "accuracy asked for"} <= {item.name for item in inputs(tree)}
+    assert {"cases", "requested accuracy"} <= {item.name for item in inputs(tree)}
 
 
 @pytest.mark.usefixtures("unread")
@@ -151,7 +151,7 @@ def test_each_of_several_rubbers_has_its_figures(
     assert {"master_curve_1", "master_curve_2", "spectrum_1", "friction_master_curve", "friction_sweep"} <= set(images)
     assert "master_curve" not in images
     page = write_report(found, tmp_path, images=images).read_text("utf-8")
-    assert "<h3>Rubber: NBR 70</h3>" in page
+    assert "<h3>Material: NBR 70</h3>" in page
     assert "FKM 75. Shift factors of the isotherms." in page
     assert sum(check.name.endswith("(NBR 70)") for check in all_checks(found)) >= 3
 

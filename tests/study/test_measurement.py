@@ -120,7 +120,7 @@ def test_the_report_says_so(results: StudyResults) -> None:
 
     told = {check.name: check.verdict for check in all_checks(results.tree)}
     assert told["Half-space"] == "look at this"
-    assert told["Shear leaves the pressure alone"] == "look at this"
+    assert told["Pressure independent of shear"] == "look at this"
     assert told["Shift factors from friction"] == "passed"
 
 

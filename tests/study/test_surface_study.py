@@ -166,7 +166,7 @@ def test_interpolated_contacts_lie_within_their_claims() -> None:
     claim = np.array([one.interpolation_error / one.friction_coefficient for one, _ in pairs])
     # As for indenters, claims are to hold for 95 %; of some thirty, one or two more may lie beyond.
     assert np.mean(np.abs(off) <= claim) >= 0.9
-    assert np.abs(off).max() <= 1e-3  # the accuracy asked for
+    assert np.abs(off).max() <= 1e-3  # the requested accuracy
     for one, other in pairs:
         assert (one.speed, one.temperature, one.pressure) == (other.speed, other.temperature, other.pressure)
         # Points come into contact one by one: of 2,304, some 120 touch, and a few more or less are not foretold.

@@ -39,7 +39,7 @@ def test_the_prediction_meets_the_friction_that_it_was_planted_with(agreement: d
     noise = column(agreement["points"], "measured") / predicted - 1.0
     np.testing.assert_allclose(column(agreement["points"], "difference"), 1.0 / (1.0 + noise) - 1.0, atol=1e-5)
     assert "Over 20 points the predicted friction is" in agreement["sentences"][0]
-    assert agreement["key"][0]["name"] == "Prediction less measurement"
+    assert agreement["key"][0]["name"] == "Prediction minus measurement"
     assert [row[0] for row in agreement["table"]["rows"]] == ["30 °C", "90 °C"]
     assert {word for points in agreement["points"] for word in points["remark"]} == {""}  # none is doubtful
 
@@ -106,7 +106,7 @@ def test_friction_and_rubber_shift_alike(context: Context) -> None:
     assert found["refusal"] is None
     assert "agree within their errors" in found["found"]["agreement"]
     assert found["found"]["reference"] == found["by_rubber"]["reference"] == pytest.approx(303.15)
-    assert {one["name"] for one in found["found"]["words"]} >= {"reference", "law", "overlap", "beside the modulus"}
+    assert {one["name"] for one in found["found"]["words"]} >= {"reference", "law", "overlap", "comparison"}
     by_rubber, points = found["by_rubber"], column(found["by_rubber"]["points"], "speed")
     line = np.interp(np.log(points), np.log(by_rubber["line"]["speed"]), by_rubber["line"]["friction"])
     # The smoothed line runs through means of eight repetitions with 1.5 % of scatter each.

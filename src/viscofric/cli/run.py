@@ -20,7 +20,7 @@ _MOST_LINES = 5
 # Checks that a study reports as warnings, notes or failures of its own.
 _REPORTED_OTHERWISE = (
     "Small strain",
-    "Linear rubber",
+    "Linear viscoelasticity",
     "Half-space",
     "Measured frequency range",
     "Isotherms used",

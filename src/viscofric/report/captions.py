@@ -50,9 +50,9 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
     made = is_synthetic(tree)
     measured = "synthetic measurement" if made else "measured"
     bars = f" Points: {measured}, with bars of one standard deviation over the repetitions." if points else ""
-    # Only what was tested: a sentence of the study tells how the curves coincide, or that they do not overlap.
-    told = (note for note in notes(tree.attrs, "notes") if note.code in ("curves-coincide", "curves-apart"))
-    together = f" {typeset(next(told, ''))}".rstrip() if points else ""
+    # A note of the study says how the curves coincide, or that they do not overlap.
+    tested = (note for note in notes(tree.attrs, "notes") if note.code in ("curves-coincide", "curves-apart"))
+    together = f" {typeset(next(tested, ''))}".rstrip() if points else ""
     return {
         "friction_against_speed": "Viscoelastic friction against speed. "
         f"Lines: predicted{_thin(tree, 'prediction')}{_shaded(tree, 'prediction')}.{bars}",
@@ -60,24 +60,24 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         f"over the whole range{_thin(tree, 'prediction_master')}{_shaded(tree, 'prediction_master')}.{bars}{together}",
         "friction_sweep": _of_sweep(tree),
         "friction_map": _of_map(tree),
-        "coulomb_friction": f"Coulomb friction against speed.{bars} It is measured, not predicted.",
-        "friction_shift_factors": "Shift factors found from friction alone, by laying its curves over one another, "
-        "beside those of the modulus; both with their standard errors.",
+        "coulomb_friction": f"Coulomb friction against speed.{bars} Coulomb friction is not predicted.",
+        "friction_shift_factors": "Shift factors from friction alone, by superposition of its curves, "
+        "and those of the modulus, with their standard errors.",
         "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: "
         f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them"
-        f"{_banded(tree)}; below, what the spectrum leaves over.",
-        "spectrum": "Retardation spectrum: the compliance of each mode over its retardation time.",
+        f"{_banded(tree)}; below, the residuals.",
+        "spectrum": "Retardation spectrum: compliance of each mode against its retardation time.",
         "shift_factors": f"Shift factors {_origin(tree)}, and a law fitted to them.",
         "vertical_shift": "Vertical shift b of the modulus.",
-        "superposition": "Loss angle against the size of the modulus (van Gurp–Palmen), and loss against storage "
-        "modulus (Cole–Cole), which no shift along the frequency changes: where superposition holds, all temperatures "
+        "superposition": "Loss angle against the magnitude of the modulus (van Gurp–Palmen), and loss against storage "
+        "modulus (Cole–Cole). A shift along the frequency changes neither: if superposition holds, all temperatures "
         "lie on one line.",
         "isotherms": f"Storage and loss modulus {'of the synthetic sweeps' if made else 'as measured'}, one curve "
         "for each temperature.",
         "contacts": _of_contacts(tree),
-        "recovery_trail": "The surface of the rubber on the centre line, seen from the side; the indenter moves to the "
-        "right. Behind the contact the rubber has not yet recovered: the surface there lies below its mirror image "
-        "ahead, by the more the longer the rubber remembers.",
+        "recovery_trail": "Surface on the centre line, seen from the side; the indenter moves to the right. "
+        "Behind the contact the material has not yet recovered: the surface lies below the mirror image of the surface "
+        "ahead. The difference grows with the retardation times.",
         "convergence": _of_convergence(tree),
     }
 
@@ -103,9 +103,9 @@ def _of_sweep(tree: xr.DataTree) -> str:
             "mean, by Student's t over the seeds"
         )
     elif "sample" in friction["friction_coefficient"].dims:
-        said += "; the bands hold 95 % of the rubbers that were drawn from the uncertainty of the material"
+        said += "; bands: 95 % of the uncertainty samples of the material"
     elif "friction_lower" in friction:
-        said += "; bands: 95 %, as the uncertainty of the rubber leaves it"
+        said += "; bands: 95 %, from the uncertainty of the material"
     solved = np.isfinite(friction["friction_coefficient"].values).all()
     missing = "" if solved else f" Crosses: not solved{', for one seed or more' if seeds else ''}."
     return f"{said}.{missing}"
@@ -119,8 +119,8 @@ def _of_map(tree: xr.DataTree) -> str:
     said = "Predicted viscoelastic friction over speed and temperature"
     said += f", mean over {seeds} seeds of the surface" if seeds else ""
     said += f", one panel for each {' and each '.join(axis.title for axis in others)}" if others else ""
-    said += ". Diamonds: the speed of the highest friction at each temperature, where it lies inside the range. "
-    said += "Between the speeds and temperatures that were asked for, the colours are interpolated"
+    said += ". Diamonds: speed of the highest friction at each temperature, if it lies inside the range. "
+    said += "Between the solved speeds and temperatures the colours are interpolated"
     said += ", from one temperature to the next along α(T)·v." if any(known_shifts(tree)) else "."
     if friction is not None and friction.sizes.get("temperature", 0) <= MARKED_TEMPERATURES:
         said += " Dotted: those temperatures."
@@ -147,15 +147,15 @@ def _of_contacts(tree: xr.DataTree) -> str:
         above = "Contact pressure seen from above, and on the centre line. "
     marks = "" if shown[0].contact.is_line else " (cross: the axis; dot: the centre of pressure)"
     return (
-        f"{above}The indenter moves to the right{marks}. The pressure leans to the leading edge: its centre lies "
-        "ahead of the indenter's axis, and that is the friction. Dotted: the profile's mirror image."
+        f"{above}The indenter moves to the right{marks}. The pressure is higher at the leading edge: its centre lies "
+        "ahead of the indenter's axis, which causes the friction. Dotted: the profile's mirror image."
     )
 
 
 def _of_rough_contacts(is_line: bool) -> str:
     seen = "along a whole period of the profile" if is_line else "on a whole period of the surface, seen from above"
-    blank = "Where nothing is drawn the rubber does not touch" if not is_line else "Where it is zero nothing touches"
-    arrow = "" if is_line else "; the arrow shows where the surface goes"
+    blank = "Blank: no contact" if not is_line else "Zero: no contact"
+    arrow = "" if is_line else "; the arrow shows the motion of the surface"
     return f"Contact pressure {seen}. {blank}{arrow}."
 
 
@@ -163,14 +163,14 @@ def _of_convergence(tree: xr.DataTree) -> str:
     cases = solved_cases(tree)
     between = 0 if cases is None else int(interpolated(cases).sum())
     said = (
-        "How well the cases were solved: the estimated numerical error of friction, and how far friction from the "
-        "pressure and friction from the dissipated energy differ, both over the friction coefficient"
+        "Numerical accuracy of the cases: estimated discretisation error of friction, and difference of friction from "
+        "the pressure and from the dissipated energy, both relative to the friction coefficient"
     )
     if cases is None or not between:
         return f"{said}; below, the cells along the longer edge of the finest grid."
     return (
-        f"{said}. {between} of {cases.sizes['case']} values (open marks) are interpolated between solved contacts, "
-        "with the error of doing so counted; below, the cells along the longer edge of the finest grid of the others."
+        f"{said}. {between} of {cases.sizes['case']} values (open marks) are interpolated between solved contacts "
+        "(interpolation error included); below, the cells along the longer edge of the finest grid of the others."
     )
 
 
@@ -179,9 +179,9 @@ def _origin(tree: xr.DataTree) -> str:
     factors = group(tree, "shift_factors")
     origin = "found" if factors is None else str(factors.attrs.get("shift_origin", "found"))
     if origin == "given":
-        return "that were given, not found on the sweeps"
-    found = "found by laying the isotherms over one another, with their standard errors"
-    return f"{found}; single ones were held at given values, without an error" if origin == "held" else found
+        return "that were given, not fitted to the sweeps"
+    found = "from the superposition of the isotherms, with their standard errors"
+    return f"{found}; some were fixed at given values, without an error" if origin == "held" else found
 
 
 def _banded(tree: xr.DataTree) -> str:
@@ -195,9 +195,13 @@ def _shaded(tree: xr.DataTree, name: str) -> str:
     cases = solved_cases(tree, name)
     if cases is None or "friction_lower" not in cases.variables:
         return ""
-    return ", with the 95 % band that the uncertainty of the rubber (sweeps, shift factors, spectrum) leaves"
+    return ", with the 95 % band from the uncertainty of the material (sweeps, shift factors, spectrum)"
 
 
 def _thin(tree: xr.DataTree, name: str) -> str:
     cases = solved_cases(tree, name)
-    return ", thin beyond the measured frequencies" if cases is not None and is_extrapolated(cases).any() else ""
+    return (
+        ", thin where extrapolated beyond the measured frequencies"
+        if cases is not None and is_extrapolated(cases).any()
+        else ""
+    )

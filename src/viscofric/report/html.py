@@ -135,10 +135,10 @@ def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
     found = [
         ("Friction", ("friction_master_curve", "coulomb_friction", "friction_shift_factors")),
         ("Contact", ("contacts", "recovery_trail")),
-        ("Rubber", tuple(RUBBER_FIGURES)),
+        ("Material", tuple(RUBBER_FIGURES)),
     ]
     for place, (rubber, _) in enumerate(rubbers(tree), 1):
-        found.append((f"Rubber: {rubber}", tuple(f"{name}_{place}" for name in RUBBER_FIGURES)))
+        found.append((f"Material: {rubber}", tuple(f"{name}_{place}" for name in RUBBER_FIGURES)))
     return [*found, ("Calculation", ("convergence",))]
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: Dimension of results that are told case by case.
+#: Dimension of results that are listed case by case.
 CASE = "case"
 #: Dimension of the members of a material's posterior.
 SAMPLE = "sample"
@@ -26,7 +26,7 @@ SEED = "seed"
 #: Most lines in one panel, and most panels in one figure: more are not read.
 MOST_LINES, MOST_PANELS = 8, 9
 
-#: What else than speed and temperature may vary, in the order in which it is told.
+#: What else than speed and temperature may vary, in the order in which it is listed.
 VARIED = (
     "material",
     "sample",
@@ -114,7 +114,7 @@ def axis_of(dataset: xr.Dataset, dimension: str) -> SweepAxis:
         count = dataset.sizes[dimension]
         labels = tuple(f"{dimension} {number + 1}" for number in range(count))
         return SweepAxis(dimension, (), dimension, labels, np.arange(count, dtype=float), dimension, False)
-    told = [[value_label(dataset, name, value) for value in dataset[name].values] for name in columns]
+    labels = [[value_label(dataset, name, value) for value in dataset[name].values] for name in columns]
     numeric = [name for name in columns if np.issubdtype(dataset[name].dtype, np.number)]
     first = numeric[0] if numeric else columns[0]
     position = on_axis(first, dataset[first].values) if numeric else np.arange(dataset.sizes[dimension], dtype=float)
@@ -123,7 +123,7 @@ def axis_of(dataset: xr.Dataset, dimension: str) -> SweepAxis:
         dimension,
         tuple(columns),
         " and ".join(_spoken(name) for name in columns),
-        tuple(", ".join(row) for row in zip(*told, strict=True)),
+        tuple(", ".join(row) for row in zip(*labels, strict=True)),
         position,
         axis_label(dataset, first) + (f", with {others}" if others else ""),
         bool(numeric),
@@ -214,7 +214,7 @@ def solved_cases(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | No
 
 
 def labelled(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:
-    """Return predicted friction over its axes; None where it is told case by case, and these do not fill a grid."""
+    """Return predicted friction over its axes; None where it is listed case by case, and these do not fill a grid."""
     found = group(tree, name)
     if found is None or CASE not in found.dims:
         return found

@@ -57,19 +57,7 @@ def _label_along(solution: ContactSolution) -> str:
 
 
 def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
-    """Draw the pressure of a point contact seen from above, with the outline of the contact.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    solution : ContactSolution
-        Of a point contact.
-
-    Returns
-    -------
-    matplotlib.collections.QuadMesh
-        For a colour bar.
-    """
+    """Draw the pressure of a point contact seen from above, with the outline of the contact."""
     unit, pressure_unit = _along(solution), _unit(solution.max_pressure, "Pa")
     every = math.ceil(max(solution.pressure.shape) / _MOST_CELLS)
     x, y = solution.x[::every] / unit.size, solution.y[::every] / unit.size
@@ -109,13 +97,7 @@ def _tell_motion(axes: Axes, solution: ContactSolution) -> None:
 
 
 def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
-    """Draw the pressure along the centre line of a contact.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    solution : ContactSolution
-    """
+    """Draw the pressure along the centre line of a contact."""
     unit, pressure_unit = _along(solution), _unit(solution.max_pressure, "Pa")
     x, pressure = solution.x / unit.size, _centre(solution.pressure) / pressure_unit.size
     axes.fill_between(x, pressure, color=BLUE, alpha=0.15, linewidth=0.0)
@@ -133,12 +115,6 @@ def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indent
     """Draw the deformed surface along the centre line, with the indenter that presses on it.
 
     Heights are counted from the level of the indentation, upwards.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    solution : ContactSolution
-    indenter : Indenter
     """
     unit = _along(solution)
     surface = -_centre(solution.displacement)
@@ -176,14 +152,7 @@ def _beneath(solution: ContactSolution, indenter: Indenter) -> Array:
 
 
 def contact_figure(solution: ContactSolution, indenter: Indenter, title: str = "") -> Figure:
-    """Return a figure of a contact: the map of the pressure (of a point contact) and both profiles.
-
-    Parameters
-    ----------
-    solution : ContactSolution
-    indenter : Indenter
-    title : str
-    """
+    """Return a figure of a contact: the map of the pressure (of a point contact) and both profiles."""
     if solution.geometry == "line":
         figure = new_figure(6.2, 6.0)
         profile, surface = figure.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])

@@ -105,11 +105,6 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
         How far from the axis is shown, m.
     highest : float
         Pressure at the end of the colours.
-
-    Returns
-    -------
-    matplotlib.collections.QuadMesh
-        For a colour bar.
     """
     along, across = (np.flatnonzero(np.abs(places) <= reach) for places in (contact.x, contact.y))
     every = math.ceil(max(along.size, across.size) / _MOST_CELLS)
@@ -164,7 +159,7 @@ def plot_contact_profile(axes: Axes, contact: Contact, pressure: Array) -> None:
     x, line = contact.x / _MILLI, contact.centre_line(pressure)
     axes.fill_between(x, line, color=BLUE, alpha=0.15, linewidth=0.0)
     axes.plot(x, line, color=BLUE, label="pressure on the centre line")
-    axes.plot(-x, line, color=GREY, linewidth=1.0, linestyle=(0, (1.5, 1.2)), label="the same, mirrored")
+    axes.plot(-x, line, color=GREY, linewidth=1.0, linestyle=(0, (1.5, 1.2)), label="mirror image")
     axes.axvline(0.0, color=INK, linewidth=0.8, label="indenter's axis")
     centre = contact.centre_of_pressure / _MILLI
     axes.axvline(centre, color=VERMILION, linewidth=1.3, linestyle=(0, (4, 2)), label="centre of pressure")
@@ -174,11 +169,6 @@ def contacts_figure(contacts: Sequence[Contact]) -> Figure:
     """Return contacts beside each other on one scale: maps of the pressure (of point contacts), and profiles.
 
     Where their pressures differ much they are shown over their means, so that the shapes can be compared.
-
-    Parameters
-    ----------
-    contacts : sequence of Contact
-        One to three, all of them point or all of them line contacts.
     """
     scaled, label = _on_one_scale(contacts)
     maps, profiles, figure = _panels(len(contacts), contacts[0].is_line)
@@ -265,7 +255,7 @@ def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> N
         color=GREY,
         linewidth=1.0,
         linestyle=(0, (1.5, 1.2)),
-        label="the surface ahead, mirrored",
+        label="mirror image of the surface ahead",
     )
     axes.plot(x / _MILLI, height, color=INK, label="surface")
     rear, front = contact.edges

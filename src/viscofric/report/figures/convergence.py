@@ -32,7 +32,7 @@ def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None)
         `speed`, `friction_coefficient`, `friction_error` and perhaps `energy_balance`, `interpolated` and
         `interpolation_error` along `case`.
     accuracy : float, optional
-        That was asked for, relative: a line.
+        That was requested, relative: a line.
     """
     x = _along(cases)
     friction = np.abs(values(cases, "friction_coefficient"))
@@ -47,7 +47,7 @@ def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None)
     balance = np.abs(values(cases, "energy_balance"))
     _points(axes, x, balance, ~between, ORANGE, "^", True, "energy balance")
     if accuracy is not None and np.isfinite(accuracy):
-        axes.axhline(accuracy, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="accuracy asked for")
+        axes.axhline(accuracy, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="requested accuracy")
     axes.set_yscale("log")
     _finish(axes, cases, "relative to friction")
     decade_ticks(axes.yaxis)

@@ -259,12 +259,7 @@ def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
 
 
 def friction_figure(curves: FrictionCurves) -> Figure:
-    """Return a figure of measured viscoelastic friction, and of Coulomb friction where there is any below it.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-    """
+    """Return a figure of measured viscoelastic friction, and of Coulomb friction where there is any below it."""
     if curves.coulomb is None:
         figure = new_figure(_WIDTH, _HEIGHT)
         plot_friction_curves(figure.subplots(), measurement=curves)
@@ -278,12 +273,7 @@ def friction_figure(curves: FrictionCurves) -> Figure:
 
 
 def predicted_figure(curves: FrictionCurves) -> Figure:
-    """Return a figure of predicted friction against speed, with its bands where it has any.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-    """
+    """Return a figure of predicted friction against speed, with its bands where it has any."""
     figure = new_figure(_WIDTH, _HEIGHT)
     plot_friction_curves(figure.subplots(), curves)
     return figure

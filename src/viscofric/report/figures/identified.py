@@ -54,7 +54,7 @@ def plot_identified_modulus(
     handles: list[Any] = []
     if high > low:
         relative = number(data.attrs, "anchored") == 0.0
-        known_to = f"known to {100.0 * limit:g} %" + (" but for the level" if relative else "")
+        known_to = f"known to {100.0 * limit:g} %" + (" except for its magnitude" if relative else "")
         handles.append(axes.axvspan(low, high, color=GREY, alpha=0.15, linewidth=0.0, zorder=0, label=known_to))
     for symbol, value, limits, colour in (
         ("$E'$", modulus.storage, bounds.storage, BLUE),
@@ -82,14 +82,14 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
         modulus = np.asarray(known.complex_modulus(frequency)) / _MEGAPASCAL
         handles = axes.plot(frequency, modulus.real, color=INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
         axes.plot(frequency, modulus.imag, color=INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
-        handles[0].set_label(known.name or "beside it")
+        handles[0].set_label(known.name or "for comparison")
         return list(handles)
     points: Moduli = moduli_of_master_curve(known)
     near = (points.angular_frequency >= frequency[0]) & (points.angular_frequency <= frequency[-1])
     look: dict[str, Any] = {"color": INK, "markersize": 3.0, "fillstyle": "none", "markeredgewidth": 0.7, "zorder": 2}
     handles = axes.plot(points.angular_frequency[near], points.storage[near] / _MEGAPASCAL, "s", **look)
     axes.plot(points.angular_frequency[near], points.loss[near] / _MEGAPASCAL, "o", **look)
-    handles[0].set_label("of the DMA")
+    handles[0].set_label("DMA")
     return list(handles)
 
 

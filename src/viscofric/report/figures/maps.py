@@ -59,11 +59,6 @@ def plot_friction_map(
         Of the filled contours, or how many of them.
     shift : ((k,) array, (k,) array), optional
         Temperatures (K) and log10 of the shift factor, along which friction is interpolated between temperatures.
-
-    Returns
-    -------
-    matplotlib.contour.QuadContourSet
-        For a colour bar.
     """
     x, y = 1e3 * np.asarray(speed), np.asarray(temperature) - 273.15
     kelvin, whole = filled_in(np.asarray(speed), np.asarray(temperature), np.asarray(friction), shift)
@@ -140,11 +135,6 @@ def map_figure(
         Speeds (m/s) and temperatures (K) of measured points, to mark.
     shifts : sequence of ((k,) array, (k,) array) or None
         Temperatures (K) and log10 of the shift factor of each rubber, where they are known.
-
-    Returns
-    -------
-    Figure or None
-        None where there are too few speeds or temperatures for a map, or too little was solved.
     """
     sizes = friction.sizes
     if sizes.get("speed", 0) < LEAST_SPEEDS or sizes.get("temperature", 0) < LEAST_TEMPERATURES:

@@ -54,21 +54,7 @@ def _axes_of_map(axes: Axes, unit: _Unit) -> None:
 
 
 def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
-    """Draw the heights of a surface seen from above; points without a reading stay blank.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    topography : Topography
-        A map of heights.
-
-    Returns
-    -------
-    matplotlib.collections.QuadMesh
-        For a colour bar.
-    str
-        Label of that bar.
-    """
+    """Draw the heights of a surface seen from above; points without a reading stay blank."""
     every = math.ceil(max(topography.shape) / _MOST_POINTS)
     z = topography.heights[::every, ::every] - np.nanmean(topography.heights)
     unit, depth = _unit(max(topography.size)), _unit(float(np.nanmax(np.abs(z))) or 1.0)
@@ -85,13 +71,7 @@ def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
 
 
 def plot_line_scan(axes: Axes, topography: Topography) -> None:
-    """Draw the heights of a line scan, or of the first line along x of a map, over their position.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    topography : Topography
-    """
+    """Draw the heights of a line scan, or of the first line along x of a map, over their position."""
     z = topography.heights[:, 0] - np.nanmean(topography.heights[:, 0])
     unit, depth = _unit(topography.size[0]), _unit(float(np.nanmax(np.abs(z))) or 1.0)
     axes.plot(topography.x / unit.size, z / depth.size, color=INK, linewidth=0.9)
@@ -101,20 +81,7 @@ def plot_line_scan(axes: Axes, topography: Topography) -> None:
 
 
 def plot_contact_map(axes: Axes, solution: PeriodicSolution) -> tuple[QuadMesh, str]:
-    """Draw where a rough surface touches, and with which pressure; an arrow shows where it goes.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    solution : PeriodicSolution
-
-    Returns
-    -------
-    matplotlib.collections.QuadMesh
-        For a colour bar.
-    str
-        Label of that bar.
-    """
+    """Draw where a rough surface touches, and with which pressure; an arrow shows where it goes."""
     mesh, label = plot_pressure_of_period(axes, solution.x, solution.y, solution.pressure)
     if solution.speed != 0.0:
         sense = math.copysign(1.0, solution.speed)
@@ -136,13 +103,6 @@ def plot_pressure_of_period(
         Pa.
     highest : float, optional
         Pressure at the end of the colours, Pa; 99.5 % of the loaded points are below if it is not given.
-
-    Returns
-    -------
-    matplotlib.collections.QuadMesh
-        For a colour bar.
-    str
-        Label of that bar.
     """
     every = math.ceil(max(pressure.shape) / _MOST_POINTS)
     # Contact patches are small: of n² points the highest pressure is drawn.
@@ -184,14 +144,7 @@ def mark_motion(axes: Axes, direction: tuple[float, float]) -> None:
 
 
 def plot_power_spectra(axes: Axes, spectra: Mapping[str, PowerSpectrum]) -> None:
-    """Draw power spectra over the wave number, with wavelengths along the top.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    spectra : mapping of str to PowerSpectrum
-        By what the legend calls them.
-    """
+    """Draw power spectra over the wave number, with wavelengths along the top."""
     for look, (name, spectrum) in zip(looks(len(spectra)), spectra.items(), strict=True):
         few = len(spectrum.wave_number) <= 60
         axes.loglog(
@@ -221,14 +174,7 @@ def _turned(value: Any) -> Any:
 
 
 def plot_friction_by_wavelength(axes: Axes, parts: Mapping[str, FrictionByWavelength]) -> None:
-    """Draw what the waves of each length add to the friction coefficient, per decade of wavelength.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    parts : mapping of str to FrictionByWavelength
-        By what the legend calls them.
-    """
+    """Draw what the waves of each length add to the friction coefficient, per decade of wavelength."""
     for look, (name, part) in zip(looks(len(parts)), parts.items(), strict=True):
         per_decade = part.contribution / np.log10(part.edges[:-1] / part.edges[1:])
         axes.stairs(per_decade[::-1], part.edges[::-1], color=look.colour, linestyle=look.dashes, label=name)
@@ -274,17 +220,7 @@ def plot_rough_friction(
 def plot_friction_by_cut_off(
     axes: Axes, theories: Sequence[PerssonTheory], labels: Sequence[str], *, temperature: int = 0
 ) -> None:
-    """Draw μ(v) of Persson's theory for several cut-offs of the surface.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    theories : sequence of PerssonTheory
-    labels : sequence of str
-        Such as the shortest wavelength of each.
-    temperature : int
-        Which of their temperatures.
-    """
+    """Draw μ(v) of Persson's theory for several cut-offs of the surface."""
     for look, theory, label in zip(looks(len(theories)), theories, labels, strict=True):
         axes.plot(
             theory.speed,
@@ -306,14 +242,7 @@ def _speed_axes(axes: Axes, quantity: str) -> None:
 
 
 def rough_contact_figure(topography: Topography, solution: PeriodicSolution) -> Figure:
-    """Draw a surface and where it touches, side by side.
-
-    Parameters
-    ----------
-    topography : Topography
-    solution : PeriodicSolution
-        Of this surface.
-    """
+    """Draw a surface and where it touches, side by side."""
     figure = new_figure(8.6, 3.9)
     left, right = figure.subplots(1, 2)
     for axes, (mesh, label) in ((left, plot_topography(left, topography)), (right, plot_contact_map(right, solution))):
@@ -324,15 +253,7 @@ def rough_contact_figure(topography: Topography, solution: PeriodicSolution) -> 
 
 
 def surface_view(topography: Topography, *, stretch: float = 0.15) -> Figure:
-    """Draw a surface in three dimensions, its heights exaggerated.
-
-    Parameters
-    ----------
-    topography : Topography
-        A map without missing points.
-    stretch : float
-        Range of heights over the length of the surface in the drawing.
-    """
+    """Draw a surface in three dimensions, its heights exaggerated."""
     every = math.ceil(max(topography.shape) / 200)
     z = topography.complete()[::every, ::every]
     unit, depth = _unit(max(topography.size)), _unit(float(np.ptp(z)))

@@ -40,11 +40,6 @@ def save_picture(path: Path, draw: Callable[[], Figure], *, name: str, synthetic
         What the figure shows: figures of one name have the same marks inside an SVG.
     synthetic : bool
         Whether the data are synthetic, which the figure then says.
-
-    Raises
-    ------
-    DataFileError
-        If the file cannot be written.
     """
     form = path.suffix.lower().removeprefix(".")
     write_atomically(path, images(draw, (form,), name=name, synthetic=synthetic)[form])
@@ -83,11 +78,6 @@ _STEPS = 20
 
 def adaptive(svg: bytes) -> bytes:
     """Return a figure that turns dark where the page around it does.
-
-    Parameters
-    ----------
-    svg : bytes
-        As matplotlib writes it: colours in style attributes, text as paths that inherit black.
 
     Returns
     -------

@@ -43,11 +43,6 @@ def shown_contacts(tree: xr.DataTree) -> list[Shown]:
     tree : xarray.DataTree
         Results; the groups below ``/fields`` hold `pressure` (Pa) and `displacement` (m) over `x` and `y` (m), and the
         coordinates of their case.
-
-    Returns
-    -------
-    list of Shown
-        By speed; fewer than three where they coincide, none where no fields are kept.
     """
     found = _kept(tree)
     if not found:

@@ -223,7 +223,7 @@ def recovery_trail(tree: xr.DataTree) -> Figure | None:
 
 
 def convergence(tree: xr.DataTree) -> Figure | None:
-    """Errors and grids of the cases asked for."""
+    """Errors and grids of the requested cases."""
     cases = solved_cases(tree)
     return None if cases is None else convergence_figure(cases, accuracy=number(tree.attrs, "accuracy"))
 

@@ -130,11 +130,6 @@ def sweep_figure(friction: xr.Dataset, layout: Layout | None = None) -> Figure |
         Labelled results; see `plot_sweep`.
     layout : Layout, optional
         What runs along the axis and what becomes lines and panels; chosen if not given.
-
-    Returns
-    -------
-    Figure or None
-        None where nothing varies, or nothing was solved.
     """
     layout = layout_of(friction) if layout is None else layout
     if layout is None or not np.isfinite(friction[_COEFFICIENT].values).any():

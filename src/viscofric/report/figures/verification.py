@@ -25,14 +25,7 @@ _LEAST_SHOWN = 1e-8
 def plot_hunter(
     axes: Axes, exact: Mapping[float, tuple[Array, Array]], found: Mapping[float, tuple[Array, Array]]
 ) -> None:
-    """Draw the friction of line contacts against speed: closed forms as lines, solutions as points.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    exact, found : dict
-        k = E∞/E0 -> (vτ/a0, μR/a0).
-    """
+    """Draw the friction of line contacts against speed: closed forms as lines, solutions as points."""
     handles = []
     for (ratio, (memory, friction)), look in zip(exact.items(), looks(len(exact)), strict=True):
         axes.plot(memory, friction, color=look.colour, linewidth=1.2)
@@ -48,21 +41,13 @@ def plot_hunter(
 
 
 def plot_errors(axes: Axes, memory: Mapping[float, Array], errors: Mapping[float, Array], bound: float) -> None:
-    """Draw relative errors of friction against speed, with the accuracy that was asked for.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    memory, errors : dict
-        k -> vτ/a0, and k -> |relative error|.
-    bound : float
-    """
+    """Draw relative errors of friction against speed, with the accuracy that was requested."""
     for (ratio, sizes), look in zip(errors.items(), looks(len(errors)), strict=True):
         shown = np.maximum(sizes, _LEAST_SHOWN)
         axes.plot(memory[ratio], shown, color=look.colour, marker=look.marker, linestyle="none")
     axes.axhline(bound, color=INK, linewidth=1.0, linestyle=(0, (6, 1.5)))
     axes.annotate(
-        "accuracy asked for",
+        "requested accuracy",
         (0.99, bound),
         xytext=(0, 3),
         xycoords=("axes fraction", "data"),
@@ -80,13 +65,7 @@ def plot_errors(axes: Axes, memory: Mapping[float, Array], errors: Mapping[float
 
 
 def plot_orders(axes: Axes, found: Refinement) -> None:
-    """Draw errors against the cells across the window, and the slopes of first and second order.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    found : Refinement
-    """
+    """Draw errors against the cells across the window, and the slopes of first and second order."""
     for (quantity, errors), look in zip(found.errors.items(), looks(len(found.errors)), strict=True):
         size = np.maximum(np.abs(errors), _LEAST_SHOWN)
         axes.plot(found.cells, size, color=look.colour, marker=look.marker, linestyle=look.dashes, label=quantity)
@@ -115,13 +94,7 @@ def plot_orders(axes: Axes, found: Refinement) -> None:
 
 
 def plot_windows(axes: Axes, found: Windows) -> None:
-    """Draw by how much the friction of a ball among its images falls short of that of one alone.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    found : Windows
-    """
+    """Draw by how much the friction of a ball among its images falls short of that of one alone."""
     (look,) = looks(1)
     axes.plot(found.periods, 100.0 * np.abs(found.deviations), color=look.colour, marker=look.marker)
     for period, deviation in zip(found.periods, found.deviations, strict=True):

@@ -68,12 +68,12 @@ def all_checks(tree: xr.DataTree) -> list[Check]:
 def counted(checks: list[Check]) -> str:
     """Say how many checks there are of each verdict: 12 checks: 9 passed, 2 to look at, 1 noted."""
     words = {"failed": "failed", "look at this": "to look at", "noted": "noted", "passed": "passed"}
-    found = [(sum(check.verdict == verdict for check in checks), told) for verdict, told in words.items()]
-    parts = ", ".join(f"{count} {told}" for count, told in found if count)
+    found = [(sum(check.verdict == verdict for check in checks), label) for verdict, label in words.items()]
+    parts = ", ".join(f"{count} {label}" for count, label in found if count)
     return f"{len(checks)} check{'' if len(checks) == 1 else 's'}: {parts}." if checks else ""
 
 
-# What still counts as sound
+# Largest values that are good
 _OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
 _FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
 _LAW = 0.1  # decades of α, rms
@@ -127,7 +127,7 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
             "Overlap of the isotherms",
             max(storage, loss) <= _OVERLAP and not apart > 0,
             f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
-            f"{_decades(loss)} in the loss modulus (rms; up to {_decades(_OVERLAP)} counts as sound)."
+            f"{_decades(loss)} in the loss modulus (rms; good if ≤ {_decades(_OVERLAP)})."
             + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
         )
     yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
@@ -152,7 +152,7 @@ def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
         words = f"{far}; the measured shift factors are used, not this law."
         yield Check("Shift law", "noted", words)
     else:
-        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (up to {_LAW:g} counts as sound).")
+        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (good if ≤ {_LAW:g}).")
 
 
 def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
@@ -165,13 +165,13 @@ def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
             "Fit of the spectrum",
             max(storage, loss) <= _FIT,
             f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
-            f"measured loss modulus (rms; up to {_decades(_FIT)} counts as sound).",
+            f"measured loss modulus (rms; good if ≤ {_decades(_FIT)}).",
         )
 
 
 #: What a comparison with friction is worth where the rubber comes from friction.
-CIRCULAR = "The rubber was itself identified from friction; if that is this friction, this tests nothing."
-# What still counts as sound
+CIRCULAR = "The material was itself identified from friction; if from this friction, the comparison tests nothing."
+# Largest values that are good
 _COMPLEMENTARITY = 1e-6  # over the indentation, or the rms height; contacts are solved to less
 _CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
 # Probability of differences as large, below which two sets of shift factors are not the same
@@ -181,8 +181,8 @@ _ENERGY_BALANCE = 5.0
 # What `viscofric.friction.assumptions` judges -> how the report calls it.
 _ASSUMPTIONS = {
     "half-space": "Half-space",
-    "linearity": "Linear rubber",
-    "uncoupled": "Shear leaves the pressure alone",
+    "linearity": "Linear viscoelasticity",
+    "uncoupled": "Pressure independent of shear",
     "one temperature": "Isothermal",
 }
 _VERDICTS: dict[int, Verdict] = {1: "passed", 0: "look at this", -1: "noted"}
@@ -212,10 +212,9 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
         yield Check.of(
             "Energy balance",
             energy <= limit * (1.0 + 1e-9),
-            "Friction is calculated twice, from the contact pressure and from the energy that the rubber dissipates. "
-            f"The two differ by {percent(energy)} at most. Up to {percent(limit)} counts as sound, "
-            f"{_ENERGY_BALANCE:g} times the accuracy asked for: only the better known of the two is reported, and "
-            "that one must reach the accuracy.",
+            "Friction is calculated twice: from the contact pressure, and from the energy dissipated in the material. "
+            f"The two differ by {percent(energy)} at most (good if ≤ {percent(limit)}, {_ENERGY_BALANCE:g} times "
+            "the requested accuracy). The more accurate of the two is reported; it must reach the accuracy.",
         )
     violation = largest("complementarity")
     if math.isfinite(violation):
@@ -223,8 +222,8 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
             "Contact conditions",
             violation <= _COMPLEMENTARITY,
             f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of the "
-            f"{'rms height' if is_rough(tree) else 'indentation'} at most (up to {significant(_COMPLEMENTARITY, 1)} "
-            "counts as sound).",
+            f"{'rms height' if is_rough(tree) else 'indentation'} at most (good if ≤ "
+            f"{significant(_COMPLEMENTARITY, 1)}).",
         )
 
 
@@ -240,7 +239,7 @@ def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
         return
     wide = int(np.sum(reaches > SMALL_STRAIN))
     along = " and along the friction master curve" if len(parts) > 1 else ""
-    many = f" This concerns {wide} of {reaches.size} cases asked for{along}, which the tables mark." if wide else ""
+    many = f" This concerns {wide} of {reaches.size} requested cases{along}, which the tables mark." if wide else ""
     yield Check.of(
         "Small strain",
         wide == 0,
@@ -264,7 +263,7 @@ def _assumptions(tree: xr.DataTree) -> Iterator[Check]:
 def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
     counts, outside = [], 0
     for name, what in (
-        ("prediction", "cases asked for"),
+        ("prediction", "requested cases"),
         ("measurement", "measured points"),
         ("prediction_master", "cases along the friction master curve"),
     ):
@@ -279,10 +278,10 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
     ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
     measured = f" ({ends[0]} to {ends[1]} rad/s at the reference temperature)" if len(ends) == 2 else ""
     kind = "identified" if is_from_friction(tree) else "measured"
-    meaning = "the frequency at which the contact deforms the rubber, shift factor times speed over half-width,"
+    meaning = "the frequency of the contact (shift factor times speed over half-width)"
     if outside:
         words = (
-            f"In {several(counts)} {meaning} lies outside the {kind} range{measured}; friction there rests on the "
+            f"In {several(counts)} {meaning} lies outside the {kind} range{measured}; friction there depends on the "
             "extrapolated spectrum. The tables mark these cases."
         )
     else:
@@ -307,15 +306,15 @@ def consistency_check(left_over: Array, error: Array) -> Check | None:
     left_over, error : (n,) array
         What the configurations leave over at each point, relative to the load, and its standard error.
     """
-    told = consistency_words(left_over, error)
-    if told is None:
+    words = consistency_words(left_over, error)
+    if words is None:
         return None
     known = np.isfinite(left_over) & np.isfinite(error)
     sound = np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]
     return Check.of(
         "Consistency of the four configurations",
         bool(np.mean(sound) >= _CONSISTENT),
-        f"The combination of the four sign configurations that should vanish is {told}.",
+        f"The combination of the four sign configurations that should vanish is {words}.",
     )
 
 
@@ -337,7 +336,7 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
     failures = notes(tree.attrs, "failures")
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
-        yield Check("All cases solved", "failed", f"{many} could not be solved: see above.")
+        yield Check("All cases solved", "failed", f"{many} could not be solved; see above.")
     else:
         yield Check("All cases solved", "passed", "Every case was solved.")
     cases, accuracy = solved_cases(tree), number(tree.attrs, "accuracy")
@@ -346,12 +345,12 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
-    """Judge the numerical errors of friction by the accuracy asked for."""
+    """Judge the numerical errors of friction by the requested accuracy."""
     beyond, between = int(beyond_accuracy(cases, accuracy).sum()), int(interpolated(cases).sum())
     friction, error = (np.abs(values(cases, name)) for name in ("friction_coefficient", "friction_error"))
     known = friction > 0.0
     worst = percent(float(np.max(error[known] / friction[known], initial=0.0)))
-    words = f"The numerical error of friction is estimated at {worst} at most; {percent(accuracy)} was asked for."
+    words = f"The numerical error of friction is estimated at {worst} at most; {percent(accuracy)} was requested."
     if beyond:
         why = " The points of the surface are too far apart for it." if rough else ""
         words += f" It is larger than that in {beyond} of {friction.size} cases.{why}"

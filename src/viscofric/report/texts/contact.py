@@ -96,7 +96,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
 def _friction(solution: ContactSolution) -> str:
     value, error = solution.friction_coefficient, solution.diagnostics.friction_error
     if value == 0.0:
-        return "0 (elastic: nothing is dissipated)"
+        return "0 (elastic: no dissipation)"
     return with_error(value, error)
 
 
@@ -106,9 +106,9 @@ def _lateral(solution: ContactSolution) -> list[tuple[str, str]]:
     value = solution.lateral_friction_coefficient * math.copysign(1.0, solution.speed)
     if abs(value) <= _LEAST_LATERAL * abs(solution.friction_coefficient):
         oblique = 0.0 not in solution.direction and solution.geometry == "point"
-        return [("lateral friction", "0 (it keeps its course by itself)")] if oblique else []
+        return [("lateral friction", "0 (no lateral force)")] if oblique else []
     side = "left" if value > 0.0 else "right"
-    return [("lateral friction", f"{short(abs(value))} (it takes a push to the {side} to keep its course)")]
+    return [("lateral friction", f"{short(abs(value))} (a force to the {side} is needed to keep the direction)")]
 
 
 def _work(diagnostics: Diagnostics) -> str:
@@ -126,7 +126,7 @@ def _balance(solution: ContactSolution) -> str:
     if solution.friction_coefficient == 0.0:
         return ""
     if solution.diagnostics.energy == -1.0:
-        return " (all of it at the sharp edge)"
+        return " (all at the sharp edge)"
     return f" (energy balance {100.0 * solution.diagnostics.energy:+.2g} %)".replace("-", "−")
 
 
@@ -147,15 +147,10 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
     Parameters
     ----------
     inputs : dict
-        What was asked for, in SI units and plain types.
+        What was requested, in SI units and plain types.
     solution : ContactSolution
     seconds : float
         That it took.
-
-    Returns
-    -------
-    dict
-        Made for JSON: every number is finite, and what has no value, such as the half width of a line contact, is null.
     """
     from importlib.metadata import version
 
@@ -228,18 +223,10 @@ _NEGLIGIBLE = 0.01
 
 
 def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -> list[str]:
-    """Return d ln μ/d ln of speed, load, glass modulus and of the modes that matter most, a line each.
-
-    Parameters
-    ----------
-    solution : ContactSolution
-        With derivatives.
-    spectrum : RetardationSpectrum
-        What it was solved with.
-    """
+    """Return d ln μ/d ln of speed, load, glassy modulus and of the modes that matter most, a line each."""
     derivatives, friction = solution.derivatives, solution.friction_coefficient
     if derivatives is None or friction == 0.0:
-        return ["no derivatives: there is no friction to differentiate"]
+        return ["no derivatives: the friction is zero"]
     of_logarithms = derivatives.logarithmic
     error = derivatives.error / abs(friction)
 
@@ -253,14 +240,14 @@ def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -
     rows = [
         ("speed", "d ln μ/d ln v", of_logarithms.speed),
         (held[0], f"d ln μ/d ln {held[1]}", held[2] if held[2] is not None else of_logarithms.indentation),
-        ("glass modulus", "d ln μ/d ln E∞", of_logarithms.E_inf),
+        ("glassy modulus", "d ln μ/d ln E∞", of_logarithms.E_inf),
     ]
-    lines = [f"change of friction with each, all else held (d ln μ is known to ± {short(error, 1)})"]
+    lines = [f"sensitivity of friction to each quantity, all others fixed (error of d ln μ: ± {short(error, 1)})"]
     lines += [f"  {name:<21}{symbol:<15}{relative(value):>9}" for name, symbol, value in rows]
     effect = np.maximum(np.abs(of_logarithms.C), np.abs(of_logarithms.tau))
     order = np.argsort(-effect, kind="stable")[:_MOST_MODES]
     shown = np.sort(order[effect[order] > _NEGLIGIBLE * effect.max()])
-    among = f", those that matter most of {len(spectrum)}" if len(shown) < len(spectrum) else ""
+    among = f", the most important of {len(spectrum)}" if len(shown) < len(spectrum) else ""
     lines.append(f"  modes{among}:")
     lines.append(f"  {'retardation time τ':<21}{'d ln μ/d ln C':>15}{'d ln μ/d ln τ':>17}")
     for k in shown:
@@ -270,12 +257,7 @@ def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -
 
 
 def derivative_record(solution: ContactSolution) -> dict[str, Any] | None:
-    """Return the derivatives of a contact in plain types, with the units of their names; None without any.
-
-    Parameters
-    ----------
-    solution : ContactSolution
-    """
+    """Return the derivatives of a contact in plain types, with the units of their names; None without any."""
     derivatives = solution.derivatives
     if derivatives is None:
         return None

@@ -25,12 +25,7 @@ CONSISTENT_WITHIN = 2.0
 
 
 def friction_table(curves: FrictionCurves) -> list[str]:
-    """Return friction against speed and temperature as lines of a table.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-    """
+    """Return friction against speed and temperature as lines of a table."""
     columns = [
         ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in curves.temperature)],
         ["speed (mm/s)", *(significant(1e3 * float(speed), 4) for speed in curves.speed)],
@@ -49,12 +44,7 @@ def friction_table(curves: FrictionCurves) -> list[str]:
 
 
 def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
-    """Return what is to be said of separated friction as a whole, as pairs of name and value.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-    """
+    """Return what is to be said of separated friction as a whole, as pairs of name and value."""
     lines = []
     if curves.offset is not None:
         low, high = float(curves.offset.min()), float(curves.offset.max())
@@ -63,14 +53,14 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     if curves.assumption:
         lines.append(("assumed", curves.assumption))
     if curves.consistency is not None and curves.consistency_error is not None:
-        told = consistency_words(curves.consistency, curves.consistency_error)
-        if told is not None:
-            lines.append(("left over", told))
+        words = consistency_words(curves.consistency, curves.consistency_error)
+        if words is not None:
+            lines.append(("left over", words))
     return lines
 
 
 def consistency_words(left_over: Array, error: Array) -> str | None:
-    """Say how many points' configurations agree with each other, or None where none can tell.
+    """Say how many points' configurations agree with each other, or None where nothing is known.
 
     Parameters
     ----------
@@ -86,7 +76,7 @@ def consistency_words(left_over: Array, error: Array) -> str | None:
 
 
 def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return friction curves in plain types, SI units; `inputs` are what was asked for, in plain types."""
+    """Return friction curves in plain types, SI units; `inputs` are what was requested, in plain types."""
     found = record(curves.to_dataset())
     names = [field.name for field in fields(curves) if field.name in found["units"]]
     return {
@@ -144,13 +134,7 @@ _CONFIGURATIONS = {(-1, -1): "I", (-1, 1): "II", (1, -1): "III", (1, 1): "IV"}
 
 
 def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
-    """Return what traction runs hold, as pairs of name and value.
-
-    Parameters
-    ----------
-    runs : TractionRuns
-        With at least one reading.
-    """
+    """Return what traction runs hold, as pairs of name and value."""
     steps = f" in {len(runs.steps)} steps" if len(runs.steps) > 1 else ""
     slip = runs.disc_speed - runs.ball_speed
     return [
@@ -166,10 +150,10 @@ def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
 def _temperatures(kelvin: Array) -> str:
     labels = numbered(kelvin, np.full(kelvin.shape, SAME_TEMPERATURE))
     means = np.bincount(labels, kelvin) / np.bincount(labels)
-    told = [f"{celsius(float(mean)):z.1f}".replace("-", "−") for mean in means]
-    if len(told) > _MOST_TEMPERATURES:
-        return f"{len(told)} from {told[0]} to {told[-1]} °C"
-    return f"{several(told)} °C"
+    labels = [f"{celsius(float(mean)):z.1f}".replace("-", "−") for mean in means]
+    if len(labels) > _MOST_TEMPERATURES:
+        return f"{len(labels)} from {labels[0]} to {labels[-1]} °C"
+    return f"{several(labels)} °C"
 
 
 def _range(values: Array) -> str:

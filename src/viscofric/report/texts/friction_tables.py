@@ -50,16 +50,16 @@ _DOUBTFUL = {
     EXTRAPOLATED: "at frequencies that were not measured",
 }
 _MEANINGS = (
-    "95 %: the band that the uncertainty of the rubber leaves; "
+    "95 %: confidence band from the uncertainty of the material; "
     "front and rear: from the ball's axis to the leading and to the trailing edge of the contact; half-width: across "
-    "the motion; energy balance: friction from the pressure less friction from the dissipation, relative; "
+    "the motion; energy balance: friction from the pressure minus friction from the dissipation, relative; "
     "complementarity: largest violation of the contact conditions, over the indentation; cells: along the longer "
     "edge of the finest grid; products: with the influence matrix, the solver's work."
 )
 
 
 _ROUGH_MEANINGS = (
-    "95 %: the band that the uncertainty of the rubber leaves; energy balance: friction from the pressure less "
+    "95 %: confidence band from the uncertainty of the material; energy balance: friction from the pressure less "
     "friction from the dissipation, relative; complementarity: largest violation of the contact conditions; cells: "
     "points along the longer edge of the surface; products: the solver's work."
 )
@@ -80,8 +80,8 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
     if prediction is None:
         return None
     others = [name for name in VARIED if name in prediction and len(np.unique(prediction[name].values)) > 1]
-    told = [[value_label(prediction, name, value) for value in prediction[name].values] for name in others]
-    kind = list(zip(*told, strict=True)) if others else [()] * prediction.sizes["case"]
+    labels = [[value_label(prediction, name, value) for value in prediction[name].values] for name in others]
+    kind = list(zip(*labels, strict=True)) if others else [()] * prediction.sizes["case"]
     temperatures = nominal_temperatures(values(prediction, "temperature")).size
     if others and len(set(kind)) * temperatures > _MOST_COLUMNS:
         return _highest_friction(tree, prediction, others, kind)
@@ -167,7 +167,7 @@ def agreement_table(tree: xr.DataTree) -> Table | None:
     material = "the material's own (sweeps, shift factors, spectrum)"
     return made_table(
         "agreement",
-        "Predicted less measured friction, over the measured one, temperature by temperature.",
+        "Predicted minus measured friction, relative to the measured one, by temperature.",
         agreement,
         [
             Column("temperature", "temperature", degrees),
@@ -227,7 +227,7 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
         is_open,
         _MEANINGS if "contact_area_fraction" not in full else _ROUGH_MEANINGS,
     )
-    return _with_remarks(table, [_state(*told) for told in zip(*_states(full), remarks(tree, full), strict=True)])
+    return _with_remarks(table, [_state(*one) for one in zip(*_states(full), remarks(tree, full), strict=True)])
 
 
 def _unit(cases: xr.Dataset, name: str) -> str:
@@ -254,7 +254,7 @@ def _state(failed: bool, between: bool, doubts: tuple[str, ...]) -> tuple[str, .
 
 
 def measurement_table(tree: xr.DataTree) -> Table | None:
-    """Every measured point beside its prediction."""
+    """Every measured point with its prediction."""
     measurement = group(tree, "measurement")
     if measurement is None:
         return None
@@ -277,7 +277,7 @@ def measurement_table(tree: xr.DataTree) -> Table | None:
             Column("95 % from", "predicted_lower", times(1.0)),
             Column("to", "predicted_upper", times(1.0)),
             Column("numerical error", "predicted_error", times(1.0, 2)),
-            Column("predicted less measured", "difference", signed_percent),
+            Column("predicted minus measured", "difference", signed_percent),
         ],
     )
     for heading, name in (("Coulomb, measured", "coulomb"), ("left over (consistency)", "consistency")):
@@ -290,7 +290,7 @@ def measurement_table(tree: xr.DataTree) -> Table | None:
 
 
 def friction_shift_table(tree: xr.DataTree) -> Table | None:
-    """Shift factors from friction beside those of the modulus."""
+    """Shift factors from friction and from the modulus."""
     found = group(tree, "friction_shift_factors")
     if found is None:
         return None
@@ -304,7 +304,7 @@ def friction_shift_table(tree: xr.DataTree) -> Table | None:
     ]
     full = found.assign(difference=found["log10_shift_factor"] - found["known_log10_shift_factor"])
     at = degrees(number(found.attrs, "reference_temperature"))
-    caption = f"Shift factors from friction alone beside those of the modulus, 1 at {at}."
+    caption = f"Shift factors from friction alone and from the modulus, 1 at {at}."
     return made_table("friction-shift-factors", caption, full, columns, is_open=False)
 
 

@@ -41,7 +41,7 @@ _SMALLEST = 1e-3
 
 
 class ChosenLaw(NamedTuple):
-    """A law of the shift factors that friction tells: the law, why it was chosen, or why there is none."""
+    """A law fitted to shift factors from friction, why it was chosen, or why there is none."""
 
     law: ParametricLaw | None
     why: str = ""
@@ -49,19 +49,7 @@ class ChosenLaw(NamedTuple):
 
 
 def law_of(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
-    """Fit a law to shift factors that were found from friction, the best one only where one describes them.
-
-    Parameters
-    ----------
-    master : FrictionMasterCurve
-    kind : str
-        "best", "none", or a law that `ShiftFactors.law` fits.
-
-    Raises
-    ------
-    InputError
-        If a law that is asked for by its name cannot be fitted.
-    """
+    """Fit a law to shift factors that were found from friction, the best one only where one describes them."""
     if kind == "none" or not master.found:
         return ChosenLaw(None)
     factors = master.shift_factors
@@ -129,15 +117,16 @@ def shift_words(
         ("reduced speed", f"{significant(low)} to {significant(high)} mm/s"),
     ]
     if master.found and not np.any(master.error > 0.0):
-        told = "those of log10 α follow from how the points scatter about one curve, for they have none of their own"
-        lines.append(("errors", told))
+        lines.append(
+            ("errors", "of log10 α: from the scatter of the points about one curve; the points have no errors")
+        )
     if law is not None:
         lines.append(("law", str(law)))
     if why:
         lines.append(("", why))
     lines.append(("overlap", master.overlap_sentence))
     if agreement is not None:
-        lines.append(("beside the modulus", agreement.sentence))
+        lines.append(("comparison", agreement.sentence))
     return lines
 
 
@@ -147,16 +136,7 @@ def shift_record(
     agreement: ShiftAgreement | None,
     inputs: dict[str, Any],
 ) -> dict[str, Any]:
-    """Return shifted friction in plain types, SI units, without a NaN: what is not known is None.
-
-    Parameters
-    ----------
-    master : FrictionMasterCurve
-    law : ParametricLaw, optional
-    agreement : ShiftAgreement, optional
-    inputs : dict
-        What was asked for, in plain types.
-    """
+    """Return shifted friction in plain types, SI units, without a NaN: what is not known is None."""
     factors, curve = _factors(master), record(master.to_dataset())
     names = ("reduced_speed", "temperature", "viscoelastic", "viscoelastic_error", "load")
     found: dict[str, Any] = plain(
@@ -218,7 +198,7 @@ _UNITS = {
     "viscoelastic": "1",
     "residual": "1",
 }
-#: The modulus is told so many decades beyond the frequencies of the contacts, at one frequency a decade.
+#: The modulus is printed so many decades beyond the frequencies of the contacts, at one frequency a decade.
 _BEYOND = 1
 
 
@@ -228,12 +208,7 @@ def _frequencies(found: IdentifiedMaterial) -> Array:
 
 
 def modulus_lines(found: IdentifiedMaterial) -> list[str]:
-    """Return the modulus of an identified rubber with its 95 % limits, decade by decade, as lines of a table.
-
-    Parameters
-    ----------
-    found : IdentifiedMaterial
-    """
+    """Return the modulus of an identified rubber with its 95 % limits, decade by decade, as lines of a table."""
     data = found.to_dataset(_frequencies(found))
     rows: list[tuple[str, ...]] = [("ω (rad/s)", "E' (MPa)", "95 % limits", "E'' (MPa)", "95 % limits", "")]
     for row, frequency in enumerate(values(data, "angular_frequency").tolist()):
@@ -248,12 +223,12 @@ def modulus_lines(found: IdentifiedMaterial) -> list[str]:
 def _remark(band: IdentifiedBand, frequency: float) -> str:
     """Say what of the modulus is not identified at a frequency."""
     if band.decades > 0.0 and band.low <= frequency <= band.high:
-        return "level not identified" if band.relative else ""
+        return "magnitude not identified" if band.relative else ""
     return "not identified"
 
 
 def identification_record(found: IdentifiedMaterial, inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return an identified material in plain types, SI units; `inputs` are what was asked for, in plain types."""
+    """Return an identified material in plain types, SI units; `inputs` are what was requested, in plain types."""
     spectrum, material = found.material.modes_at(), found.material
     modulus, points = record(found.to_dataset(_frequencies(found))), record(found.friction_dataset())
     moduli = [f"{part}_modulus{end}" for part in ("storage", "loss") for end in ("", "_lower", "_upper")]
@@ -300,15 +275,12 @@ def _band(band: IdentifiedBand) -> dict[str, Any]:
 
 
 def family_lines(found: IdentifiedMaterial) -> list[str]:
-    """Return the rubbers that friction alone cannot tell apart as lines of a table; none where the level is known.
-
-    Parameters
-    ----------
-    found : IdentifiedMaterial
-    """
+    """Return materials that friction cannot distinguish as lines of a table; none where the magnitude is known."""
     if not found.family:
         return []
-    rows = [("level", f"|E| at {significant(found.middle, 2)} rad/s (MPa)", "rms of friction", "χ² above the best")]
+    rows = [
+        ("level", f"|E| at {significant(found.middle, 2)} rad/s (MPa)", "rms residual of friction", "χ² above the best")
+    ]
     for fit in found.family:
         rms = f"{100.0 * fit.rms:.2g} %"
         rows.append((f"× {fit.factor:.3g}", significant(1e-6 * fit.modulus), rms, significant(fit.penalty, 2)))

@@ -68,18 +68,7 @@ def with_error(value: float, error: float) -> str:
 
 
 def prefixed(value: float, error: float | None, unit: str, power: int = 1) -> str:
-    """Return a number with its error and its unit, in the prefix that suits its size.
-
-    Parameters
-    ----------
-    value : float
-    error : float or None
-        In the same unit; None where there is none.
-    unit : str
-        Such as "m"; the prefix stands before it.
-    power : int
-        Of the unit: 2 for an area.
-    """
+    """Return a number with its error and its unit, in the prefix that suits its size."""
     size = abs(value)
     # An area is written with decimals rather than in hundred thousands of a smaller unit.
     least = 1.0 if power == 1 else 0.1

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from viscofric.report.sweeps import SweepAxis
 
 
-_FEW = 6  # points that are told one by one
+_FEW = 6  # points that are listed one by one
 
 # Space between a number and its unit, where a line should not break
 _BEFORE_UNIT = re.compile(r"(?<=\d) (?=°C|N\b|mm|m/s|rad/s|%)")
@@ -70,9 +70,10 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
         at = several(steps) if len(steps) <= 6 else f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}"
         accuracy = number(attrs, "accuracy")
         said.append(
-            f"The viscoelastic friction of a rubber against a {attrs.get('indenter', 'rigid indenter')}"
+            f"Viscoelastic friction of a material against a {attrs.get('indenter', 'rigid indenter')}"
             f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} "
-            f"and {at}" + (f", to an accuracy of {short(100 * accuracy)} %." if math.isfinite(accuracy) else ".")
+            f"and {at}"
+            + (f", to a relative accuracy of {short(100 * accuracy)} %." if math.isfinite(accuracy) else ".")
         )
         also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
         if also:
@@ -82,25 +83,25 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
         at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
         file = f" ({str(attrs['dma_format']).split(' (')[0]})" if attrs.get("dma_format") else ""
         said.append(
-            f"The rubber is known from dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
+            f"The material is fitted to dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
             f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s"
             f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
         )
     elif attrs.get("material"):
         source = f" ({attrs['citation']})" if attrs.get("citation") else ""
         said.append(
-            f"The rubber is {attrs['material']}{source}. Poisson's ratio is {short(number(attrs, 'poisson_ratio'))}."
+            f"The material is {attrs['material']}{source}. Poisson's ratio is {short(number(attrs, 'poisson_ratio'))}."
         )
     measurement = group(tree, "measurement")
     if measurement is not None:
-        kind = "synthetic (made, not measured)" if is_synthetic(tree) else "measured"
+        kind = "synthetic (calculated, not measured)" if is_synthetic(tree) else "measured"
         coulomb = np.isfinite(values(measurement, "coulomb")).any()
         separated = ", at which the viscoelastic and the Coulomb friction were separated" if coulomb else ""
         enters = (
-            "The rubber was itself identified from friction; if that is this friction, the comparison tells how well "
-            "it was fitted, and tests no prediction."
+            "The material was itself identified from friction; if from this friction, the comparison shows the quality "
+            "of the fit and tests no prediction."
             if is_from_friction(tree)
-            else "Nothing of this friction enters the prediction."
+            else "The prediction does not use this friction."
         )
         points = f"{measurement.sizes['point']} {kind} points of friction"
         said.append(f"The prediction is compared with {points}{separated}. {enters}")
@@ -112,8 +113,8 @@ def inputs(tree: xr.DataTree) -> list[Input]:
     attrs, listed = tree.attrs, []
     rubber = str(attrs.get("material") or attrs.get("material_name") or "")
     if not rubber and group(tree, "isotherms") is not None:
-        rubber = "of the sweeps"
-    listed.append(Input("rubber", rubber))
+        rubber = "fitted to DMA sweeps"
+    listed.append(Input("material", rubber))
     listed.append(Input("Poisson's ratio", short(number(attrs, "poisson_ratio"))))
     reference = reference_temperature(tree)
     listed.append(Input("reference temperature", "" if reference is None else degrees(reference)))
@@ -121,14 +122,14 @@ def inputs(tree: xr.DataTree) -> list[Input]:
     friction = labelled(tree)
     if friction is not None:
         along = {axis.name: axis for axis in _axes(tree)}
-        told = {column for axis in along.values() for column in axis.columns}
+        varied = {column for axis in along.values() for column in axis.columns}
         listed += [Input(axis.title, _points(axis)) for axis in along.values()]
         for name in ("load", "pressure", "direction", "temperature", "speed", "thickness"):
-            if name in friction.coords and name not in told and friction[name].ndim == 0:
+            if name in friction.coords and name not in varied and friction[name].ndim == 0:
                 listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
         listed.append(Input("cases", str(math.prod(friction.sizes.values()))))
     accuracy = number(attrs, "accuracy")
-    listed.append(Input("accuracy asked for", f"{short(100 * accuracy)} %" if math.isfinite(accuracy) else ""))
+    listed.append(Input("requested accuracy", f"{short(100 * accuracy)} %" if math.isfinite(accuracy) else ""))
     return [item for item in listed if item.value not in ("", ABSENT)]
 
 
@@ -177,7 +178,7 @@ def _speeds(metres_per_second: Array) -> str:
 
 
 #: Name of the key number that compares prediction and measurement.
-AGREEMENT = "Prediction less measurement"
+AGREEMENT = "Prediction minus measurement"
 _MOST_RUBBERS = 4
 _SHOWN_PLACES = 6
 
@@ -203,7 +204,7 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     prediction, agreement = solved_cases(tree), group(tree, "agreement")
     if prediction is not None and np.isfinite(values(prediction, "friction_coefficient")).any():
         friction = values(prediction, "friction_coefficient")
-        remark = f"predicted, over all cases asked for{_caveat(tree, prediction)}"
+        remark = f"predicted, over all requested cases{_caveat(tree, prediction)}"
         found.append(KeyNumber("Viscoelastic friction coefficient", _range(friction), remark))
     if agreement is not None:
         bias, rms, points = (number(agreement.attrs, name) for name in ("bias", "rms", "points"))
@@ -220,7 +221,7 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     shifts = group(tree, "friction_shift_factors")
     if shifts is not None and not is_from_friction(tree):
         slope, error = (number(shifts.attrs, name) for name in ("slope", "slope_error"))
-        remark = "times those of the modulus, as logarithms: 1 where both coincide"
+        remark = "slope of log α from friction over log α of the modulus; 1 if both coincide"
         found.append(KeyNumber("Shift factors from friction", with_error(slope, error), remark))
     return found
 
@@ -230,9 +231,9 @@ def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
     wide, beyond = int(is_wide(tree, prediction).sum()), int(is_extrapolated(prediction).sum())
     of, said = prediction.sizes["case"], ""
     if wide:
-        said += f"; doubtful in {wide} of {of}, where the contact reaches beyond {SMALL_STRAIN:g} ball radii"
+        said += f"; doubtful in {wide} of {of} cases, whose contact reaches beyond {SMALL_STRAIN:g} ball radii"
     if beyond:
-        said += f"; extrapolated in {beyond} of {of}, beyond the measured frequencies"
+        said += f"; extrapolated beyond the measured frequencies in {beyond} of {of} cases"
     return said
 
 
@@ -245,7 +246,7 @@ def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         return [KeyNumber("Shift law", str(law.attrs.get("told", "")), "")]
     used = "used"
     if str(factors.attrs.get("shift_used", "measured")) == "measured":
-        used = "a summary: the measured shift factors are used"
+        used = "for information: the measured shift factors are used"
     return [
         KeyNumber("WLF constant C₁", with_error(C1, error1), f"about {degrees(reference)}; {used}"),
         KeyNumber("WLF constant C₂", f"{with_error(C2, error2)} K", f"about {degrees(reference)}"),
@@ -257,7 +258,7 @@ def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     if spectrum is None:
         return []
     found = []
-    for name, title in (("E0", "Modulus at rest E₀"), ("E_inf", "Glass modulus E∞")):
+    for name, title in (("E0", "Relaxed modulus E₀"), ("E_inf", "Glassy modulus E∞")):
         value = number(spectrum.attrs, name)
         known = math.isfinite(value) and number(spectrum.attrs, f"{name}_at_limit") != 1.0
         remark = str(spectrum.attrs.get(f"{name}_remark", ""))
@@ -266,15 +267,7 @@ def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
 
 
 def grouped_failures(failures: Sequence[Note], most: int) -> list[str]:
-    """Return failures as at most so many lines: those of one reason together, with their cases.
-
-    Parameters
-    ----------
-    failures : sequence of Note
-        Their places are the cases; those of one code, or without any of one text, have one reason.
-    most : int
-        Lines at most; the last one says how many failures are not shown, if there are more kinds.
-    """
+    """Return failures as at most so many lines: those of one reason together, with their cases."""
     kinds: dict[str, list[Note]] = {}
     for failure in failures:
         kinds.setdefault(failure.code or failure.text, []).append(failure)
