@@ -114,7 +114,7 @@ def axis_of(dataset: xr.Dataset, dimension: str) -> SweepAxis:
         count = dataset.sizes[dimension]
         labels = tuple(f"{dimension} {number + 1}" for number in range(count))
         return SweepAxis(dimension, (), dimension, labels, np.arange(count, dtype=float), dimension, False)
-    labels = [[value_label(dataset, name, value) for value in dataset[name].values] for name in columns]
+    columns_of_labels = [[value_label(dataset, name, value) for value in dataset[name].values] for name in columns]
     numeric = [name for name in columns if np.issubdtype(dataset[name].dtype, np.number)]
     first = numeric[0] if numeric else columns[0]
     position = on_axis(first, dataset[first].values) if numeric else np.arange(dataset.sizes[dimension], dtype=float)
@@ -123,7 +123,7 @@ def axis_of(dataset: xr.Dataset, dimension: str) -> SweepAxis:
         dimension,
         tuple(columns),
         " and ".join(_spoken(name) for name in columns),
-        tuple(", ".join(row) for row in zip(*labels, strict=True)),
+        tuple(", ".join(row) for row in zip(*columns_of_labels, strict=True)),
         position,
         axis_label(dataset, first) + (f", with {others}" if others else ""),
         bool(numeric),

@@ -57,12 +57,10 @@ class Check:
 
 def all_checks(tree: xr.DataTree) -> list[Check]:
     """Return every check that the results allow, in the order of the calculation."""
-    of_each = [
-        replace(check, name=f"{check.name} ({rubber})")
-        for rubber, branch in rubbers(tree)
-        for check in rubber_checks(branch)
-    ]
-    return [*rubber_checks(tree), *of_each, *friction_checks(tree)]
+    found = list(rubber_checks(tree))
+    for rubber, branch in rubbers(tree):
+        found += [replace(check, name=f"{check.name} ({rubber})") for check in rubber_checks(branch)]
+    return [*found, *friction_checks(tree)]
 
 
 def counted(checks: list[Check]) -> str:
@@ -195,8 +193,14 @@ def friction_checks(tree: xr.DataTree) -> Iterator[Check]:
         yield from part(tree)
 
 
+def _predictions(tree: xr.DataTree) -> list[xr.Dataset]:
+    """Return the solved cases: those requested, and those along the friction master curve."""
+    names = ("prediction", "prediction_master")
+    return [part for name in names if (part := solved_cases(tree, name)) is not None]
+
+
 def _contact(tree: xr.DataTree) -> Iterator[Check]:
-    parts = [part for name in ("prediction", "prediction_master") if (part := solved_cases(tree, name)) is not None]
+    parts = _predictions(tree)
     if not parts:
         return
 
@@ -228,7 +232,7 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
-    parts = [part for name in ("prediction", "prediction_master") if (part := solved_cases(tree, name)) is not None]
+    parts = _predictions(tree)
     if not parts or is_rough(tree):
         return
     reaches = np.concatenate([reach(tree, part) for part in parts])
@@ -299,12 +303,9 @@ def _measurement(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def consistency_check(left_over: Array, error: Array) -> Check | None:
-    """Judge whether the sign configurations of a traction test agree; None where there is nothing to judge by.
+    """Judge whether the sign configurations of a traction test agree; None where nothing is known.
 
-    Parameters
-    ----------
-    left_over, error : (n,) array
-        What the configurations leave over at each point, relative to the load, and its standard error.
+    `left_over` (n,) is what they leave over at each point, relative to the load, and `error` its standard error.
     """
     words = consistency_words(left_over, error)
     if words is None:

@@ -150,10 +150,10 @@ def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
 def _temperatures(kelvin: Array) -> str:
     labels = numbered(kelvin, np.full(kelvin.shape, SAME_TEMPERATURE))
     means = np.bincount(labels, kelvin) / np.bincount(labels)
-    labels = [f"{celsius(float(mean)):z.1f}".replace("-", "−") for mean in means]
-    if len(labels) > _MOST_TEMPERATURES:
-        return f"{len(labels)} from {labels[0]} to {labels[-1]} °C"
-    return f"{several(labels)} °C"
+    shown = [f"{celsius(float(mean)):z.1f}".replace("-", "−") for mean in means]
+    if len(shown) > _MOST_TEMPERATURES:
+        return f"{len(shown)} from {shown[0]} to {shown[-1]} °C"
+    return f"{several(shown)} °C"
 
 
 def _range(values: Array) -> str:
