@@ -39,6 +39,7 @@ import numpy as np
 
 from viscofric.arguments import flag, numbers, real
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
@@ -105,14 +106,15 @@ class Layer:
         modulus_ratio = (1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio) / (1.0 - poisson_ratio)
         return modulus_ratio * float(self.thickness)
 
-    def doubt(self, indentation: float) -> str | None:
-        """Return what is doubtful about small strain at an indentation (m), if anything: one sentence."""
+    def strain_warning(self, indentation: float) -> Note | None:
+        """Return a note where an indentation (m) makes the assumption of small strain doubtful."""
         strain = indentation / float(self.thickness)
         if strain <= LARGE_COMPRESSION:
             return None
-        return (
+        return Note(
+            "deep-in-layer",
             f"The indenter is pressed {strain:.2f} of the layer's thickness deep; above {LARGE_COMPRESSION} the "
-            "assumption of small strain is doubtful."
+            "assumption of small strain is doubtful.",
         )
 
 

@@ -25,7 +25,6 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.settings import ContactSettings
 from viscofric.errors import InputError, brief
-from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
@@ -232,9 +231,11 @@ class _Solved(NamedTuple):
         found = assemble(self.stages, self.scale, self.velocity, self.settings.toward, self.temperature)
         # What was given comes back as it was given, free of the rounding of sums and units.
         found = replace(found, **self.given)
-        notes = _large_strains(found, self.indenter, self.settings.layer, self.contact)
+        notes = [self.indenter.strain_warning(self.contact, found.indentation)]
+        if self.settings.layer is not None:
+            notes.append(self.settings.layer.strain_warning(found.indentation))
         extrapolated = _beyond_table(found, self.material.spectrum, self.spectrum)
-        return replace(found, warnings=(*notes, *self.material.notes_on_modes, *extrapolated))
+        return replace(found, warnings=(*filter(None, notes), *self.material.notes_on_modes, *extrapolated))
 
     def derivatives(self, *, with_error: bool = True) -> FrictionDerivatives:
         """Return the derivatives of the friction coefficient; without an error estimate, it is infinite."""
@@ -354,18 +355,9 @@ def _steady_material(
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 
 
-def _large_strains(
-    solution: ContactSolution, indenter: Indenter, layer: Layer | None, contact: Extent
-) -> tuple[Note, ...]:
-    found = {"large-strain": indenter.doubt(contact, solution.indentation)}
-    if layer is not None:
-        found["deep-in-layer"] = layer.doubt(solution.indentation)
-    return tuple(Note(code, sentence) for code, sentence in found.items() if sentence)
-
-
 def _beyond_table(
     solution: ContactSolution, known: RetardationSpectrum | ModulusTable, modes: RetardationSpectrum
-) -> tuple[str, ...]:
+) -> tuple[Note, ...]:
     """Return a note where the friction rests on modes beyond the frequencies of a table that refuses to extrapolate."""
     if isinstance(known, RetardationSpectrum) or known.extrapolate != "refuse" or modes.fit is None:
         return ()
@@ -374,8 +366,9 @@ def _beyond_table(
     # The elastic limits rest on E0 or E_inf alone; the fit's own notes say whether these are extrapolated.
     if frequency == 0.0 or math.isinf(frequency) or low <= frequency <= high:
         return ()
-    said = (
+    note = Note(
+        "beyond-table",
         f"The contact's frequency v/a, {frequency:.3g} rad/s, lies beyond those of the table, {low:.3g} to {high:.3g} "
-        "rad/s at this temperature: the friction rests on the extrapolated modes."
+        "rad/s at this temperature: the friction rests on the extrapolated modes.",
     )
-    return (said,)
+    return (note,)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, Mask
     from viscofric.contact.free.grids import Extent
+    from viscofric.notes import Note
 
 
 _FEWEST = 4  # points that a cubic spline needs
@@ -93,8 +94,8 @@ class HeightMap(Indenter):
                 code="beyond-indenter",
             )
 
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything."""
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
         x = self._points[0]
         y = self._points[1]
         within = np.ix_((x >= -contact.rear) & (x <= contact.front), np.abs(y) <= contact.side)
@@ -198,8 +199,8 @@ class Profile(Indenter):
                 code="beyond-indenter",
             )
 
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything."""
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
         within = (self._points >= -contact.rear) & (self._points <= contact.front)
         return too_steep(float(np.abs(self._spline(self._points[within], 1)).max(initial=0.0)))
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from viscofric.contact.free.geometry import POINT, Geometry
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -53,8 +54,8 @@ class Indenter(ABC):
         """Slope of the height along y at (x, y)."""
 
     @abstractmethod
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything.
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful.
 
         Parameters
         ----------
@@ -62,11 +63,6 @@ class Indenter(ABC):
             Along x and y of the indenter, in m.
         indentation : float
             m.
-
-        Returns
-        -------
-        str or None
-            One sentence.
         """
 
     @property
@@ -114,11 +110,12 @@ def insist_on_round_edges(indenter: Indenter) -> None:
         )
 
 
-def too_steep(slope: float) -> str | None:
-    """Return a sentence about an indenter's steepest slope within the contact, if it is doubtful."""
+def too_steep(slope: float) -> Note | None:
+    """Return a note where an indenter's steepest slope within the contact makes small strain doubtful."""
     if slope <= SMALL_STRAIN:
         return None
-    return (
+    return Note(
+        "large-strain",
         f"The indenter's surface rises by {slope:.2f} within the contact; above {SMALL_STRAIN} the assumption of small "
-        "strain is doubtful."
+        "strain is doubtful.",
     )

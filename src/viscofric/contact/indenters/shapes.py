@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, too_steep
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
@@ -63,8 +64,8 @@ class Ball(Indenter):
         """Half the largest width that a contact can have, m."""
         return float(self.radius)
 
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything."""
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
         return _too_wide(max(contact) / self.reach, self.noun)
 
 
@@ -115,8 +116,8 @@ class Cylinder(Indenter):
         """Half the largest width that a contact can have, m."""
         return float(self.radius)
 
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything."""
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
         return _too_wide(max(contact) / self.reach, self.noun)
 
 
@@ -166,8 +167,8 @@ class Ellipsoid(Indenter):
         """Half the largest width that a contact can have, m."""
         return float(max(self.radius_x, self.radius_y))
 
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything."""
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
         along = max(contact.rear, contact.front) / float(self.radius_x)
         return too_steep(max(along, contact.side / float(self.radius_y)))
 
@@ -220,8 +221,8 @@ class Cone(Indenter):
     def _steepness(self) -> float:
         return math.tan(float(self.angle))
 
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything."""
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
         return too_steep(self._steepness)
 
 
@@ -269,15 +270,16 @@ class FlatPunch(Indenter):
         """Zero: the face is flat."""
         return self.slope(x, y)
 
-    def doubt(self, contact: Extent, indentation: float) -> str | None:
-        """Return what is doubtful about small strain, if anything."""
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
         return too_steep(indentation / float(self.radius))
 
 
-def _too_wide(ratio: float, noun: str) -> str | None:
+def _too_wide(ratio: float, noun: str) -> Note | None:
     if ratio <= SMALL_STRAIN:
         return None
-    return (
+    return Note(
+        "large-strain",
         f"The contact reaches {ratio:.2f} {noun} radii from the axis; above {SMALL_STRAIN} the assumption of "
-        f"small strain and of a parabolic {noun} is doubtful."
+        f"small strain and of a parabolic {noun} is doubtful.",
     )

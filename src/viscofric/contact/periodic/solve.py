@@ -20,7 +20,6 @@ from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSol
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, brief
-from viscofric.notes import Note
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si, velocity
 
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.levels import Work
     from viscofric.contact.periodic.surface import Coarser
+    from viscofric.notes import Note
     from viscofric.rheology.material import Material
 
 
@@ -169,15 +169,15 @@ def solve_periodic(
     same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
     motion = sliding, toward, kelvin
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
-    return replace(solution, warnings=_doubts(solution, steepness, layer))
+    return replace(solution, warnings=_large_strains(solution, steepness, layer))
 
 
-def _doubts(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[Note, ...]:
-    """Return what is doubtful about small strain; of many spots the rms slope says more than the steepest place."""
-    doubts = {"large-strain": too_steep(steepness)}
+def _large_strains(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[Note, ...]:
+    """Return notes on small strain; for many spots the rms slope counts rather than the steepest place."""
+    notes = [too_steep(steepness)]
     if layer is not None:
-        doubts["deep-in-layer"] = layer.doubt(solution.indentation)
-    return tuple(Note(code, doubt) for code, doubt in doubts.items() if doubt)
+        notes.append(layer.strain_warning(solution.indentation))
+    return tuple(filter(None, notes))
 
 
 class _Given(NamedTuple):

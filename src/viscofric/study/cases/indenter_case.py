@@ -275,7 +275,7 @@ def _extent(told: dict[str, float]) -> Extent:
 def _doubts(case: IndenterCase, contact: Extent, indentation: float) -> tuple[str, ...]:
     """Return the warnings that `solve_steady` would give; raise `InputError` if it is wider than the indenter."""
     case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
-    doubts = [case.indenter.doubt(contact, indentation)]
+    doubts = [case.indenter.strain_warning(contact, indentation)]
     if case.layer is not None:
-        doubts.append(case.layer.doubt(indentation))
+        doubts.append(case.layer.strain_warning(indentation))
     return tuple(doubt for doubt in doubts if doubt)
