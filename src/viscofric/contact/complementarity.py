@@ -262,10 +262,8 @@ def solve_on_contact(
 
     Parameters
     ----------
-    operator : ContactOperator
     gap : (n,) array
         At the cells of the set.
-    contact : Cells
     reduction, floor : float
         Where to stop: Euclidean norm of the gap over that at the start, or the largest gap.
     directions : int

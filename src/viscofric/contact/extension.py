@@ -49,7 +49,6 @@ class Extension:
 
     Parameters
     ----------
-    backend : Backend
     shape : (int, int)
         Points along x and y.
     dtype : dtype
@@ -80,12 +79,7 @@ class Extension:
         self._lines = [self._array(_interpolation(size)) for size in blocks]
 
     def on(self, contact: Cells) -> Callable[[AnyArray], AnyArray]:
-        """Return what extends values on a contact: from (n,) at its cells to (nx, ny).
-
-        Parameters
-        ----------
-        contact : Cells
-        """
+        """Return what extends values on a contact: from (n,) at its cells to (nx, ny)."""
         xp = self.backend.xp
         share = self._smoothed(xp.astype(contact.chosen, self.dtype))
         scale = self.backend.reciprocal(xp.clip(share, min=_LEAST))

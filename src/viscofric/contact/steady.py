@@ -25,6 +25,7 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.settings import ContactSettings
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
@@ -334,7 +335,6 @@ def _steady_material(
 
     Parameters
     ----------
-    spectrum : RetardationSpectrum
     speed : float
         Lengths per second.
     plane_strain, counterface : float

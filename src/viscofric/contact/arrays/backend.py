@@ -204,7 +204,6 @@ class Cells:
 
     Parameters
     ----------
-    backend : Backend
     chosen : (nx, ny) array of bool
     indices : (n,) array of int
         Of the chosen cells among all.

@@ -48,10 +48,6 @@ class StandardTransforms(Transforms):
     """FFTs of the array standard's ``fft`` namespace: PyTorch, CuPy and whatever else has one.
 
     Spectra are (nx, ny//2 + 1).  What is transformed back may be overwritten.
-
-    Parameters
-    ----------
-    fft : namespace
     """
 
     def __init__(self, fft: Any) -> None:
@@ -76,13 +72,7 @@ class StandardTransforms(Transforms):
 
 
 class ScipyTransforms(Transforms):
-    """SciPy's FFTs.
-
-    Parameters
-    ----------
-    fft : module
-    threads : int
-    """
+    """SciPy's FFTs."""
 
     def __init__(self, fft: Any, threads: int) -> None:
         self._fft, self._threads = fft, threads
@@ -135,13 +125,7 @@ class ScipyTransforms(Transforms):
 
 
 class DuccTransforms(Transforms):
-    """FFTs of ducc0, which pad nothing by themselves but write wherever they are told to.
-
-    Parameters
-    ----------
-    fft : module
-    threads : int
-    """
+    """FFTs of ducc0, which pad nothing by themselves but write wherever they are told to."""
 
     def __init__(self, fft: Any, threads: int) -> None:
         self._fft, self._threads = fft, threads
@@ -186,7 +170,6 @@ class FftwTransforms(Transforms):
     ----------
     fftw : module
         pyfftw.
-    threads : int
     """
 
     def __init__(self, fftw: Any, threads: int) -> None:

@@ -117,7 +117,6 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
 
     Parameters
     ----------
-    stage : Stage
     way : {"pressure", "balance"}
         By the lean of the pressure, or by the dissipated energy with what cells leave out of it.
 
@@ -187,10 +186,8 @@ def _adjoint_field(stage: Stage, by_pressure: Array, value: float, held: Array) 
 
     Parameters
     ----------
-    stage : Stage
     by_pressure : (nx, ny) array
         Its change with the pressure of each cell, times the load, over the load.
-    value : float
     held : (nx, ny) array
         λ outside the contact.
 

@@ -127,7 +127,6 @@ def differentiate(
     ----------
     stages : list of Stage
         Coarsest first, three at least.
-    scale : Scale
     spectrum : RetardationSpectrum
         What `stages` were solved with.
     plane_strain : float

@@ -75,7 +75,6 @@ def friction_gradient(stage: Stage, way: Way, motion: Motion) -> tuple[Gradient,
 
     Parameters
     ----------
-    stage : Stage
     way : {"pressure", "balance"}
         As of `viscofric.contact.derivatives.adjoint.friction_adjoint`.
     motion : Motion

@@ -94,7 +94,6 @@ def rectangle_corners(X: Array, Y: Array, z: float | Array, poisson_ratio: float
     ----------
     X, Y, z : array
         Broadcast against each other; z above zero.
-    poisson_ratio : float
 
     Returns
     -------
@@ -136,7 +135,6 @@ def strip_ends(X: Array, z: float, poisson_ratio: float) -> Array:
         The point's coordinate relative to an end of the strip.
     z : float
         Depth, above zero.
-    poisson_ratio : float
 
     Returns
     -------

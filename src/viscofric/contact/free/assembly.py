@@ -22,7 +22,6 @@ def assemble(
     ----------
     stages : list of Stage
         Coarsest first.
-    scale : Scale
     velocity : float
         m/s, along the direction.
     direction : (float, float)

@@ -55,7 +55,6 @@ def opening(window: Grid, pressure: Array, gap: Array) -> float:
 
     Parameters
     ----------
-    window : Grid
     pressure : (nx, ny) array
     gap : (nx, ny) array
         Between surface and indenter, as the contact conditions see it.
@@ -83,7 +82,6 @@ def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
 
     Parameters
     ----------
-    material : SteadyMaterial
     spacing : float
         Length of a cell along the motion.
     cut : float

@@ -62,7 +62,6 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
     ----------
     first : Stage
         In a window that fits the contact.
-    accuracy : float
     finest : int
         Most cells along the window's longer edge.
     given : GivenGrid, optional
@@ -179,7 +178,6 @@ def find_window(problem: Problem, size: float) -> Stage:
 
     Parameters
     ----------
-    problem : Problem
     size : float
         First guess of the contact's radius.
 

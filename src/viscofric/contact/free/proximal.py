@@ -51,11 +51,8 @@ def proximal_points(
 
     Parameters
     ----------
-    control : Control
-    operator : ConvolutionOperator
     height : (nx, ny) array
         Of the indenter, where the gap is looked at.
-    start : ComplementaritySolution
     tolerance : float
         Of the complementarity.
 

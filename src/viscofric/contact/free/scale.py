@@ -71,7 +71,6 @@ class Scale:
 
         Parameters
         ----------
-        indenter : Indenter
         stiffness : float
             Pa.
         load : float
@@ -98,7 +97,6 @@ class Scale:
 
         Parameters
         ----------
-        indenter : Indenter
         stiffness, indentation : float
             Pa and m.
         """

@@ -163,7 +163,6 @@ class Footprint:
 
         Parameters
         ----------
-        window : Grid
         pressure : (nx, ny) array
         """
         middle = pressure.shape[1] // 2
@@ -204,7 +203,6 @@ def contact_area(window: Grid, pressure: Array) -> float:
 
     Parameters
     ----------
-    window : Grid
     pressure : (nx, ny) array
 
     Returns

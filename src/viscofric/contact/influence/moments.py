@@ -65,7 +65,6 @@ def memory_moments(
         λ_m > 0, in cells.
     shift : float
         How far behind the cell centres the displacement is looked at, in cells (0 to 0.5).
-    potential : CellPotential
 
     Returns
     -------

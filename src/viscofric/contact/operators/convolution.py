@@ -67,7 +67,6 @@ class SteadyMaterial:
 
         Parameters
         ----------
-        qx : array
         yielding : array, optional
             Θ of a layer at these wavenumbers, by which its part is multiplied.
         """
@@ -112,8 +111,6 @@ class ConvolutionOperator(ABC):
 
     Parameters
     ----------
-    window : Grid
-    material : SteadyMaterial
     shift : float, optional
         How far behind the cell centres the displacement is taken, in cells (0 to 0.5); see `collocation_shift`.
     backend : Backend, optional
@@ -286,7 +283,6 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
     ----------
     operator : ConvolutionOperator
         Whose window, material and shift are meant.
-    cell : CellPotential
     instant : float
         Compliance without memory.
 

@@ -51,7 +51,6 @@ class ScaledLayer:
 
         Parameters
         ----------
-        geometry : Geometry
         counterface : float
             Compliance of the indenter; in plane strain it leaves displacements without a level.
         """
@@ -78,12 +77,7 @@ class ScaledLayer:
 
 @dataclass
 class LayerOperator(ConvolutionOperator):
-    """Displacement of a layer under pressures on rectangular cells.
-
-    Parameters
-    ----------
-    layer : ScaledLayer
-    """
+    """Displacement of a layer under pressures on rectangular cells."""
 
     layer: ScaledLayer | None = None
 
@@ -112,10 +106,6 @@ class LineLayerOperator(ConvolutionOperator):
 
     The surface far away stays where it was, unless the indenter is elastic: of its displacement, as of the
     half-space's in plane strain, only differences mean something, and the zero is put below the least of them.
-
-    Parameters
-    ----------
-    layer : ScaledLayer
     """
 
     layer: ScaledLayer | None = None

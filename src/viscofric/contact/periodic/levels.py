@@ -85,7 +85,6 @@ def solve_on_levels(
     ----------
     stages : iterator of Stage
         Coarsest first; each is asked for when it is needed.
-    mean_pressure : float or None
     offset : float or None
         Mean gap, where no pressure is given.
     tolerance : float

@@ -272,7 +272,6 @@ def continued(
         Elastic transfer function of the same geometry, with the same largest value.
     pressure : (nx, ny) array
         To start from.
-    solve : Solve
     most_products : int
         After which no more steps are tried.
 

@@ -54,7 +54,6 @@ def split_steps(
         Pressures, not negative, some above zero.
     load, indentation : float or None
         Sum of the pressures, or δ; one of them.
-    steps : int
     rho : float
         ρ, a compliance: waves much more compliant settle at once, those of about ρ in a few steps.
     accelerated : bool
@@ -98,10 +97,6 @@ class Acceleration:
 
     D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305: the next point is the combination of the latest
     ones whose residuals f cancel best.
-
-    Parameters
-    ----------
-    backend : Backend
     """
 
     def __init__(self, backend: Backend) -> None:

@@ -36,7 +36,6 @@ class SlidingSolid:
     ----------
     spectrum : Compliant
         The rubber at its temperature: a RetardationSpectrum or a ModulusTable.
-    poisson_ratio : float
     velocity : (float, float)
         Of the pressure along x and y, m/s.  Where one is infinite, the limit of high speeds along `toward` is taken.
     layer : Layer, optional
