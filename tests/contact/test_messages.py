@@ -94,12 +94,12 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
     (
         lambda: vf.solve_periodic(RUBBER, WAVE, speed=1.0, gap="1 m"),
         "no-contact",
-        "gap = '1 m': the surfaces do not touch; right would be a mean gap below that at the first touch, 1e-06 m.",
+        "gap = '1 m': the surfaces do not touch; give a mean gap below that at the first touch, 1e-06 m.",
     ),
     (
         lambda: vf.Backend("jax"),
         "unknown-backend",
-        "backend = 'jax': not known; right would be 'scipy'",
+        "backend = 'jax': not known; give 'scipy'",
     ),
 ]
 

@@ -19,7 +19,7 @@ SENTENCES = [
         lambda: SCAN.keep_wavelengths(shortest=1e-6),
         "not-periodic",
         (
-            "topography 'scan' is not periodic, so that its Fourier series would ring at the edges; use window() or "
+            "topography 'scan' is not periodic, so its Fourier series would ring at the edges; use window() or "
             "mirror() first."
         ),
     ),

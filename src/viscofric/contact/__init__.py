@@ -1,1 +1,1 @@
-"""Steady viscoelastic contact: indenters, influence coefficients, the solver and what it gives back."""
+"""Steady viscoelastic contact: indenters, influence coefficients, the solver and its solution."""

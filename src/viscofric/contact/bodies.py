@@ -1,4 +1,4 @@
-"""A layer of finite thickness on a rigid base: how much less it yields than a half-space, wave by wave.
+"""Layer on a rigid base, with its response relative to a half-space; elastic indenter; direction of motion.
 
 Plane strain of one wave.  Under the pressure p cos qx on the top z = H of an elastic layer, without shear, the
 surface moves by u = 2(1−ν²)/(E q) Θ(qH) p cos qx.  A displacement (U(z) sin qx, W(z) cos qx) with the tractions

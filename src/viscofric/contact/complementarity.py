@@ -41,7 +41,7 @@ _LINEAR_ITERATIONS = 100  # between two looks at the contact set
 
 
 class ContactOperator(Protocol):
-    """What the solver asks of an influence operator."""
+    """Interface of the influence operators."""
 
     backend: Backend
     products: int

@@ -1,4 +1,4 @@
-"""Extension of what is known on the contact beyond it, for preconditioners that answer on the whole grid.
+"""Extension of residuals on the contact beyond it, for preconditioners that act on the whole grid.
 
 The inverse of a periodic operator K, restricted to the contact, is nearly the inverse of K restricted to it, if it is
 given the whole displacement that a pressure on the contact causes: inside, where that is known, and outside, where
@@ -157,7 +157,7 @@ class Extension:
 
 
 def lag(symbol: AnyArray, points: int, toward: tuple[float, float]) -> float:
-    """Return how late short waves along a direction answer: their loss angle over `_LATE`, one at most.
+    """Return the lag of short waves along a direction: their loss angle over `_LATE`, one at most.
 
     Below zero if they are late for a motion the other way.
 

@@ -1,4 +1,4 @@
-"""What a steady contact gives back: fields, numbers, and how far they can be trusted."""
+"""Solution of a steady contact: fields, numbers, and their errors."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Level(NamedTuple):
-    """What one of the nested grids gave.
+    """Results on one of the nested grids.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Level(NamedTuple):
 
 @dataclass(frozen=True)
 class Diagnostics:
-    """How a contact was solved, and what is known of its errors.
+    """Work, convergence and error estimates of a contact.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Diagnostics:
         How far behind the cell centres the gap was held at zero, in cells; above zero only where the cells do not
         resolve the shortest memory (see `viscofric.contact.operators.convolution.collocation_shift`).
     complementarity : float
-        Largest gap under pressure or overlap without it, where the gap was looked at, relative to the indentation.
+        Largest gap under pressure or overlap without it, at the collocation points, relative to the indentation.
     load : float
         Relative error of the load.
     energy : float
@@ -74,9 +74,9 @@ class Diagnostics:
         Whether the largest pressure means something: it lies more than two cells within the contact and has settled to
         2 %.  It has not where the layer at the leading edge is thinner than a cell, at a sharp edge or at a tip.
     levels : tuple of Level
-        What each nested grid gave, coarsest first.
+        Results on each nested grid, coarsest first.
     set_changes, linear_iterations, products, ffts : int
-        Work on all grids: looks at the contact set, steps of the linear solver, products with the influence
+        Work on all grids: updates of the contact set, steps of the linear solver, products with the influence
         matrix and two-dimensional real FFTs (of the padded window in products, of the bare one for the
         preconditioner).
     """
@@ -112,13 +112,13 @@ class ContactSolution:
     Attributes
     ----------
     speed : float
-        m/s, as asked.
+        m/s, as given.
     load : float
-        N, or N/m for a line contact: as asked, or what a given indentation takes.
+        N, or N/m for a line contact: as given, or what a given indentation takes.
     temperature : float or None
-        K, as asked.
+        K, as given.
     friction_coefficient : float
-        μ = F_t/F_N, with the sign of the speed: of the two below the one that has settled better on the nested
+        μ = F_t/F_N, with the sign of the speed: of the two below the one that has converged better on the nested
         grids, the second with what the cells at the edge leave out (see `viscofric.contact.free.balance`).
     pressure_friction_coefficient : float
         From the lean of the pressure on the indenter's slope, on the finest grid.
@@ -144,7 +144,7 @@ class ContactSolution:
         Pa, and m into the solid, from the same level as the indentation.
     diagnostics : Diagnostics
     warnings : tuple of str
-        One sentence for each assumption that does not hold well.
+        One note for each assumption that is doubtful.
     geometry : str
         "point" or "line".
     direction : (float, float)
@@ -153,7 +153,7 @@ class ContactSolution:
         F_y/F_N, from the lean of the pressure on the finest grid: the force towards +y with which the indenter pushes
         the solid, as F_t is that towards +x.  Zero where the indenter is its own mirror image about the line of motion.
     derivatives : FrictionDerivatives or None
-        Of the friction coefficient, where they were asked for.
+        Of the friction coefficient, where requested.
     """
 
     speed: float

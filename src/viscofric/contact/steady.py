@@ -1,4 +1,4 @@
-"""The verb: solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space."""
+"""Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space or layer."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def solve_steady(
     Parameters
     ----------
     material : Material
-        That of a table of moduli is described by modes fitted to it; how well, the solution's warnings tell.
+        A table of moduli is described by modes fitted to it; the solution's warnings state how well.
     indenter : Indenter
         Ball, Ellipsoid, Cone or HeightMap; for a line contact in plane strain, Cylinder or Profile.  A FlatPunch at a
         speed of zero or infinity only.
@@ -90,8 +90,8 @@ def solve_steady(
     temperature : float, str or pint.Quantity, optional
         K if a plain number.  May be left out for a material without a shift law.
     accuracy : float
-        Relative error of the friction coefficient that is aimed at (of 1e-6 a0/R where it is smaller, a0 the Hertz
-        radius at E0): grids are refined until its changes from one to the next promise as much.
+        Largest relative error of the friction coefficient (of 1e-6 a0/R where it is smaller, a0 the Hertz radius at
+        E0): grids are refined until its changes from one to the next are small enough.
     tolerance : float
         Of the complementarity: largest gap under pressure or overlap without it over the indentation; from 1e-13
         to a thousandth of the accuracy.
@@ -101,9 +101,9 @@ def solve_steady(
         Distances from the indenter's axis to the rear, the front and the sides of the window of cells, m (rear and
         front for a line contact); found around the contact if not given.
     grid : int, optional
-        Cells along the window's longer edge, from 128, on which the solution is wanted whatever its accuracy, which
-        its error estimate tells (a few more, so that the axis lies between two of them and halving leads there);
-        found by the accuracy if not given.
+        Cells along the window's longer edge, from 128, instead of an accuracy, which the error estimates then state (a
+        few more, so that the axis lies between two of them and halving leads there); found by the accuracy if not
+        given.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of an elastic indenter, Pa; rigid without it.
     indenter_poisson_ratio : float
@@ -116,8 +116,8 @@ def solve_steady(
         Of the motion over the indenter's own axes x and y; its length does not matter.  A line contact moves along
         its x only.
     derivatives : bool
-        Whether the solution is to hold the derivatives of the friction coefficient with respect to every mode, the
-        glass, the speed and the load or indentation; they take about as much time again.
+        Whether to differentiate the friction coefficient by every mode, the glassy modulus, the speed and the load or
+        indentation, which doubles the time.
 
     Returns
     -------

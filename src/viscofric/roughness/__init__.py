@@ -1,1 +1,1 @@
-"""Rough surfaces: measured ones prepared, made ones, their power spectra, Persson's theory, and sliding on them."""
+"""Rough surfaces: preparation, generation, power spectra, Persson's theory, and sliding on them."""

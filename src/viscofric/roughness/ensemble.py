@@ -69,7 +69,7 @@ class RoughFriction:
     contact_area_fraction : (m, n, k) array
         Points under pressure over all.
     corrected_area_fraction : (m, n, k) array
-        Less what counting points takes too much; see `ContactStatistics`.
+        The same, corrected for the excess of counted points; see `ContactStatistics`.
     stretch : (m, n, k) array
         How many times longer the contact patches are along the motion than across; see `ContactStatistics`.
     """
@@ -95,9 +95,9 @@ class RoughFriction:
         return np.asarray(self.corrected_area_fraction.mean(axis=-1))
 
     def interval(self, probability: float = 0.95) -> tuple[Array, Array]:
-        """Return the limits between which the mean friction of all such surfaces lies.
+        """Return the confidence interval of the mean friction of all such surfaces.
 
-        By Student's t, as if friction scattered normally from surface to surface.
+        By Student's t, for friction that scatters normally from surface to surface.
 
         Parameters
         ----------
@@ -137,9 +137,9 @@ class RoughFriction:
 
 
 def interval_of_mean(found: Array, probability: float = 0.95) -> tuple[Array, Array]:
-    """Return the limits between which the mean over all surfaces of a kind lies, as some of them tell it.
+    """Return the confidence interval of the mean over all surfaces of a kind, from some of them.
 
-    By Student's t, as if what was found scattered normally from surface to surface.
+    By Student's t, for values that scatter normally from surface to surface.
 
     Parameters
     ----------
@@ -162,7 +162,8 @@ def interval_of_mean(found: Array, probability: float = 0.95) -> tuple[Array, Ar
     wanted, count = share(probability, "probability", example=0.95), found.shape[-1]
     if count < 2:
         raise InputError(
-            "interval: one surface does not show how friction scatters from surface to surface.", code="one-surface"
+            "interval: needs two surfaces at least, since it rests on the scatter from surface to surface.",
+            code="one-surface",
         )
     mean = found.mean(axis=-1)
     reach = float(stdtrit(count - 1, 0.5 + 0.5 * wanted)) * found.std(axis=-1, ddof=1) / math.sqrt(count)
@@ -186,7 +187,7 @@ def predict_rough_friction(
     ----------
     material : Material
     surfaces : Topography, PeriodicSurface, or a list of them
-        That repeat themselves; an ensemble is, for instance, ``[vf.self_affine(…, seed=seed) for seed in range(8)]``.
+        Periodic; an ensemble is, for instance, ``[vf.self_affine(…, seed=seed) for seed in range(8)]``.
     speeds : float, str, pint.Quantity, or an array or list of them
         Of sliding, m/s; at rest the contact is elastic.
     pressure : float, str or pint.Quantity
@@ -194,7 +195,7 @@ def predict_rough_friction(
     temperatures : float, str, pint.Quantity, or an array or list of them, optional
         K if plain numbers; may be left out for a material without a shift.
     workers : int or Workers
-        Processes that share the contacts out among them; the result is the same to the last digit.
+        Processes among which the contacts are distributed; the result is the same to the last digit.
     progress : callable, optional
         Called as ``progress(done, total)`` before the first and after every contact.
     **settings
@@ -255,15 +256,15 @@ def predict_rough_friction(
         for name, surface in named
     ]
 
-    def tell(done: int) -> None:
+    def report(done: int) -> None:
         if progress is not None:
             progress(done, len(calls))
 
-    tell(0)
+    report(0)
     with tempfile.TemporaryDirectory(prefix="viscofric-") as folder:
         if (workers.number if isinstance(workers, Workers) else workers) != 1:
             _put_on_disk(calls, Path(folder))
-        found: list[_Numbers] = call_all(solve_one, calls, workers=workers, progress=tell)
+        found: list[_Numbers] = call_all(solve_one, calls, workers=workers, progress=report)
     shape = len(kelvins), len(velocities), len(named)
     numbers = {name: np.array([getattr(one, name) for one in found]).reshape(shape) for name in _Numbers._fields}
     return RoughFriction(
@@ -276,7 +277,7 @@ def predict_rough_friction(
 
 
 class _Numbers(NamedTuple):
-    """What is kept of one contact."""
+    """Results of one contact."""
 
     friction_coefficient: float
     friction_error: float

@@ -43,7 +43,7 @@ _PER_DECADE = 12  # wave numbers k of the temperature field
 
 @dataclass(frozen=True)
 class Flash:
-    """What hot spots need to know.
+    """Parameters of hot spots.
 
     Parameters
     ----------

@@ -120,9 +120,9 @@ def self_affine(
         )
     heights = scipy.fft.irfft2(series * (wanted / math.sqrt(found)), points, norm="forward")
     rms = f"rms height {wanted:.4g} m" if order == 0.0 else f"rms slope {wanted:.4g}"
-    told = f"made: self-affine, Hurst exponent {H:g}, wavelengths {long:.4g} to {short:.4g} m, "
-    told += f"roll-off {roll:.4g} m, {rms}{'' if exact else ' in the mean'}, {waves.told}"
-    return Topography(heights, steps, periodic=True, name=f"self-affine, seed {seed}", history=(told,))
+    history = f"made: self-affine, Hurst exponent {H:g}, wavelengths {long:.4g} to {short:.4g} m, "
+    history += f"roll-off {roll:.4g} m, {rms}{'' if exact else ' in the mean'}, {waves.description}"
+    return Topography(heights, steps, periodic=True, name=f"self-affine, seed {seed}", history=(history,))
 
 
 def surface_from_spectrum(
@@ -183,8 +183,8 @@ def surface_from_spectrum(
     if not waves.expected(spectrum, 0.0) > 0.0:
         raise InputError("the spectrum has no wave between the period and two points of the grid.", code="no-wave")
     heights = scipy.fft.irfft2(waves.series(spectrum, exact), points, norm="forward")
-    told = f"made: from a power spectrum{'' if exact else ', amplitudes in the mean'}, {waves.told}"
-    return Topography(heights, steps, periodic=True, name=f"from a spectrum, seed {seed}", history=(told,))
+    history = f"made: from a power spectrum{'' if exact else ', amplitudes in the mean'}, {waves.description}"
+    return Topography(heights, steps, periodic=True, name=f"from a spectrum, seed {seed}", history=(history,))
 
 
 def _grid(
@@ -219,7 +219,7 @@ class _Waves:
         else:
             self.seen = self.q
         lay = "" if self.stretch == 1.0 else f", aspect {self.stretch**2:.4g} along {math.degrees(turn):.4g}°"
-        self.told = f"seed {seed}{lay}"
+        self.description = f"seed {seed}{lay}"
         area = math.prod(n * d for n, d in zip(points, steps, strict=True) if n > 1)
         self.cell = (2.0 * math.pi) ** (1 if points[1] == 1 else 2) / area
 

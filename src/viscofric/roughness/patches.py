@@ -1,4 +1,4 @@
-"""What a map of contact looks like: its patches, how they stretch, pressures and gaps."""
+"""Statistics of a rough contact: its patches and their stretch, pressures and gaps."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ _CLOSEST, _LOOSEST = 1e-8, 0.1
 
 @dataclass(frozen=True, eq=False)
 class PerssonTheory:
-    """What Persson's theory says of a rubber that slides on a rough surface.
+    """Results of Persson's theory for a rubber that slides on a rough surface.
 
     Attributes
     ----------

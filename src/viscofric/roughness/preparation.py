@@ -74,7 +74,7 @@ def cropped(
     y: tuple[Quantity, Quantity] | None,
 ) -> tuple[Array, str]:
     """Return the heights between two positions along each axis, and what was done."""
-    cut, told = [], []
+    cut, steps = [], []
     for axis, given in (("x", x), ("y", y)):
         points, step = heights.shape["xy".index(axis)], spacing["xy".index(axis)]
         if given is None:
@@ -93,8 +93,8 @@ def cropped(
                 f"{axis} = {brief(given)}: too few points lie there; it ends at {(points - 1) * step:.4g} m."
             )
         cut.append(slice(start, stop))
-        told.append(f"{axis} from {start * step:.4g} to {(stop - 1) * step:.4g} m")
-    return heights[cut[0], cut[1]].copy(), f"cropped: {', '.join(told) or 'nothing'}"
+        steps.append(f"{axis} from {start * step:.4g} to {(stop - 1) * step:.4g} m")
+    return heights[cut[0], cut[1]].copy(), f"cropped: {', '.join(steps) or 'nothing'}"
 
 
 def resampled(
@@ -148,7 +148,7 @@ def _nearest(heights: Array, spacing: tuple[float, float], periodic: bool, holes
 
 
 def _harmonic(heights: Array, spacing: tuple[float, float], periodic: bool, holes: Mask) -> Array:
-    """Solve Laplace's equation in the holes; an edge of the scan lets nothing through."""
+    """Solve Laplace's equation in the holes; with zero flux through the edges of the scan."""
     from scipy.sparse import coo_array, csr_array
     from scipy.sparse.linalg import spsolve
 

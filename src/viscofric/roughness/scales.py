@@ -1,4 +1,4 @@
-"""How much the waves of each length add to the friction of a solved contact."""
+"""Contribution of each wavelength to the friction of a solved contact."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class FrictionByWavelength:
-    """Friction coefficient of a contact, parted among wavelengths of the pressure.
+    """Friction coefficient of a contact, by wavelengths of the pressure.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class FrictionByWavelength:
 def friction_by_wavelength(
     solution: PeriodicSolution, edges: Quantities | None = None, *, per_decade: int = 6
 ) -> FrictionByWavelength:
-    """Part the friction coefficient of a periodic contact among wavelengths.
+    """Return the contributions of wavelengths to the friction coefficient of a periodic contact.
 
     Parameters
     ----------

@@ -174,7 +174,7 @@ class Topography:
         return self._with(filled, f"{self.missing} missing heights ({share:.2g} %) filled: {method}")
 
     def remove(self, what: Literal["mean", "tilt", "curvature"]) -> Topography:
-        """Take off the mean height, the least-squares plane, or the least-squares paraboloid (all terms to x², xy, y²).
+        """Subtract the mean height, the least-squares plane, or the least-squares paraboloid (all terms to x², xy, y²).
 
         Parameters
         ----------
@@ -186,11 +186,11 @@ class Topography:
         InputError
             If there is no such trend, or more terms than heights.
         """
-        heights, told = preparation.without_trend(self.heights, what)
-        return self._with(heights, told, periodic=self.periodic and what == "mean")
+        heights, step = preparation.without_trend(self.heights, what)
+        return self._with(heights, step, periodic=self.periodic and what == "mean")
 
     def window(self, edge: float = 0.1) -> Topography:
-        """Let the heights fall to their mean along all edges, so that the surface repeats itself without steps.
+        """Taper the heights to their mean along all edges, so that the surface is periodic without steps.
 
         Parameters
         ----------
@@ -212,7 +212,7 @@ class Topography:
         return self._with(heights, f"windowed: heights fall to their mean over {edge:g} of each length", periodic=True)
 
     def mirror(self) -> Topography:
-        """Set the surface beside its mirror images, so that it repeats itself without steps and without new heights.
+        """Append the mirror images of the surface, so that it is periodic without steps and without new heights.
 
         Raises
         ------
@@ -239,11 +239,11 @@ class Topography:
         InputError
             If fewer than two points along x, or none along y, are left.
         """
-        heights, told = preparation.cropped(self.heights, self.spacing, x, y)
-        return self._with(heights, told, periodic=False)
+        heights, step = preparation.cropped(self.heights, self.spacing, x, y)
+        return self._with(heights, step, periodic=False)
 
     def resample(self, spacing: Quantity | tuple[Quantity, Quantity]) -> Topography:
-        """Put the surface onto a finer or coarser grid.
+        """Interpolate the surface onto a finer or coarser grid.
 
         Parameters
         ----------
@@ -265,8 +265,8 @@ class Topography:
         check_cost((length / step for length, step in zip(self.size, wanted, strict=True)), "spacing: the surface")
         change = waves.resampled if self.periodic else preparation.resampled
         heights, found = change(self.complete(), self.spacing, wanted)
-        told = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))
-        return self._with(heights, f"resampled to {told} points, {found[0]:.4g} m apart along x", spacing=found)
+        points = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))
+        return self._with(heights, f"resampled to {points} points, {found[0]:.4g} m apart along x", spacing=found)
 
     def keep_wavelengths(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> Topography:
         """Leave out waves that are shorter or longer (low-, high- or band-pass, sharp in Fourier space).
@@ -283,15 +283,15 @@ class Topography:
         """
         if not self.periodic:
             raise InputError(
-                f"{self._noun} is not periodic, so that its Fourier series would ring at the edges; use window() or "
+                f"{self._noun} is not periodic, so its Fourier series would ring at the edges; use window() or "
                 "mirror() first.",
                 code="not-periodic",
             )
-        heights, told = waves.passed(self.complete(), self.spacing, shortest, longest)
-        return self._with(heights, told)
+        heights, step = waves.passed(self.complete(), self.spacing, shortest, longest)
+        return self._with(heights, step)
 
     def inverted(self) -> Topography:
-        """Turn summits into valleys: the surface that was cast from this one."""
+        """Exchange summits and valleys, as in a cast of the surface."""
         return self._with(-self.heights, "inverted: summits become valleys")
 
     def along_y(self) -> Topography:
@@ -313,8 +313,8 @@ class Topography:
 
         if not self.periodic:
             raise InputError(
-                f"{self._noun} is not periodic; window() lets its edges fall to the mean, mirror() sets it beside its "
-                "mirror images.",
+                f"{self._noun} is not periodic; use window(), which tapers its edges to the mean, or mirror(), which "
+                "appends its mirror images.",
                 code="not-periodic",
             )
         return PeriodicSurface(self.complete(), self.spacing)

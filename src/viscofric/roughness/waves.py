@@ -20,7 +20,7 @@ _ROUNDING = 1e-9
 
 
 class Gridded(Protocol):
-    """What has a grid."""
+    """A surface on a grid."""
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -28,7 +28,7 @@ class Gridded(Protocol):
 
     @property
     def periodic(self) -> bool:
-        """Whether it repeats itself."""
+        """Whether it is periodic."""
 
 
 def gradient(heights: Array, grid: Gridded) -> tuple[Array, ...]:
@@ -57,22 +57,22 @@ def passed(
         )
     q = np.hypot(*wave_number((heights.shape[0], heights.shape[1]), spacing))
     keep = q > 0.0
-    told = []
+    bounds = []
     if longest is not None:
         length = positive(longest, "m", "longest")
         keep &= q >= 2.0 * np.pi / length * (1.0 - _ROUNDING)
-        told.append(f"longer than {length:.4g} m")
+        bounds.append(f"longer than {length:.4g} m")
     if shortest is not None:
         length = positive(shortest, "m", "shortest")
         keep &= q <= 2.0 * np.pi / length * (1.0 + _ROUNDING)
-        told.append(f"shorter than {length:.4g} m")
+        bounds.append(f"shorter than {length:.4g} m")
     if not keep.any():
         raise InputError(
             f"shortest = {shortest!r}, longest = {longest!r}: the surface has no wave in between.", code="no-wave"
         )
     keep[0, 0] = True
     series = np.where(keep, scipy.fft.rfft2(heights), 0.0)
-    return scipy.fft.irfft2(series, heights.shape), f"waves left out: {' and '.join(told)}"
+    return scipy.fft.irfft2(series, heights.shape), f"waves left out: {' and '.join(bounds)}"
 
 
 def resampled(

@@ -1,4 +1,4 @@
-"""Where a contact is solved: arrays of NumPy, PyTorch or CuPy through the array standard, and their FFTs.
+"""Array and FFT libraries for the solver: arrays of NumPy, PyTorch or CuPy through the array standard, and their FFTs.
 
 The solvers are written once, against the array standard [1]_.  What it leaves out stands here: FFTs that pad and
 overwrite, and gathering and scattering on the cells in contact.  All that comes from and goes to the user is NumPy's.
@@ -35,8 +35,8 @@ _OTHERS = ("torch", "cupy", "array_api_strict")
 _HOW_TO_INSTALL = {
     "ducc0": "python -m pip install ducc0",
     "pyfftw": "python -m pip install pyfftw",
-    "torch": "PyTorch as https://pytorch.org/get-started tells for your machine",
-    "cupy": "CuPy as https://docs.cupy.dev/en/stable/install.html tells for your CUDA",
+    "torch": "PyTorch for your machine, see https://pytorch.org/get-started",
+    "cupy": "CuPy for your CUDA, see https://docs.cupy.dev/en/stable/install.html",
     "array_api_strict": "python -m pip install array-api-strict",
 }
 _KNOWN = "'scipy', 'ducc0', 'pyfftw', 'cupy', or 'torch', which may name a device, as in 'torch:cuda'"
@@ -77,7 +77,7 @@ class Backend:
 
     def __post_init__(self) -> None:
         if self._library not in (*_ON_NUMPY, *_OTHERS):
-            raise InputError(f"backend = {self.name!r}: not known; right would be {_KNOWN}.", code="unknown-backend")
+            raise InputError(f"backend = {self.name!r}: not known; give {_KNOWN}.", code="unknown-backend")
         if ":" in self.name and self._library != "torch":
             raise InputError(
                 f"backend = {self.name!r}: {self._library} takes no device; give {self._library!r}.", code="no-device"

@@ -125,7 +125,7 @@ class ScipyTransforms(Transforms):
 
 
 class DuccTransforms(Transforms):
-    """FFTs of ducc0, which pad nothing by themselves but write wherever they are told to."""
+    """FFTs of ducc0, which pad nothing by themselves but write into given arrays."""
 
     def __init__(self, fft: Any, threads: int) -> None:
         self._fft, self._threads = fft, threads

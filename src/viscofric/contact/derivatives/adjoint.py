@@ -1,8 +1,8 @@
-"""How a contact's friction coefficient changes with its material and its load: one adjoint solve on the contact found.
+"""Derivatives of a contact's friction coefficient by material and load: one adjoint solve on the contact found.
 
 On the contact set c a small change leaves ``K p − δ = −h``, ``Σ p dA = F`` (or δ given).  With the friction coefficient
-a function μ(p) of the pressure, explicitly of the parameters too where it is told by the dissipated energy, the adjoint
-field λ on the same cells solves ::
+a function μ(p) of the pressure, explicitly of the parameters too where it is found from the dissipated energy, the
+adjoint field λ on the same cells solves ::
 
     Kᵀ λ + η = ∂μ/∂p,   Σ λ = 0        for a given load,      dμ = −λᵀ dK p + η dF/A + (dμ)_p,
     Kᵀ λ     = ∂μ/∂p                   for a given indentation,  dμ = −λᵀ dK p + dδ Σ λ + (dμ)_p,
@@ -13,7 +13,7 @@ At the edges of a contact the pressure is zero, so that the cells that a change 
 order.  The place where the gap is looked at (`viscofric.contact.operators.convolution.collocation_shift`) is held.
 
 Of the balanced energy a part is Λ r, r = Σ q (K p + h − δ)/h² over free cells, q being the pressures beside each (see
-`viscofric.contact.free.balance`).  Held at −Λ q/h² there, λ tells the change of the gap too, by the same equations.
+`viscofric.contact.free.balance`).  Held at −Λ q/h² there, λ gives the change of the gap too, by the same equations.
 
 M. B. Giles, N. A. Pierce, Flow Turbul. Combust. 65 (2000) 393, on adjoints.
 

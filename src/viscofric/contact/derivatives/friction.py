@@ -1,4 +1,4 @@
-"""How the friction coefficient changes with the material, the speed and the load, in SI units."""
+"""Derivatives of the friction coefficient by material, speed and load, in SI units."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ it makes ε a/h.  Cells that grow and shift with the contact do not.  With a cha
 
 ∂μ/∂ ln h and ∂μ/∂s being what it does to the solution on a grid to stretch the cells about the axis and to shift them.
 Both are nothing but error, and go to zero with the cells, so that how the contact grows and where it goes need not be
-known well: the spread of the pressure along the motion and its centre tell, on a coarse grid.
+known well: the spread of the pressure along the motion and its centre give it, on a coarse grid.
 
 A tip, where the slope jumps, is such an edge, too, and must stay where it is in its cells as well: it lies on the axis,
 so that the cells of an indenter with one grow about the axis but do not shift.
@@ -37,7 +37,7 @@ _STEP = 1e-5
 
 @dataclass(frozen=True)
 class Motion:
-    """How a contact changes with its material and its load.
+    """Growth and shift of a contact with its material and its load.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Motion:
 
     @classmethod
     def of(cls, stage: Stage) -> Motion:
-        """Tell from the centre and the spread of the pressure on a grid.
+        """Return the motion found from the centre and the spread of the pressure on a grid.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""What plots show around a solved contact: the surface beside and behind it, where power flows, stresses below."""
+"""Fields around a solved contact: the surface beside and behind it, the power through it, stresses below."""
 
 from viscofric.contact.fields.highest import HighestStress, highest_von_mises
 from viscofric.contact.fields.stress import Stress

@@ -1,4 +1,4 @@
-"""Where below a contact the material is stressed most."""
+"""The highest stress below a contact."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _DEPTHS = np.geomspace(0.02, 2.5, 22)
 
 @dataclass(frozen=True)
 class HighestStress:
-    """Where von Mises' equivalent stress is highest.
+    """The highest von Mises stress and its position.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""The surface around a contact and the trail behind it, where the solid has not yet recovered."""
+"""The surface around a contact with the trail behind it, and the power through it."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from viscofric.contact.influence.potentials import CellPotential
 
 
-#: Most cells of the window that is looked at.
+#: Most cells of the window.
 LARGEST = 2**24
 #: Most cells to either side of the contact, whose influence takes thousands of numbers each.
 WIDEST = 2**14
@@ -97,9 +97,9 @@ def surface_displacement(
     layer : Layer, optional
         Thickness and base of the material; a half-space without.
     behind, ahead : float
-        How far to look beyond the ends of `x`, against and along the motion, m; rounded up to whole cells.
+        Distance beyond the ends of `x`, against and along the motion, m; rounded up to whole cells.
     beside : float
-        How far to look beyond both ends of `y`, m.
+        Distance beyond both ends of `y`, m.
 
     Returns
     -------
@@ -155,9 +155,9 @@ def surface_displacement(
     sides = 0 if is_line else math.ceil(beyond[2] / width - 1e-9)
     cells = (len(along) + below + above) * (len(across) + 2 * sides)
     if cells > LARGEST or sides > WIDEST:
-        raise InputError(f"the window has {cells} cells, more than {LARGEST}, or is too wide; look less far.")
+        raise InputError(f"the window has {cells} cells, more than {LARGEST}, or is too wide; give smaller distances.")
     larger = np.pad(load, ((below, above), (sides, sides)))
-    # The influence functions know motion towards +x only.
+    # The influence functions hold for motion towards +x.
     mirrored = larger[::-1] if sliding < 0.0 else larger
     if is_line and layer is None:
         influence = _line_influence(modes, len(larger))
@@ -236,7 +236,7 @@ def _convolve(influence: Array, pressure: Array) -> Array:
     spectrum = scipy.fft.rfft2(influence, padded)
     spectrum *= scipy.fft.rfft2(pressure, padded)
     nx, ny = pressure.shape
-    # Circular in a period as long as the influence: only offsets that are not asked for wrap around.
+    # Circular in a period as long as the influence: only offsets that are not needed wrap around.
     return np.asarray(scipy.fft.irfft2(spectrum, padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])
 
 

@@ -1,4 +1,4 @@
-"""What the cells of a grid leave out of the dissipated energy, told by a second balance.
+"""The dissipated energy that the cells of a grid leave out, from a second balance.
 
 Within the contact the surface follows the indenter, u = δ − h, so that besides the friction force
 
@@ -10,7 +10,7 @@ a sum of the same terms that is known beforehand,
     ∫ p ∂²h/∂x² dA = −∫ p ∂²u/∂x² dA = Σ_k B_k + B_∞ :
 
 the load over the radius, for a ball.  On a grid it is not met: at the rim, where pressures fall to zero like square
-roots, waves shorter than a cell are missing from both sums.  How much, the gap tells.  With second differences in
+roots, waves shorter than a cell are missing from both sums.  The gap shows how much.  With second differences in
 place of the derivatives, everything but the gap that opens between the last loaded cell and the next drops out:
 
     r = Σ_i p_i (g_{i+1} + g_{i−1}) / h²,      summed over loaded cells i next to free ones.
@@ -51,7 +51,7 @@ _LONGEST = math.log(1e13)
 
 
 def opening(window: Grid, pressure: Array, gap: Array) -> float:
-    """Return r: what cells leave out of ∫ p ∂²h/∂x² dA.
+    """Return r, the part that cells leave out of ∫ p ∂²h/∂x² dA.
 
     Parameters
     ----------

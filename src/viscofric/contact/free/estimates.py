@@ -1,4 +1,4 @@
-"""Errors of numbers on nested grids: how well each has settled, and which way to the friction has settled best."""
+"""Error estimates on nested grids: convergence of each number, and the choice between two friction coefficients."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _LEAST_EDGE_ERROR = 0.5
 
 
 class Estimate(NamedTuple):
-    """A number and the error that its changes from grid to grid let expect."""
+    """A number, and its error estimated from its changes between grids."""
 
     value: float
     error: float
@@ -56,9 +56,9 @@ class Estimate(NamedTuple):
 
 
 def friction_estimate(stages: list[Stage]) -> Estimate:
-    """Return the friction coefficient from the quantity that has settled best on the nested grids.
+    """Return the friction coefficient from the quantity that has converged best on the nested grids.
 
-    The lean of the pressure settles quickest where the layer at the leading edge is thinner than a cell; the
+    The lean of the pressure converges fastest where the layer at the leading edge is thinner than a cell; the
     dissipated energy, with what cells leave out of it, nearly everywhere else.
     """
     last = stages[-1]
@@ -73,13 +73,13 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     balanced = settled(energy).at_least(max(_uncertainty(stages), shares[0] * difference))
     leaning = settled(lean).at_least(shares[1] * difference)
     best = min(balanced, leaning, key=lambda candidate: candidate.error)
-    unexplained = difference - balanced.error - _LEAN_TRUST * leaning.error  # speaks against either
+    unexplained = difference - balanced.error - _LEAN_TRUST * leaning.error  # counts against either
     error = max(best.error, _UNEXPLAINED_SHARE * unexplained)
     return Estimate(best.value, last.problem.geometry.scatter * error)
 
 
 def _uncertainty(stages: list[Stage]) -> float:
-    """How uncertain is what cells leave out of the energy on the last grid.
+    """Uncertainty of the energy that cells leave out on the last grid.
 
     Where in its cell an edge lies is a matter of luck, and so is what is left out: the most that the last grids make
     likely is taken, in proportion to the cell.
@@ -155,7 +155,7 @@ class FootprintErrors:
         sides = [name for name in ("front", "rear", "side") if math.isfinite(getattr(last, name))]
         rim = last.area / max(last.front + last.rear, cell)  # the contact's width across, one for a line contact
         peak = settled(np.array([stage.footprint.peak for stage in stages]), _SLOW_FADING).error
-        # A layer at the leading edge that is thinner than a cell, and a tip, hide a pressure that no grid has seen.
+        # A layer at the leading edge that is thinner than a cell, and a tip, hide a pressure that no grid resolves.
         deep, still = last.peak_depth >= _RESOLVED_CELLS, peak <= _RESOLVED_CHANGE * last.peak
         hidden = _hidden_peak(stages[-1])
         seen = shift == 0.0 and hidden < last.peak

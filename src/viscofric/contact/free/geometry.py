@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Geometry:
-    """What distinguishes a point contact from a line contact.
+    """Properties of point and line contacts.
 
     Attributes
     ----------
@@ -32,9 +32,9 @@ class Geometry:
         (K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22 and 4.43).
     load_unit : str
     has_far_field : bool
-        Whether the surface far away stays where it was, so that displacements are counted from there.
+        Whether displacements are measured from the surface far away, which stays in place.
     scatter : float
-        By what the error that the changes from grid to grid let expect is multiplied.  Where an edge lies within its
+        Factor on errors estimated from changes between grids.  Where an edge lies within its
         cell is a matter of luck, which the many cells of a rim average, but not the two at the ends of a strip.
     finest : int
         Most cells along the longer edge that are spent by default.

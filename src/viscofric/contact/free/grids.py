@@ -1,4 +1,4 @@
-"""Windows of cells that follow the indenter, and the passage from a coarse one to a finer one.
+"""Windows of cells that follow the indenter, and interpolation from a coarse one to a finer one.
 
 A `Window` of rectangular cells holds a point contact, a `Strip`, one row of cells, a line contact.  Both give their
 values as (nx, ny) arrays, so that a strip is a window with ny = 1.
@@ -70,13 +70,13 @@ class Grid(ABC):
 
     @property
     def width(self) -> float:
-        """Width of a cell across the motion, as far as edges are known to a part of it."""
+        """Width of a cell across the motion, the unit of errors of edges."""
         return self.spacing
 
     @property
     @abstractmethod
     def cell_area(self) -> float:
-        """What a pressure is multiplied by to give a load."""
+        """Area of a cell; its length in a line contact."""
 
     @property
     @abstractmethod

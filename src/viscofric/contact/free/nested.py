@@ -37,7 +37,7 @@ logger = logging.getLogger(__name__)
 
 MARGIN = 0.15  # free space left around the contact, relative to its size
 
-_PATIENCE = 4  # looks at the contact set without headway that end an attempt
+_PATIENCE = 4  # updates of the contact set without progress that end an attempt
 # A contact n times longer than wide has n/2 times the cells along it, up to so many times.
 _MOST_SLENDER = 4
 # A contact that is wider than long has cells as slender as half of that, in powers of two up to this one.
@@ -47,9 +47,9 @@ _LAYER_CELLS, _FINEST_START = 0.5, 256
 # First windows that are tried, in units of the contact's size as it is guessed.
 _FIRST_WINDOWS = (1.0, 2.5, 5.0, 1.6, 0.6)
 _MOST_WINDOWS = 20
-# By what the error of the friction may be hoped to fall when cells are halved: more than it did where they begin to
+# Factor by which the error of the friction may fall when cells are halved: more than before where they begin to
 # resolve a memory or a layer.
-_LEAST_HOPE, _HOPE = 5.0, 8.0
+_LEAST_FALL, _FALL = 5.0, 8.0
 _MOST_RESTARTS = 5
 _NO_WINDOW = "no window was found that holds the contact; the indenter may be too blunt."
 _TOUCHES = "window: the contact touches its edge; give one that leaves some space around the contact."
@@ -75,8 +75,8 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
     Raises
     ------
     ConvergenceError
-        If a grid does not converge, the accuracy is not reached with `finest` cells along the longer edge, the errors
-        so far leave no hope that it will be, or the friction is not a number.
+        If a grid does not converge, the accuracy is not reached with `finest` cells along the longer edge or, by the
+        errors so far, cannot be, or the friction is not a number.
     InputError
         If the contact touches the edge of the window given.
     """
@@ -104,15 +104,15 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
             goal = _Goal(accuracy, finest)
             continue
         stages.append(stage)
-        error = _told(stages)
+        error = _logged_error(stages)
         if len(stages) > halvings if halvings else error <= accuracy:
             return stages
         if len(stages) >= FEWEST_GRIDS:
             goal.errors.append(error)
 
 
-def _told(stages: list[Stage]) -> float:
-    """Log what the last grid gave, and return the relative error of the friction."""
+def _logged_error(stages: list[Stage]) -> float:
+    """Log the result on the last grid, and return the relative error of the friction."""
     estimate, (length, width) = friction_estimate(stages), stages[-1].window.shape
     if math.isnan(estimate.value) or math.isnan(estimate.error):
         raise ConvergenceError(
@@ -126,7 +126,7 @@ def _told(stages: list[Stage]) -> float:
 
 @dataclass
 class _Goal:
-    """Accuracy that is aimed at, and the errors of the friction so far, from the first grid that told one."""
+    """Accuracy to be reached, and the errors of the friction so far, from the first grid with an estimate."""
 
     accuracy: float
     finest: int
@@ -138,7 +138,7 @@ class _Goal:
         if cells > self.finest:
             raise self.missed(f"the finest grid allowed ({self.finest} cells)")
         halvings = 1 + int(math.log2(self.finest / cells))
-        if self.errors and max(self._hoped_for(halvings), least_error(stages, halvings)) > self.accuracy:
+        if self.errors and max(self._expected_error(halvings), least_error(stages, halvings)) > self.accuracy:
             raise self.missed(f"a grid of {cells // 2} cells, and {self.finest} cells will not be enough")
 
     def missed(self, where: str) -> ConvergenceError:
@@ -150,13 +150,13 @@ class _Goal:
             code="accuracy-not-reached",
         )
 
-    def _hoped_for(self, halvings: int) -> float:
-        """Return the error to be hoped for after so many further halvings of the cells.
+    def _expected_error(self, halvings: int) -> float:
+        """Return an optimistic error after so many further halvings of the cells.
 
-        An optimist's: it goes on to fall half as much again as it fell at best in the last two steps.
+        It falls half as much again as at best in the last two steps.
         """
         falls = [before / after for before, after in pairwise(self.errors[-3:])]
-        fall = _HOPE if len(falls) < 2 else min(_HOPE, max(_LEAST_HOPE, 1.5 * max(falls)))
+        fall = _FALL if len(falls) < 2 else min(_FALL, max(_LEAST_FALL, 1.5 * max(falls)))
         return float(self.errors[-1] / fall**halvings)
 
 
@@ -241,7 +241,7 @@ def _solve_in_window(window: Grid, before: Stage) -> Stage:
 
 
 def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
-    """Solve on one grid: by the active set, and where that makes no headway, by proximal points."""
+    """Solve on one grid: by the active set, and where that makes no progress, by proximal points."""
     shift = collocation_shift(problem.solid, window.spacing)
     operator = problem.geometry.operator(window, problem.solid, shift, problem.backend)
     height = problem.height_on(window, shift)
@@ -253,7 +253,7 @@ def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
         return Stage(problem, window, operator, result)
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
-        f"{result.complementarity:.1e} of the indentation was left where {problem.tolerance:.0e} was asked for.",
+        f"{result.complementarity:.1e} of the indentation was left, with tolerance = {problem.tolerance:.0e}.",
         code="not-converged",
     )
 
@@ -281,7 +281,7 @@ class GivenGrid:
         return cls(None if window is None else _extent(window, scale), cells)
 
     def halvings(self, coarsest: int) -> int:
-        """How often cells are halved from a grid of about so many along the longer edge; at least twice."""
+        """Return the number of halvings from a grid of about so many cells along the longer edge; at least two."""
         return 0 if self.cells is None else max(2, int(math.log2(self.cells / coarsest)))
 
     def start(self, coarsest: int) -> int:

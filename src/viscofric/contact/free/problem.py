@@ -43,7 +43,7 @@ class Shape(Protocol):
 
 @dataclass(frozen=True)
 class Control:
-    """What holds the indenter: a given load or a given indentation; the other is None."""
+    """A given load or a given indentation; the other is None."""
 
     load: float | None = None
     indentation: float | None = None
@@ -69,7 +69,7 @@ class Control:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """What is to be solved on every grid.
+    """A contact problem, the same on every grid.
 
     Attributes
     ----------
@@ -115,5 +115,5 @@ class Problem:
         return size
 
     def height_on(self, window: Grid, shift: float) -> Array:
-        """Height of the indenter where the gap is looked at: so many cells behind the cell centres."""
+        """Height of the indenter at the collocation points, so many cells behind the cell centres."""
         return self.shape.height((window.x - shift * window.spacing)[:, None], window.y)

@@ -1,7 +1,7 @@
-"""Proximal points: the way to a contact set that full steps of the active set miss.
+"""Proximal points, for contact sets that full steps of the active set miss.
 
 The contact problem asks for the pressures at which 0 ∈ A p + N(p), A p = K p + h − δ and N the normal cone of p ≥ 0.
-Where the solid's short waves answer a quarter of a wave late, K is nearly skew and the active set cycles however near
+Where the solid's short waves lag by a quarter of a wave, K is nearly skew and the active set cycles however near
 it starts.  With some compliance σ added to each cell, like a Winkler foundation's, K + σ is not skew for waves
 with |K̂| < σ.  Rockafellar's iteration [1]_ takes the addition back step by step: ::
 
@@ -35,8 +35,8 @@ logger = logging.getLogger(__name__)
 # σ, relative to the compliance of waves four cells long: at first, and how it goes on.  Where a step failed at some σ,
 # the next ones go there slowly, and its failure counts for less from step to step.
 _FIRST, _FALL, _QUICK_FALL, _SLOW_FALL, _RISE, _FADE = 3.0, 0.5, 0.35, 0.8, 3.0, 0.9
-_QUICK = 4  # looks at the contact set within which a step is an easy one
-_LOOKS = 4  # looks without headway that end a step's attempt
+_QUICK = 4  # updates of the contact set within which a step is an easy one
+_LOOKS = 4  # updates without progress that end a step's attempt
 _STEP_TOLERANCE = 0.3  # of each step, relative to what is violated before it
 _NEAR = 1e-6  # what is violated where the problem itself is tried, if the tolerance is not looser than that
 _HIGHEST = 1e4  # σ that is given up at
@@ -47,7 +47,7 @@ _CELL_PRODUCTS, _FEWEST_PRODUCTS = 6e8, 150
 def proximal_points(
     control: Control, operator: ConvolutionOperator, height: Array, start: ComplementaritySolution, tolerance: float
 ) -> ComplementaritySolution:
-    """Solve the contact problem from a pressure at which the active set makes no headway.
+    """Solve the contact problem from a pressure at which the active set makes no progress.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def proximal_points(
         damped, surface = operator.damped(damping), height - damping * pressure
         step = control.solve(damped, surface, pressure, max(tolerance, _STEP_TOLERANCE * violated), _LOOKS)
         products += step.products
-        logger.debug("σ %.2g: %s after %d looks", relative, "solved" if step.converged else "not", step.set_changes)
+        logger.debug("σ %.2g: %s after %d updates", relative, "solved" if step.converged else "not", step.set_changes)
         if not step.converged:
             failed, relative = relative, _RISE * relative
             continue

@@ -1,4 +1,4 @@
-"""Units in which a contact is solved: those of an elastic contact at E0, whatever the indenter's shape."""
+"""Units of the solver: those of an elastic contact at E0, whatever the indenter's shape."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
 
 
-# Directions in which an indenter is felt for its mean height at a distance.
+# Directions over which an indenter's height at a distance is averaged.
 _DIRECTIONS = 16
 _BISECTIONS = 200
 
@@ -106,7 +106,7 @@ class Scale:
 
 @dataclass(frozen=True)
 class ScaledIndenter:
-    """An indenter in such units, seen by one that looks along the motion.
+    """An indenter in such units, on axes along and across the motion.
 
     Attributes
     ----------

@@ -30,7 +30,7 @@ class Stage:
 
     @cached_property
     def load(self) -> float:
-        """What the pressures add up to."""
+        """Sum of the pressures, times the area of a cell."""
         return self.window.cell_area * float(self.result.pressure.sum())
 
     @cached_property
@@ -52,7 +52,7 @@ class Stage:
 
     @cached_property
     def _dissipated(self) -> tuple[float, float]:
-        """Friction coefficient from the dissipated energy, as slopes and as bends tell it."""
+        """Friction coefficient from the dissipated energy, by slopes and by bends."""
         pressure = self.result.pressure
         overlaps = self.operator.overlaps(pressure)
         straight = self.operator.dissipated_force(pressure, overlaps)
@@ -60,11 +60,11 @@ class Stage:
 
     @cached_property
     def balanced_friction(self) -> float:
-        """Friction coefficient from the dissipated energy, with what cells leave out of it."""
+        """Friction coefficient from the dissipated energy, with the part that cells leave out."""
         return self._dissipated[1] + lag(self.operator.material, self.window.spacing, CUTS[1]) * self.opening
 
     def left_out_range(self, spacing: float) -> float:
-        """Uncertainty of what cells of a spacing leave out of the friction coefficient.
+        """Uncertainty of the part of the friction coefficient that cells of a spacing leave out.
 
         From the wave that is taken for the first one left out.
         """
@@ -79,7 +79,7 @@ class Stage:
 
     @cached_property
     def opening(self) -> float:
-        """What cells leave out of ∫ p ∂²h/∂x² dA, over the load."""
+        """Part of ∫ p ∂²h/∂x² dA that cells leave out, over the load."""
         return opening(self.window, self.result.pressure, self.gap) / self.load
 
     @property
@@ -91,7 +91,7 @@ class Stage:
 
     @cached_property
     def extent(self) -> Extent:
-        """Of the contact."""
+        """Extent of the contact."""
         return self.window.extent(self.result.pressure > 0.0)
 
     @cached_property
@@ -112,7 +112,7 @@ class Stage:
 
     @property
     def level_slope(self) -> float:
-        """How the level changes with the place of the leading edge."""
+        """Change of the level with the position of the leading edge."""
         if self.problem.geometry.has_far_field:
             return 0.0
         return abs(float(self.problem.shape.slope(np.array([self.footprint.front]), np.zeros(1))[0]))
@@ -124,7 +124,7 @@ class Stage:
 
     @property
     def displacement(self) -> Array:
-        """Displacement at the cell centres, wherever the gap was looked at, from the level."""
+        """Displacement at the cell centres, from the level."""
         displacement: Array = self.result.displacement
         if self.operator.shift > 0.0:
             centred = self.problem.geometry.operator(self.window, self.operator.material)

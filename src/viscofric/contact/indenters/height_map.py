@@ -1,4 +1,4 @@
-"""Measured or computed indenters: heights on a grid, interpolated smoothly onto the cells of the contact."""
+"""Measured or computed indenters: heights on a grid, interpolated by splines."""
 
 from __future__ import annotations
 

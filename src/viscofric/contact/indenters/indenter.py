@@ -26,7 +26,7 @@ class Indenter(ABC):
     geometry : Geometry
         Whether it makes a point or a line contact.
     noun : str
-        What it is called in messages.
+        Name in messages.
     has_walls : bool
         Whether its height jumps to infinity somewhere: a sharp edge, with which it cannot slide over a solid with a
         memory.
@@ -78,7 +78,7 @@ class Indenter(ABC):
         contact : Extent
             Along x and y of the indenter, in m.
         held : str
-            By what the indenter is held, such as "under 25 N".
+            The load or indentation in words, such as "under 25 N".
 
         Raises
         ------

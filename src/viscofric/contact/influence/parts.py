@@ -1,4 +1,4 @@
-"""What the delayed displacement around a loaded cell is made of: a lattice, finer rules near the cell, and a tail.
+"""Parts of the delayed displacement around a loaded cell: a lattice, finer rules near the cell, and a tail.
 
 `viscofric.contact.influence.mixtures` sums it up over modes, `viscofric.contact.influence.moments` over cells.
 """

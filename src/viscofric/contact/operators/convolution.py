@@ -43,7 +43,7 @@ _TOLERATED_ANGLE = np.pi / 4.0
 
 @dataclass(frozen=True)
 class SteadyMaterial:
-    """What a steady contact needs to know of its material at one speed and temperature.
+    """Compliances and memory lengths of a material at one speed and temperature.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class SteadyMaterial:
     compliances : (m,) array
         (1−ν²) C_k.
     memory_lengths : (m,) array
-        v τ_k > 0: how far behind the indenter a mode still feels the load.
+        v τ_k > 0: distance behind the indenter over which a mode relaxes.
     counterface : float, optional
         (1−ν_i²)/E_i of an elastic indenter, a half-space even where the material is a layer.
     """
@@ -159,7 +159,7 @@ class ConvolutionOperator(ABC):
 
     @property
     def dtype(self) -> Any:
-        """Of the arrays that it returns."""
+        """Type of the arrays that it returns."""
         xp = self.backend.xp
         return xp.float64 if self._transfer.dtype == xp.complex128 else xp.float32
 
@@ -230,7 +230,7 @@ class ConvolutionOperator(ABC):
 
         The displacement of one mode, y_k − l_k ∂y_k/∂x = c_k L p, dissipates −∫ p ∂y_k/∂x dA = −l_k ∫ p ∂²y_k/∂x² dA,
         since the slope of c_k L p does no work.  With second differences in place of ∂²/∂x² every part of the
-        displacement is dissipated as short waves bend it, and what cells leave out can be told from the bends of the
+        displacement is dissipated as short waves bend it, and what cells leave out can be found from the bends of the
         gap; see `viscofric.contact.free.balance`.  Modes whose memory is long against the cell keep the slope, which is
         more accurate for them; `bent_share` says how much of each mode.
         """
@@ -328,7 +328,7 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
 
 
 def bent_share(memory_lengths: Array) -> Array:
-    """How much of each mode's dissipation is found from the bends of the surface, for memories in cells."""
+    """Share of each mode's dissipation that is found from the bends of the surface, for memories in cells."""
     return np.asarray(1.0 / (1.0 + (memory_lengths / _BEND_MEMORY) ** 2))
 
 
@@ -341,7 +341,7 @@ def second_difference(values: Array) -> Array:
 
 
 def collocation_shift(material: SteadyMaterial, spacing: float) -> float:
-    """How far behind the cell centres the gap is looked at, in cells: 0 to 1/2.
+    """Distance of the collocation points behind the cell centres, in cells: 0 to 1/2.
 
     Where a cell is long against the shortest memory but short against the next, the operator answers to
     pressures that alternate from cell to cell with a displacement nearly a quarter of a wave behind: it is almost

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -47,7 +47,7 @@ class ScaledLayer:
         return Layer(self.thickness, self.bonded).yielding(wave_number, self.poisson_ratio)
 
     def geometry(self, geometry: Geometry, counterface: float) -> Geometry:
-        """Return what a contact is on this layer that is point or line on a half-space.
+        """Return the geometry on this layer of a contact that is a point or a line contact on a half-space.
 
         Parameters
         ----------
@@ -79,14 +79,13 @@ class ScaledLayer:
 class LayerOperator(ConvolutionOperator):
     """Displacement of a layer under pressures on rectangular cells."""
 
-    layer: ScaledLayer | None = None
+    layer: ScaledLayer = field(kw_only=True)
 
     unit = 1.0 / np.pi
 
     @property
     def cell(self) -> LayerCell:
         """Potential of a cell, in units of the cell's length."""
-        assert self.layer is not None
         aspect = self.window.width / self.window.spacing
         thickness = self.layer.in_cells(max(self.window.spacing, self.window.width)) * max(1.0, aspect)
         return LayerCell(thickness, self.layer.bonded, self.layer.poisson_ratio, aspect)
@@ -108,14 +107,13 @@ class LineLayerOperator(ConvolutionOperator):
     half-space's in plane strain, only differences mean something, and the zero is put below the least of them.
     """
 
-    layer: ScaledLayer | None = None
+    layer: ScaledLayer = field(kw_only=True)
 
     unit = 2.0 / np.pi
 
     @property
     def cell(self) -> LayerStrip:
         """Potential of a cell, in units of the cell's length."""
-        assert self.layer is not None
         return LayerStrip(self.layer.in_cells(self.window.spacing), self.layer.bonded, self.layer.poisson_ratio)
 
     def _influence(self) -> Influence:

@@ -34,7 +34,7 @@ _MOST_COARSE_PRODUCTS = 2000  # on a grid that only gives the next one its start
 
 @dataclass(frozen=True)
 class Work:
-    """What the finest grid took, and all of them together.
+    """Work on the finest grid, and on all of them together.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ def solve_on_levels(
     Parameters
     ----------
     stages : iterator of Stage
-        Coarsest first; each is asked for when it is needed.
+        Coarsest first, made when needed.
     offset : float or None
         Mean gap, where no pressure is given.
     tolerance : float
@@ -92,7 +92,7 @@ def solve_on_levels(
     most_products : int
         On each grid.
     backend : Backend
-        Where it is solved; what goes in and comes out is NumPy's.
+        Where it is solved; arguments and results are NumPy's.
 
     Raises
     ------
@@ -122,7 +122,7 @@ def solve_on_levels(
         if not result.converged:
             raise ConvergenceError(
                 f"the contact did not converge on a grid of {level.shape[0]} x {level.shape[1]} points: a gap of "
-                f"{result.complementarity:.2g} rms heights was left where {tolerance:.2g} was asked for; allow more "
+                f"{result.complementarity:.2g} rms heights was left, with tolerance = {tolerance:.2g}; allow more "
                 "products (most_products=).",
                 code="not-converged",
             )

@@ -1,4 +1,4 @@
-"""The periodic contact on one grid: some splitting, then the active set; where that fails, what is slower but surer.
+"""The periodic contact on one grid: some splitting, then the active set; where that fails, slower and more robust ways.
 
 Everything here is dimensionless: depths in rms heights of the surface, compliances relative to the largest.
 """
@@ -25,14 +25,15 @@ if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import AnyArray, Backend
 
 
-_PATIENCE = 3  # looks at the contact set without a smaller residual before splitting takes over
+_PATIENCE = 3  # updates of the contact set without a smaller residual before splitting takes over
 _FEW_DIRECTIONS = (6, 12)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
 _FEW_PRODUCTS = 300  # enough for most contacts, where what follows is not needed
 _FIRST_STEPS = (5, 7)  # of the splitting on each grid, likewise
 _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
-_SHARES_OF_LAG = (1.0, 0.5)  # in turn, with more directions: oblique motions in particular may not bear the whole of it
+# In turn, with more directions: oblique motions in particular may not converge with the whole of it.
+_SHARES_OF_LAG = (1.0, 0.5)
 # ρ of the splitting over the smallest compliance of a wave, where coarser grids have settled the long waves.
 _SHORT_WAVES = (2.7, 6.5)
 _ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the smallest and the largest
@@ -260,8 +261,8 @@ def continued(
 ) -> tuple[ComplementaritySolution | None, AnyArray]:
     """Solve a contact whose operator is nearly skew (one retardation time, a stiff glassy state) by way of softer ones.
 
-    The phase of each wave's answer stays well below a right angle once some elastic compliance is added to it, as of a
-    softer glassy state; then the active set converges from a rough guess.  Less and less is added, each contact
+    The phase of each wave's response stays well below a right angle once some elastic compliance is added to it, as
+    of a softer glassy state; then the active set converges from a rough guess.  Less and less is added, each contact
     starting from the one before, until nothing is left to add.  Where a step fails, a shorter one is tried.
 
     Parameters

@@ -51,7 +51,7 @@ class PeriodicOperator:
 
     @property
     def dtype(self) -> Any:
-        """Of the arrays that it returns."""
+        """Type of the arrays that it returns."""
         return getattr(self.backend.xp, np.dtype(self.precision).name)
 
     def for_corrections(self) -> PeriodicOperator:
@@ -79,7 +79,7 @@ class PeriodicOperator:
     def inverse(self) -> AnyArray:
         """Inverse of the transfer function.
 
-        A uniform pressure, which moves nothing, is answered like the most compliant wave: where the load is given that
+        A uniform pressure, which moves nothing, is treated like the most compliant wave: where the load is given that
         makes no difference, where the indentation is, it must not be zero.
         """
         xp = self.backend.xp

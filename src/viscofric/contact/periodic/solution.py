@@ -1,4 +1,4 @@
-"""What a periodic contact gives back: fields, numbers, and how far they can be trusted."""
+"""Solution of a periodic contact: fields, numbers, and their errors."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PeriodicDiagnostics:
-    """How a periodic contact was solved, and what is known of its errors.
+    """Work, convergence and error estimates of a periodic contact.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class PeriodicDiagnostics:
         On the finest grid: products with the transfer function, two-dimensional real FFTs in all, and how many of
         them in single precision (corrections only: residuals are formed in double precision).
     splitting_steps, set_changes, linear_iterations : int
-        On the finest grid: steps of the operator splitting, looks at the contact set, steps of the linear solver.
+        On the finest grid: steps of the operator splitting, updates of the contact set, steps of the linear solver.
     grids : tuple of (int, int, int)
         Points along x and y, and FFTs, of every nested grid, coarsest first.
     """
@@ -69,15 +69,15 @@ class PeriodicSolution:
     Attributes
     ----------
     speed : float
-        m/s, as asked.
+        m/s, as given.
     direction : (float, float)
         Unit vector of the motion of the surface.
     temperature : float or None
-        K, as asked.
+        K, as given.
     mean_pressure : float
-        Pa: as asked, or what a given gap takes.
+        Pa: as given, or what a given gap takes.
     mean_gap : float
-        Mean distance between the surfaces, m: as asked, or what a given pressure leaves.
+        Mean distance between the surfaces, m: as given, or what a given pressure leaves.
     indentation : float
         δ, m: how far the surface has moved towards the solid since their first touch.  A half-space's mean displacement
         is without meaning and counted as zero; that of a layer is contained.
@@ -100,7 +100,7 @@ class PeriodicSolution:
         Pa; m into the solid (for a layer with its mean compression); m.
     diagnostics : PeriodicDiagnostics
     warnings : tuple of str
-        One sentence for each assumption that does not hold well.
+        One note for each assumption that is doubtful.
     """
 
     speed: float

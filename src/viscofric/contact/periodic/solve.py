@@ -1,4 +1,4 @@
-"""The verb: solve the steady contact of a periodic rough surface with a viscoelastic half-space or layer."""
+"""Solve the steady contact of a periodic rough surface with a viscoelastic half-space or layer."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def solve_periodic(
     surface : PeriodicSurface
     speed : float, str or pint.Quantity
         Velocity of the surface along `direction`, m/s; zero is the elastic contact at E0.  With an infinite one
-        (``math.inf``), waves answer with E_inf but for those that lie across the motion and are at rest at any speed.
+        (``math.inf``), waves respond with E_inf but for those that lie across the motion and are at rest at any speed.
     pressure : float, str or pint.Quantity, optional
         Mean pressure, Pa; either it or the gap is given.
     gap : float, str or pint.Quantity, optional
@@ -84,7 +84,7 @@ def solve_periodic(
     direction : (float, float)
         Of the motion in the plane; its length does not matter.
     layer : Layer, optional
-        Thickness and base of the rubber; a half-space without.
+        Thickness and base of the material; a half-space without.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of the rough body, Pa, whose compliance is added; rigid without.
     indenter_poisson_ratio : float
@@ -165,7 +165,7 @@ def solve_periodic(
         most_products=most_products,
         backend=where,
     )
-    # The friction on the next coarser grid tells something where that has all the waves of the surface.
+    # The friction on the next coarser grid counts where that grid has all the waves of the surface.
     same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
     motion = sliding, toward, kelvin
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
@@ -193,7 +193,7 @@ class _Given(NamedTuple):
         distance, first = positive(gap, "m", "gap"), float(surface.z.max() - surface.z.mean())
         if distance >= first:
             raise InputError(
-                f"gap = {gap!r}: the surfaces do not touch; right would be a mean gap below that at the first touch, "
+                f"gap = {gap!r}: the surfaces do not touch; give a mean gap below that at the first touch, "
                 f"{first:.4g} m.",
                 code="no-contact",
             )
@@ -308,7 +308,7 @@ def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, f
     force = square = 0.0
     for part, axis in zip(toward, ((1.0, 0.0), (0.0, 1.0)), strict=True):
         slope = surface.slope(axis)
-        # Heights fall where the indenter's surface rises towards the rubber: ∂h/∂x = −∂z/∂x.
+        # Heights fall where the indenter's surface rises towards the material: ∂h/∂x = −∂z/∂x.
         force -= part * float(np.vdot(pressure, slope)) / pressure.size
         under = slope[loaded]
         square += float(under @ under) / under.size

@@ -9,8 +9,8 @@ resolvents, both of which are exact and cheap here: ::
     y ← y + z − p
 
 At the fixed point p = z ≥ 0 and ρ(y − p) is the gap.  It converges for every monotone K and every ρ > 0, one
-product per step, without any choice of a contact set; linearly, with a rate that ρ between the smallest and the
-largest |K̂| makes bearable.  The active set is much faster once its set is nearly right, and leads astray before.
+product per step, without any choice of a contact set; linearly, with an acceptable rate for ρ between the smallest
+and the largest |K̂|.  The active set is much faster once its set is nearly right, and diverges before.
 
 .. [1] P. L. Lions, B. Mercier, SIAM J. Numer. Anal. 16 (1979) 964, doi:10.1137/0716071.
 """

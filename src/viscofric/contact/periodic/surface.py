@@ -1,4 +1,4 @@
-"""Rough surfaces that repeat themselves along both axes, and their coarser likenesses."""
+"""Periodic rough surfaces, their copies on coarser grids, and wave numbers of these grids."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class Coarser(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PeriodicSurface:
-    """A rigid surface given by its heights on a grid that repeats itself along both axes.
+    """A rigid surface given by its heights on a grid, periodic along both axes.
 
     Parameters
     ----------
     z : (nx, ny) or (nx,) array
-        Heights above any level, m, positive towards the rubber: summits touch first.  A row stands for a profile that
+        Heights above any level, m, positive towards the material: summits touch first.  A row stands for a profile that
         is the same everywhere along y (plane strain).
     spacing : float, str, pint.Quantity, or two of them
         Distance between neighbouring points, m; of x and y where they differ.
@@ -117,14 +117,14 @@ class PeriodicSurface:
         return found
 
     def coarser(self, shapes: Sequence[tuple[int, int]]) -> list[Coarser]:
-        """Return likenesses of the same period on fewer points, their shortest waves left out."""
+        """Return the surface on fewer points of the same period, without its shortest waves."""
         if not shapes:
             return []
         fine = scipy.fft.rfft2(self.z)
         fine /= self.z.size
-        return [self._likeness(fine, shape) for shape in shapes]
+        return [self._on_points(fine, shape) for shape in shapes]
 
-    def _likeness(self, fine: ComplexArray, shape: tuple[int, int]) -> Coarser:
+    def _on_points(self, fine: ComplexArray, shape: tuple[int, int]) -> Coarser:
         mx, my = shape
         coarse = np.zeros((mx, my // 2 + 1), complex)
         # The Nyquist waves of the coarse grid, which have no direction, are left out as well.
@@ -186,7 +186,7 @@ def _signs(points: int) -> Array:
 
 
 def without_nyquist(wave_numbers: Array, points: int) -> Array:
-    """Return wave numbers with the Nyquist wave's set to zero, as the derivative of a real series wants it."""
+    """Return wave numbers with the Nyquist wave's set to zero, as for the derivative of a real series."""
     found = wave_numbers.copy()
     if points % 2 == 0:
         found.reshape(-1)[points // 2] = 0.0

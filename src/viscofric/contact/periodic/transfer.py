@@ -1,4 +1,4 @@
-"""What a solid answers to each wave of a steadily sliding pressure: the transfer function of the periodic contact."""
+"""Transfer function of the periodic contact: the response of a solid to each wave of a steadily sliding pressure."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Compliant(Protocol):
-    """A rubber at one temperature, given by modes or as a table."""
+    """A material at one temperature, given by modes or as a table."""
 
     @property
     def E_inf(self) -> float:
@@ -35,7 +35,7 @@ class SlidingSolid:
     Parameters
     ----------
     spectrum : Compliant
-        The rubber at its temperature: a RetardationSpectrum or a ModulusTable.
+        The material at its temperature: a RetardationSpectrum or a ModulusTable.
     velocity : (float, float)
         Of the pressure along x and y, m/s.  Where one is infinite, the limit of high speeds along `toward` is taken.
     layer : Layer, optional
@@ -66,7 +66,7 @@ class SlidingSolid:
         """Return û/p̂ for each wave of a grid, m/Pa, in the order of `scipy.fft.rfft2`; zero for the mean.
 
         û = 2 [(1−ν²) S(−q·v) Θ(qH) + (1−ν_i²)/E_i] p̂/|q|.  A Nyquist wave stands for two that run opposite ways, and
-        gets the mean of their answers, so that the displacement of a real pressure is real.  At rest the array
+        gets the mean of their responses, so that the displacement of a real pressure is real.  At rest the array
         is real, since the contact is elastic.
         """
         qx, qy = wave_number(shape, spacing)
@@ -81,7 +81,7 @@ class SlidingSolid:
         return found.real.copy() if self.is_elastic else found
 
     def relaxed_shape(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-        """Return Θ(qH)/|q| over its largest value for each wave of a grid: how an elastic solid answers; mean zero."""
+        """Return Θ(qH)/|q| over its largest value for each wave of a grid, as of an elastic solid; mean zero."""
         magnitude = np.hypot(*wave_number(shape, spacing))
         magnitude[0, 0] = 1.0
         found = 1.0 / magnitude

@@ -1,4 +1,4 @@
-"""Closed forms that the numerical contact is held against."""
+"""Closed forms with which the numerical contact is compared."""
 
 from viscofric.contact.reference.foundation import (
     RollingFoundationContact,

@@ -1,4 +1,4 @@
-"""What the closed forms ask of their arguments: SI numbers (or text with units) in the range of the theory."""
+"""Checks of the closed forms' arguments: SI numbers (or text with units) in the range of the theory."""
 
 from __future__ import annotations
 
