@@ -14,7 +14,8 @@ With --few, 13 rubbers are drawn and measured at four temperatures and nine spee
 3 %, whose number is given (replicates) or not (errors: a table of friction and its standard errors; the scatter is the
 same).  Their spectra are smooth; or what the prior does not expect: they end at 100 s, among the contact's
 frequencies (ending), or have one mode per decade (modes).  The row ± has the standard error of the mean over the
-measurements: what is found at the frequencies of one measurement errs together.
+measurements: what is found at the frequencies of one measurement errs together.  "lowest" is the share of E'' at the
+lowest of the contact's frequencies, and "± E'' %" half the median width of the intervals of E''.
 """
 
 from __future__ import annotations
@@ -37,7 +38,21 @@ KELVIN = np.array([30.0, 35.0, 40.0, 46.0, 52.0, 60.0, 68.0, 78.0, 90.0]) + 273.
 SPEEDS = np.geomspace(0.02, 0.2, 10)
 SCATTER, REPLICATES = 0.05, 8
 FREQUENCY = 1.0  # rad/s
-HEADINGS = ("CPU s", "steps", "decades", "|E| %", "E'' %", "α dec", "χ²/ν", "in |E|", "in E'", "in E''", "in α")
+HEADINGS = (
+    "CPU s",
+    "steps",
+    "decades",
+    "|E| %",
+    "E'' %",
+    "α dec",
+    "χ²/ν",
+    "in |E|",
+    "in E'",
+    "in E''",
+    "in α",
+    "lowest",
+    "± E'' %",
+)
 
 
 #: Temperatures, speeds, scatter and replicates of few measurements.
@@ -126,6 +141,8 @@ def identified(material: vf.Material, curves: vf.FrictionCurves) -> dict[str, An
         "in E'": float(np.mean((band.lower.real <= planted.real) & (planted.real <= band.upper.real))),
         "in E''": float(np.mean((band.lower.imag <= planted.imag) & (planted.imag <= band.upper.imag))),
         "in α": float(np.mean(np.abs(away) <= 1.96 * factors.standard_errors, where=measured_ones)),
+        "lowest": float(band.lower.imag[0] <= planted.imag[0] <= band.upper.imag[0]),
+        "width": float(np.median(0.5 * np.log(band.upper.imag / band.lower.imag))),
     }
 
 
@@ -199,11 +216,12 @@ def many(options: argparse.Namespace) -> dict[str, Any]:
 
 def show(title: str, row: dict[str, Any]) -> None:
     """Print a row."""
-    percent = {key: 100.0 * row[key] for key in ("modulus", "loss")}
+    percent = {key: 100.0 * row[key] for key in ("modulus", "loss", "width")}
     print(
         f"{title:10}{row['seconds']:9.1f}{row['steps']:9.1f}{row['decades']:9.1f}{percent['modulus']:9.3f}"
         f"{percent['loss']:9.3f}{row['alpha']:9.4f}{row['chi2']:9.2f}"
-        + "".join(f"{row[key]:9.2f}" for key in ("in |E|", "in E'", "in E''", "in α")),
+        + "".join(f"{row[key]:9.2f}" for key in ("in |E|", "in E'", "in E''", "in α", "lowest"))
+        + f"{percent['width']:9.2f}",
         flush=True,
     )
 

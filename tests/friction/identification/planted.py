@@ -38,12 +38,13 @@ def planted_curves(*kelvin: float, accuracy: float = 1e-3) -> FrictionCurves:
     return curves_of(np.tile(SPEEDS, len(kelvin)), temperature, response.friction, 1e-6, load=LOAD)
 
 
-def closed_form_curves(*kelvin: float) -> FrictionCurves:
+def closed_form_curves(*kelvin: float, rubber: vf.Material = RUBBER) -> FrictionCurves:
     """Friction at six speeds and each of the temperatures, to first order in the loss: no contact is solved."""
+    assert rubber.shift is not None
     temperature = np.repeat(kelvin, len(SPEEDS))
-    spectrum, speed = RUBBER.modes_at(), np.tile(SPEEDS, len(kelvin))
+    spectrum, speed = rubber.modes_at(), np.tile(SPEEDS, len(kelvin))
     first = FirstOrder(BALL, LOAD, 0.75, spectrum.tau)
-    found = first(np.log([1.0 / spectrum.E_inf, *spectrum.C]), np.log(speed * RUBBER.shift(temperature)))
+    found = first(np.log([1.0 / spectrum.E_inf, *spectrum.C]), np.log(speed * rubber.shift(temperature)))
     return curves_of(speed, temperature, np.exp(found.log_friction), 1e-6, load=LOAD)
 
 

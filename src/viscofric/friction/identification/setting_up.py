@@ -36,6 +36,10 @@ if TYPE_CHECKING:
 MARGIN = 1.9
 #: Fewest modes per decade with which E(ω) does not ripple.
 LEAST_PER_DECADE = 2.5
+#: Friction averages over two decades of τ (K of the theory): what lies within one decade of the first or the last of the
+#: contact's frequencies is seen from one side only, and a spectrum may end there, so that the smoothness found elsewhere
+#: is not assumed of it.  Of a narrow band this is a quarter on either side.
+ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
 #: Slope of the indenter at the contact's edge that a first guess of the level assumes, and the standard deviation of
 #: ln |E| about it where nothing is known: of a ball, slopes from 0.06 to 0.4 are within two of them.
 GUESSED_SLOPE = 0.15
@@ -137,13 +141,15 @@ def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contac
     shortest, longest = inside[0] - MARGIN * LN10, inside[1] + MARGIN * LN10
     count = max(modes, int(np.ceil(LEAST_PER_DECADE * (longest - shortest) / LN10)) + 1)
     tau = np.exp(np.linspace(shortest, longest, count))
+    one_sided = min(ONE_SIDED * LN10, ONE_SIDED_SHARE * (inside[1] - inside[0]))
+    smooth = float(np.exp(inside[0] + one_sided)), float(np.exp(inside[1] - one_sided))
     if not moduli and not contacts.anchors:
         moduli = (_guess(-0.5 * sum(inside), shifts.reference, compliance),)
     return Problem(
         friction=CorrectedFriction(FirstOrder(contacts.indenter, points.load, plane_strain, tau)),
         observations=Observations(points, moduli),
         shifts=shifts,
-        smoothness=Smoothness(tau, compliance, (float(np.exp(inside[0])), float(np.exp(inside[1]))), EXPECTED),
+        smoothness=Smoothness(tau, compliance, smooth, EXPECTED),
     )
 
 

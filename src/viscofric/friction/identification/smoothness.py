@@ -22,8 +22,8 @@ SLOPE = 0.7
 ROUGHNESS = np.geomspace(0.02, 1.3, 10)
 #: The middle and the logarithmic standard deviation of what is expected of them.
 EXPECTED, EXPECTED_SPREAD = 0.15, 1.0
-#: Roughness outside the contact's frequencies, where nothing tells it: a spectrum may end there, or rise to the glass
-#: transition, within a third of a decade.
+#: Roughness near the ends of the contact's frequencies and beyond, where no data determine it: a spectrum may end there,
+#: or rise to the glass transition, within a third of a decade.
 OUTSIDE = 1.5
 
 
@@ -40,7 +40,7 @@ class Smoothness:
     compliance : float
         First guess of 1/|E|, 1/Pa.
     inside : (shortest, longest)
-        Retardation times that belong to the contact's frequencies, s.
+        Retardation times whose modes the friction sees from both sides, s.
     roughness : float
         Standard deviation of the change of d ln C/d ln τ over an e-fold of τ, inside.
     """
