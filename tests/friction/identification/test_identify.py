@@ -98,7 +98,7 @@ def test_what_was_found_lies_amidst_the_draws() -> None:
 
 @pytest.mark.usefixtures("closed_form")
 def test_a_spectrum_that_ends_near_the_lowest_frequency_is_met_within_its_errors() -> None:
-    """Friction without noise: the prior alone would move E'' by 2.7 standard errors if the ends counted as smooth too."""
+    """Friction without noise: the prior alone moves E'' by 2.7 standard errors if the ends count as smooth."""
     tau = np.exp(np.arange(-14.0, 3.3, 0.8))  # the contacts' longest time a/v is e to the 3.7
     share = np.exp(-0.5 * ((np.log(tau) + 6.0) / 3.0) ** 2)
     spectrum = vf.RetardationSpectrum(2.5e6, 7e6, share / share.sum() * (1.0 / 2.5e6 - 1.0 / 7e6), tau)

@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 MARGIN = 1.9
 #: Fewest modes per decade with which E(ω) does not ripple.
 LEAST_PER_DECADE = 2.5
-#: Friction averages over two decades of τ (K of the theory): what lies within one decade of the first or the last of the
-#: contact's frequencies is seen from one side only, and a spectrum may end there, so that the smoothness found elsewhere
-#: is not assumed of it.  Of a narrow band this is a quarter on either side.
+#: Friction averages over two decades of τ (K of the theory): what lies within a decade of the first or the last of the
+#: contact's frequencies is seen from one side only, and a spectrum may end there, so that no smoothness is assumed of
+#: it.  Of a narrow band this is a quarter on either side.
 ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
 #: Slope of the indenter at the contact's edge that a first guess of the level assumes, and the standard deviation of
 #: ln |E| about it where nothing is known: of a ball, slopes from 0.06 to 0.4 are within two of them.

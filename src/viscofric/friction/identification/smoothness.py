@@ -22,8 +22,8 @@ SLOPE = 0.7
 ROUGHNESS = np.geomspace(0.02, 1.3, 10)
 #: The middle and the logarithmic standard deviation of what is expected of them.
 EXPECTED, EXPECTED_SPREAD = 0.15, 1.0
-#: Roughness near the ends of the contact's frequencies and beyond, where no data determine it: a spectrum may end there,
-#: or rise to the glass transition, within a third of a decade.
+#: Roughness near the ends of the contact's frequencies and beyond, where no data determine it: a spectrum may end, or
+#: rise to the glass transition, within a third of a decade.
 OUTSIDE = 1.5
 
 
