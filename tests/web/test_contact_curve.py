@@ -77,7 +77,7 @@ def test_a_rubber_made_of_sweeps_has_the_bands_and_doubts_of_the_run_file(desk: 
     assert extrapolated == [not within for within in stored["within_measured_frequencies"].values.ravel()]
     assert extrapolated[:2] == [False, True]
     assert ["shift" in words for words in answer["doubts"]] == [False, False, True, True]
-    assert any("240 °C the shift factor is extrapolated" in sentence for sentence in answer["warnings"])
+    assert any("240 °C the law extrapolates" in sentence for sentence in answer["warnings"])
 
 
 def test_points_come_before_the_end_and_are_then_what_was_told(desk: Desk) -> None:

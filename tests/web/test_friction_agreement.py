@@ -76,7 +76,7 @@ def test_nothing_is_solved_twice(context: Context, agreement: dict[str, Any]) ->
     ("more", "words"),
     [
         ({"layer": {"thickness": "2 mm"}}, r"measurement: .*half-space.*\[layer\]"),
-        ({"indenter": {"shape": "cone", "angle": "5 deg"}}, "measurement: .*of a ball, but the indenter is a cone"),
+        ({"indenter": {"shape": "cone", "angle": "5 deg"}}, "measurement: .*ball, but the indenter is a cone"),
         ({"measurement": {"curves": "none.csv"}}, "'none.csv' is not one of the page's files"),
     ],
 )

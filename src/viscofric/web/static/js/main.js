@@ -58,6 +58,16 @@ function waits(what, error, job) {
   return beside ? `Fix the marked field to update ${what}.` : explain(error, "contact");
 }
 
+/** Bring a link of the rail into sight.  Not by scrollIntoView: from there on, the tab key would pass over the skip link. */
+function scrollRailTo(link) {
+  const rail = link.closest(".rail");
+  const [outer, inner] = [rail.getBoundingClientRect(), link.getBoundingClientRect()];
+  rail.scrollBy(
+    Math.min(inner.left - outer.left, 0) || Math.max(inner.right - outer.right, 0),
+    Math.min(inner.top - outer.top, 0) || Math.max(inner.bottom - outer.bottom, 0),
+  );
+}
+
 /** Show a step, and put the focus on its heading. */
 function goTo(id, { focus = true } = {}) {
   if (!steps.has(id)) return;
@@ -74,7 +84,7 @@ function goTo(id, { focus = true } = {}) {
     mount(step);
   }
   document.title = `${step.title} · viscofric`;
-  step.link.scrollIntoView({ block: "nearest", inline: "nearest" });
+  scrollRailTo(step.link);
   if (focus) {
     window.scrollTo(0, 0);
     step.heading.focus({ preventScroll: true });
