@@ -1,0 +1,112 @@
+"""The wording of refusals of friction; other tests assert their codes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from friction.made_runs import friction_curves, traction_runs
+from friction.synthetic_curves import synthetic_curves
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.notes import Reader
+
+LAW = vf.WLF(C1=8.86, C2=101.6, reference="50 degC")
+SPEEDS = np.geomspace(0.02, 0.2, 10)
+ONE = friction_curves(np.array([0.05]), np.array([303.15]), np.array([0.03]))
+
+
+def one_way(**settings: object) -> vf.FrictionCurves:
+    """Separate runs with one direction of slip."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=[(1, 1)], speeds=[0.1])
+    return vf.separate(runs, **settings)
+
+
+def drifting() -> vf.FrictionCurves:
+    """Separate runs whose temperature drifts without a gap."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, speeds=[0.1], temperatures=[303.15], replicates=30)
+    return vf.separate(replace(runs, temperature=303.15 + 0.15 * runs.replicate))
+
+
+def constant(*celsius: float) -> vf.FrictionCurves:
+    """Make friction that depends neither on speed nor on temperature."""
+    speed, kelvin = np.tile(SPEEDS, len(celsius)), np.repeat(np.array(celsius) + 273.15, 10)
+    return friction_curves(speed, kelvin, np.full(speed.size, 0.02))
+
+
+SAID: list[tuple[Callable[[], object], Reader, str]] = [
+    (
+        lambda: vf.shift_friction(synthetic_curves(30.0)),
+        "python",
+        "friction curves at one temperature, 30.0 °C, have no shift factor; give two or more.",
+    ),
+    (
+        lambda: vf.shift_friction(constant(30.0, 40.0)),
+        "python",
+        "friction curves at 30.0 and 40.0 °C are too flat: friction changes too little with speed for its errors, so "
+        "that any shift factor fits.",
+    ),
+    (
+        lambda: vf.shift_friction(synthetic_curves(30.0, 60.0)),
+        "python",
+        "friction curves at 30.0 and 60.0 °C do not overlap: no shift brings 2 or more points of one over another "
+        "(friction coefficients: 0.00491 to 0.00781, 0.0159 to 0.0252); measure at temperatures in between, or at more "
+        "speeds.",
+    ),
+    (
+        lambda: vf.shift_friction(synthetic_curves(30.0, 35.0, 78.0, 90.0), reference="60 degC"),
+        "python",
+        "no overlapping friction curves at 30.0, 35.0, 78.0 and 90.0 °C include the reference, 60.0 °C; choose another "
+        "reference, or measure at temperatures around it or at more speeds.",
+    ),
+    (
+        lambda: vf.shift_friction(replace(constant(50.0), load=np.repeat([10.0, 25.0], 5)), shift=LAW),
+        "page",
+        "load of the friction curves runs from 10 to 25 N, but a master curve holds at one load; give a ball, with which "
+        "loads are reduced to one.",
+    ),
+    (
+        lambda: vf.shift_friction(constant(50.0), shift=LAW)(1.0),
+        "python",
+        "reduced speed α(T)·v = 1 m/s at 50.0 °C is not covered: friction is known for 0.02 to 0.2 m/s, and this lies "
+        "0.7 decades above; predict it there with predict_friction().",
+    ),
+    (
+        lambda: vf.compare(ONE, replace(ONE, speed=np.array([0.06]))),
+        "python",
+        "the point measured at 30.00 °C, 50 mm/s and 25 N has no prediction; predict friction at measured.speeds, "
+        "measured.temperatures and the measured load.",
+    ),
+    (
+        lambda: ONE.at_temperature("60 degC"),
+        "python",
+        "temperature = 60.0 °C: there is no friction curve within 1 K of it; known temperatures: 30.0 °C.",
+    ),
+    (
+        drifting,
+        "page",
+        "temperature from 30.1 to 34.5 °C has no gaps and cannot be grouped into nominal values: if there is one nominal "
+        "value, give “Gap between temperatures”: 1.1 K; if there are several, one below 1 K; or leave out unsteady "
+        "readings by “Steps to leave out”.",
+    ),
+    (
+        lambda: one_way(zero=0.3),
+        "shell",
+        "At 2 of 2 conditions, the first being 30.0 °C and 100 mm/s, the signs of the velocities do not separate "
+        "viscoelastic and Coulomb friction; measure also u_disc < 0 with u_disc − u_ball < 0 or u_disc < 0 with u_disc − "
+        "u_ball > 0 or u_disc > 0 with u_disc − u_ball < 0, or give the Coulomb friction to assume (--coulomb).",
+    ),
+]
+
+
+@pytest.mark.parametrize(("call", "reader", "sentence"), SAID)
+def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str) -> None:
+    with pytest.raises(vf.ViscofricError) as caught:
+        call()
+    assert caught.value.words(reader) == sentence
