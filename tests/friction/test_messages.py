@@ -49,39 +49,51 @@ SAID: list[tuple[Callable[[], object], Reader, str]] = [
     (
         lambda: vf.shift_friction(constant(30.0, 40.0)),
         "python",
-        "friction curves at 30.0 and 40.0 °C are too flat: friction changes too little with speed for its errors, so "
-        "that any shift factor fits.",
+        (
+            "friction curves at 30.0 and 40.0 °C are too flat: friction changes too little with speed for its "
+            "errors, so that any shift factor fits."
+        ),
     ),
     (
         lambda: vf.shift_friction(synthetic_curves(30.0, 60.0)),
         "python",
-        "friction curves at 30.0 and 60.0 °C do not overlap: no shift brings 2 or more points of one over another "
-        "(friction coefficients: 0.00491 to 0.00781, 0.0159 to 0.0252); measure at temperatures in between, or at more "
-        "speeds.",
+        (
+            "friction curves at 30.0 and 60.0 °C do not overlap: no shift brings 2 or more points of one over "
+            "another (friction coefficients: 0.00491 to 0.00781, 0.0159 to 0.0252); measure at temperatures in "
+            "between, or at more speeds."
+        ),
     ),
     (
         lambda: vf.shift_friction(synthetic_curves(30.0, 35.0, 78.0, 90.0), reference="60 degC"),
         "python",
-        "no overlapping friction curves at 30.0, 35.0, 78.0 and 90.0 °C include the reference, 60.0 °C; choose another "
-        "reference, or measure at temperatures around it or at more speeds.",
+        (
+            "no overlapping friction curves at 30.0, 35.0, 78.0 and 90.0 °C include the reference, 60.0 °C; "
+            "choose another reference, or measure at temperatures around it or at more speeds."
+        ),
     ),
     (
         lambda: vf.shift_friction(replace(constant(50.0), load=np.repeat([10.0, 25.0], 5)), shift=LAW),
         "page",
-        "load of the friction curves runs from 10 to 25 N, but a master curve holds at one load; give a ball, with which "
-        "loads are reduced to one.",
+        (
+            "load of the friction curves runs from 10 to 25 N, but a master curve holds at one load; give a ball,"
+            " with which loads are reduced to one."
+        ),
     ),
     (
         lambda: vf.shift_friction(constant(50.0), shift=LAW)(1.0),
         "python",
-        "reduced speed α(T)·v = 1 m/s at 50.0 °C is not covered: friction is known for 0.02 to 0.2 m/s, and this lies "
-        "0.7 decades above; predict it there with predict_friction().",
+        (
+            "reduced speed α(T)·v = 1 m/s at 50.0 °C is not covered: friction is known for 0.02 to 0.2 m/s, and "
+            "this lies 0.7 decades above; predict it there with predict_friction()."
+        ),
     ),
     (
         lambda: vf.compare(ONE, replace(ONE, speed=np.array([0.06]))),
         "python",
-        "the point measured at 30.00 °C, 50 mm/s and 25 N has no prediction; predict friction at measured.speeds, "
-        "measured.temperatures and the measured load.",
+        (
+            "the point measured at 30.00 °C, 50 mm/s and 25 N has no prediction; predict friction at "
+            "measured.speeds, measured.temperatures and the measured load."
+        ),
     ),
     (
         lambda: ONE.at_temperature("60 degC"),
@@ -91,16 +103,21 @@ SAID: list[tuple[Callable[[], object], Reader, str]] = [
     (
         drifting,
         "page",
-        "temperature from 30.1 to 34.5 °C has no gaps and cannot be grouped into nominal values: if there is one nominal "
-        "value, give “Gap between temperatures”: 1.1 K; if there are several, one below 1 K; or leave out unsteady "
-        "readings by “Steps to leave out”.",
+        (
+            "temperature from 30.1 to 34.5 °C has no gaps and cannot be grouped into nominal values: if there is "
+            "one nominal value, give “Gap between temperatures”: 1.1 K; if there are several, one below 1 K; or "
+            "leave out unsteady readings by “Steps to leave out”."
+        ),
     ),
     (
         lambda: one_way(zero=0.3),
         "shell",
-        "At 2 of 2 conditions, the first being 30.0 °C and 100 mm/s, the signs of the velocities do not separate "
-        "viscoelastic and Coulomb friction; measure also u_disc < 0 with u_disc − u_ball < 0 or u_disc < 0 with u_disc − "
-        "u_ball > 0 or u_disc > 0 with u_disc − u_ball < 0, or give the Coulomb friction to assume (--coulomb).",
+        (
+            "At 2 of 2 conditions, the first being 30.0 °C and 100 mm/s, the signs of the velocities do not "
+            "separate viscoelastic and Coulomb friction; measure also u_disc < 0 with u_disc − u_ball < 0 or "
+            "u_disc < 0 with u_disc − u_ball > 0 or u_disc > 0 with u_disc − u_ball < 0, or give the Coulomb "
+            "friction to assume (--coulomb)."
+        ),
     ),
 ]
 

@@ -88,7 +88,13 @@ def test_a_given_zero_overrides_what_was_recorded_with_its_own_error() -> None:
         separate(runs, zero=(0.3, -0.1))
 
 
-@pytest.mark.parametrize("own", [True, False], ids=["one for each replicate", "shared by the replicates"])
+@pytest.mark.parametrize(
+    "own",
+    [
+        pytest.param(True, id="one for each replicate", marks=pytest.mark.slow),
+        pytest.param(False, id="shared by the replicates"),
+    ],
+)
 def test_errors_of_the_recorded_zeros_are_in_the_standard_errors(own: bool) -> None:
     """Intervals of 95 % hold the truth in 95 % of tests, whether scatter shows the error of the zero or not."""
     held = {"viscoelastic": 0, "coulomb": 0}

@@ -148,7 +148,7 @@ def test_half_a_replicate_is_refused() -> None:
         (lambda: vf.write_friction_curves(_RUNS, "x.csv"), "curves must be FrictionCurves"),  # type: ignore[arg-type]
         (lambda: vf.read_friction_curves(None), "None is not the name of a file"),  # type: ignore[arg-type]
         (lambda: vf.read_mtm(5), "5 is not the name of a file"),  # type: ignore[arg-type]
-        (lambda: vf.read_mtm(["a.csv", "b.csv"]), "one after the other"),  # type: ignore[arg-type]
+        (lambda: vf.read_mtm(["a.csv", "b.csv"]), "not in a list"),  # type: ignore[arg-type]
         (lambda: vf.separate(_RUNS, speed_tolerance="5 %"), "speed_tolerance = '5 %'"),  # type: ignore[arg-type]
         (lambda: vf.separate(_RUNS, zero="5 mm"), "zero = '5 mm': has the wrong kind of unit"),
         (lambda: _predict(temperatures=5.0), "plain numbers are kelvin"),

@@ -61,7 +61,7 @@ def test_shift_factors_and_fit_are_told_at_all_temperatures(identified: dict[str
     assert identified["factors"]["found"]
     assert len(identified["factors"]["temperature"]) == len(identified["fit"]) == 5
     assert identified["rms"] < 0.03
-    assert "points is met to" in identified["sentences"][0]
+    assert "points is fitted to" in identified["sentences"][0]
 
 
 def test_progress_runs_from_begin_to_end(identified: dict[str, Any], heard: list[dict[str, Any]]) -> None:

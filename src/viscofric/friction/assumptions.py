@@ -117,6 +117,7 @@ def check_assumptions(
                 f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.",
                 code="not-thermal-properties",
             )
+    thick = None if thickness is None else positive(thickness, "m", "thickness")
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))
     sizes = [
         ContactSize.of(material, indenter, curves, row, None if radii is None else float(radii[row]))
@@ -130,7 +131,6 @@ def check_assumptions(
     except InputError as error:  # the shift factors end where their slope is asked for
         sentence = f"The effect of warming on friction is unknown: {error}"
         isothermal = AssumptionCheck("one temperature", None, CHANGE, None, sentence)
-    thick = None if thickness is None else positive(thickness, "m", "thickness")
     coupled = check_coupling(curves, material.poisson_ratio, thick, sizes)
     return (
         check_half_space(material, curves, sizes, thick, CHANGE),

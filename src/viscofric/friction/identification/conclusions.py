@@ -123,7 +123,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     family: tuple[LevelFit, ...] = ()
     if not outcome.anchored:
         family = level_family(best, outcome.contacts, material_of, middle, levels, outcome.iterations + 1)
-    told = _told_anchors(best, drawn, middle, limit) if outcome.anchored else ()
+    of_anchors = _anchor_notes(best, drawn, middle, limit) if outcome.anchored else ()
     material = material_of(best.minimum.place, posterior.covariance)
     fitted, residuals = _fitted(outcome, posterior)
     levels_drawn = np.abs([one.complex_modulus(middle) for one in drawn.materials])
@@ -149,13 +149,13 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         error_scale=error_scale,
         roughness=problem.smoothness.roughness,
         iterations=outcome.iterations,
-        notes=(*points.notes, *doubts, *told),
+        notes=(*points.notes, *doubts, *of_anchors),
     )
     return replace(found, material=with_origin(found, outcome.curves.source))
 
 
 def _freedom(best: Weighed) -> float:
-    """Return the number of points less what the fit follows of their errors: the trace of the hat matrix."""
+    """Return the number of points minus the trace of the hat matrix."""
     _, jacobian = best.problem.measured(best.minimum.place)
     part = jacobian[: len(best.problem.observations.points)]
     return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
@@ -176,7 +176,7 @@ def _with_honest_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
 
 
 def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -> tuple[str, ...]:
-    """Say what the residuals, and the friction itself, leave in doubt."""
+    """Return notes on doubts about the residuals and the friction."""
     points = outcome.start.observations.points
     measured = points.at_one_load(outcome.curves)
     notes: list[str] = list(implausible(measured))
@@ -194,17 +194,17 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -
         notes.append(
             Note(
                 "not-one-rubber",
-                f"{scaled}, and {100.0 * missed:.2g} % of it: no linear rubber of a smooth spectrum makes this "
-                "friction, and nothing is identified, however narrow the bands of the nearest one; check "
-                "the measurement, the load and the indenter.",
+                f"{scaled}, and {100.0 * missed:.2g} % of it: no linear rubber of a smooth spectrum has this "
+                "friction, and nothing is identified, however narrow the bands of the nearest one; check the "
+                "measurement, the load and the indenter.",
             )
         )
     elif follow:
         notes.append(
             Note(
                 "structured-residuals",
-                f"{scaled}, which were multiplied by that, and follow each other along the speed: what is missed is no "
-                "scatter, and the bands are too narrow.",
+                f"{scaled}, which were multiplied by that, and are correlated along the speed: they are not scatter, "
+                "and the bands are too narrow.",
             )
         )
     else:
@@ -219,12 +219,12 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -
 
 
 def _residuals(best: Weighed) -> Array:
-    """Return modelled less measured ln μ of every point, over its error."""
+    """Return modelled minus measured ln μ of every point, over its error."""
     return best.problem.measured(best.minimum.place)[0][: len(best.problem.observations.points)]
 
 
 def _follow_each_other(best: Weighed, residuals: Array) -> bool:
-    """Whether residuals differ less from the next one than independent ones would.
+    """Whether successive residuals are correlated.
 
     In the order of reduced speed, or temperature by temperature.  J. von Neumann et al., Annals of Mathematical
     Statistics 12 (1941) 153.
@@ -239,21 +239,27 @@ def _follow_each_other(best: Weighed, residuals: Array) -> bool:
     return bool(max(found) > FOLLOWING)
 
 
-def _told_anchors(best: Weighed, drawn: MaterialSamples, middle: float, limit: float) -> tuple[str, ...]:
-    """Tell what was given of the level, if it does not fix it, or contradicts the friction or itself."""
+def _anchor_notes(best: Weighed, drawn: MaterialSamples, middle: float, limit: float) -> tuple[Note, ...]:
+    """Return notes on anchors that do not fix the level, or contradict the friction or each other."""
     notes = []
     spread = float(np.std([np.log(np.abs(one.complex_modulus(middle))) for one in drawn.materials], ddof=1))
     if spread > limit:
         notes.append(
-            "What was given of the modulus does not fix its level where friction tells something: the standard error "
-            f"of |E| at {middle:.2g} rad/s is {100.0 * spread:.2g} %; give an anchor near there."
+            Note(
+                "level-not-fixed",
+                "The anchor or prior does not fix the level of the modulus at the frequencies of the friction: the "
+                f"standard error of |E| at {middle:.2g} rad/s is {100.0 * spread:.2g} %; give an anchor near there.",
+            )
         )
     points = len(best.problem.observations.points)
     away = float(np.max(np.abs(best.problem.measured(best.minimum.place)[0][points:]), initial=0.0))
     if away > CONTRADICTED:
         notes.append(
-            f"What was given of the modulus is missed by {away:.2g} of its standard errors: it contradicts the "
-            "friction or itself."
+            Note(
+                "anchor-contradicted",
+                f"The anchor or prior differs from the fit by {away:.2g} of its standard errors: it contradicts the "
+                "friction or itself.",
+            )
         )
     return tuple(notes)
 
@@ -270,10 +276,10 @@ def _frequencies(best: Weighed) -> tuple[float, float, float]:
 
 
 def _expected(material_of: MaterialOf, best: Weighed, samples: int, random: np.random.Generator) -> MaterialSamples:
-    """Draw materials from what was assumed of the spectrum before anything was measured."""
+    """Draw materials from the prior of the spectrum."""
     smoothness = best.problem.smoothness
     drawn = np.linalg.solve(smoothness.matrix, random.standard_normal((len(smoothness.middle), samples)))
-    # About what was found: a level far off would only move the frequencies.
+    # About the result: another level would only move the frequencies.
     compliances = best.minimum.place[: best.problem.modes] + drawn.T
     spectra = [spectrum_of(row, smoothness.tau) for row in compliances]
     return MaterialSamples(

@@ -57,26 +57,26 @@ def identify_material(
     progress: Callable[[int, int, int], object] | None = None,
     workers: int = 1,
 ) -> IdentifiedMaterial:
-    """Identify the retardation spectrum, as far as friction tells it, and α(T) with it.
+    """Identify the retardation spectrum, and α(T), from friction.
 
     Parameters
     ----------
     curves : FrictionCurves
         Measured; points of infinite error are left out.
     indenter : Indenter
-        That was measured with, rigid, on a half-space.
+        Used for the measurement; rigid, on a half-space.
     load : float, str or pint.Quantity, optional
         Normal load of all points, N (of a line contact, N/m) if a plain number; each point has its own without it.
         Loads may differ for a Ball, an Ellipsoid, a Cone and a Cylinder, whose contacts are similar.
     shift : ShiftLaw, optional
-        α(T) as a DMA gave it, with its covariance where it has one; found from the friction without it.
+        α(T), as from a DMA, with its covariance where it has one; found from the friction if left out.
     anchor : ModulusAnchor, ContactAnchor or several of them, optional
-        What fixes the level of the modulus, which friction alone hardly does.
+        Measurements that fix the magnitude of the modulus, which friction alone hardly determines.
     prior : Material, MaterialSamples or MasterCurve, optional
-        What is known of E(ω) over a part of the frequencies; it fixes the level too.
+        E(ω) known over a part of the frequencies; it fixes the magnitude too.
     prior_band : (low, high), optional
-        Angular frequencies at the prior's reference over which it is known, rad/s if plain numbers; those that it was
-        measured or fitted at without it.
+        Angular frequencies at the prior's reference over which it is known, rad/s if plain numbers; by default those
+        that it was measured or fitted at.
     prior_error : float
         Relative standard error of E' and E'' of the prior, four values of each per decade; samples have their own.
     reference : float, str or pint.Quantity, optional
@@ -102,7 +102,7 @@ def identify_material(
         Called as ``progress(step, done, total)`` after every contact of a step; there are three to five steps as a
         rule, and one for each level of the family.
     workers : int
-        Processes that share the contacts out among them.
+        Processes that solve contacts.
 
     Returns
     -------
@@ -119,19 +119,18 @@ def identify_material(
     Notes
     -----
     The unknowns are ln C_k on a geometric grid of τ that reaches 1.9 decades beyond the contact's frequencies, ln E_inf
-    (what is faster acts as a spring) and ln α.  Minimised are the squared residuals of ln μ, of anchors and of the
-    prior, with a random walk of second order over ln C assumed of the spectrum, of a level and slope that hardly
-    matter; how rough it may be is weighed by the evidence.  ln μ is that of solved contacts with their adjoint
-    derivatives at four reduced speeds per decade; between them, and for neighbouring rubbers, what contacts differ by
-    from friction to first order in the loss is interpolated, and contacts are solved again until nothing moves, the
-    first ones to 1 % only.  A step whose contacts do not fit as it promised is tried again nearer by (a trust region).
-    The uncertainty is that of fits to other errors, of the measurement and of what was assumed (randomised maximum
-    likelihood).
+    (faster modes act as a spring) and ln α.  The squared residuals of ln μ, of anchors and of the prior are minimised,
+    with a random walk of second order over ln C as prior of the spectrum, of a level and slope that hardly matter; its
+    roughness is averaged by the evidence.  ln μ is that of solved contacts with their adjoint derivatives at four
+    reduced speeds per decade; between them, and for neighbouring materials, the difference between contacts and
+    friction to first order in the loss is interpolated, and contacts are solved again until convergence, the first ones
+    to 1 % only.  A step that does not improve the fit as predicted is shortened (a trust region).  The uncertainty is
+    that of fits to other errors, of the measurement and of the prior (randomised maximum likelihood).
 
-    Errors of the points are taken to be independent.  Those of replicates are drawn towards a common scatter.  What all
-    speeds of a run share, which `separate` notes with its size, is not modelled.  Shear is not part of the contacts: a
-    note gives what measured Coulomb friction changes on a half-space of the Poisson ratio; for thin rubber call
-    `check_assumptions` with the material found, and its thickness.
+    Errors of the points are taken as independent.  Those of replicates are moderated towards a common scatter.  Errors
+    that all speeds of a run share, which `separate` notes with their size, are not modelled.  Contacts are solved
+    without shear: a note gives the effect of measured Coulomb friction on a half-space of the Poisson ratio; for thin
+    rubber call `check_assumptions` with the material found, and its thickness.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Friction as it enters an identification: logarithms at one load, with standard errors that neighbours moderate."""
+"""Friction for an identification: logarithms at one load, with standard errors moderated by neighbours."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
-from viscofric.notes import Remedy
+from viscofric.notes import Note, Remedy
 from viscofric.units import celsius, positive
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 
-#: Fewer points than these say nothing of a spectrum's shape.
+#: Fewer points do not determine a spectrum's shape.
 FEWEST_POINTS = 6
 #: Coefficients of a parabola.
 PARABOLA = 3
@@ -92,7 +92,7 @@ class Points:
 
 
 def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | None, least_error: float) -> Points:
-    """Return the points of friction curves that say something.
+    """Return the usable points of friction curves.
 
     Parameters
     ----------
@@ -199,18 +199,19 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
             "the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard error')."
         )
     error = float(np.sqrt(squares / max(freedom - 2.0, 0.5 * freedom)))  # of Student's distribution
-    told = (
-        f"The friction curves have no standard errors; {100.0 * error:.2g} % is taken, by which the points of each "
-        "temperature scatter about a parabola."
+    note = Note(
+        "errors-from-scatter",
+        f"The friction curves have no standard errors; {100.0 * error:.2g} % is assumed, the scatter of the points of "
+        "each temperature about a parabola.",
     )
-    return replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic)), told
+    return replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic)), note
 
 
 def relative_errors(curves: FrictionCurves) -> Array:
-    """Return standard errors of ln μ, each drawn towards the common one as chance asks.
+    """Return standard errors of ln μ, moderated towards the common one.
 
-    Few replicates tell their own scatter badly: of eight, to a quarter, and to weigh points by it would make the
-    fit worse than its errors say.  With ν0 the freedom of the common variance s0², that of a point is
+    Few replicates give a poor estimate of their scatter, eight to a quarter; points weighted by it would make the fit
+    worse than its errors.  With ν0 the freedom of the common variance s0², that of a point is
     (ν0 s0² + ν s²)/(ν0 + ν); ν0 follows from how much more ln s² scatters than chance.  The error of a mean then has
     Student's distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2).
 
@@ -220,10 +221,10 @@ def relative_errors(curves: FrictionCurves) -> Array:
     """
     errors = curves.viscoelastic_error / curves.viscoelastic
     freedom, _ = error_freedom(curves)
-    told = np.isfinite(freedom) & (errors > 0.0)
-    if np.count_nonzero(told) < FEWEST_POINTS:
+    known = np.isfinite(freedom) & (errors > 0.0)
+    if np.count_nonzero(known) < FEWEST_POINTS:
         return np.asarray(errors)
-    errors[told] = np.sqrt(moderated_variances(errors[told] ** 2, freedom[told]))
+    errors[known] = np.sqrt(moderated_variances(errors[known] ** 2, freedom[known]))
     return np.asarray(errors)
 
 

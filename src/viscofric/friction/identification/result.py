@@ -1,4 +1,4 @@
-"""What an identification gives back: the material, how well each part of it is known, and what is not."""
+"""Result of an identification: the material, the uncertainty of each part of it, and its limits."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ NOTHING_IDENTIFIED = frozenset({"not-one-rubber", "too-steep", "constant-frictio
 
 @dataclass(frozen=True)
 class IdentifiedBand:
-    """Angular frequencies at the reference over which friction tells a modulus.
+    """Angular frequencies at the reference over which friction determines a modulus.
 
     Attributes
     ----------
     low, high : float
         rad/s; equal where there is none.
     limit : float
-        Relative standard error of the modulus that is not exceeded between them.
+        Largest relative standard error of the modulus between them.
     relative : bool
-        Whether it is the modulus over that at the middle frequency: the level itself is not known.
+        Whether it is the modulus over that at the middle frequency, as its magnitude is not known.
     """
 
     low: float
@@ -58,7 +58,7 @@ class IdentifiedBand:
 
 @dataclass(frozen=True, eq=False)
 class LevelFit:
-    """The material of one level of the modulus that fits the friction best.
+    """The best-fitting material of a given magnitude of the modulus.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class LevelFit:
     rms : float
         Root mean square of the relative residuals.
     penalty : float
-        Rise of chi2 with what is assumed of the spectrum counted in, over the best level; 3.84 is the 95 % limit.
+        Rise of chi2, including the prior of the spectrum, over the best level; 3.84 is the 95 % limit.
     """
 
     factor: float
@@ -85,7 +85,7 @@ class LevelFit:
 
 @dataclass(frozen=True, eq=False)
 class IdentifiedMaterial:
-    """A rubber found from its friction.
+    """A material identified from its friction.
 
     Samples, bands and standard errors assume a smooth spectrum; it may end, or rise to the glass transition, within a
     decade of the first or the last of the contact's frequencies.  Friction cannot show that this fails: a spectrum of
@@ -94,7 +94,7 @@ class IdentifiedMaterial:
     Attributes
     ----------
     material : Material
-        That of the greatest posterior density, at the reference.
+        Of the greatest posterior density, at the reference.
     samples : MaterialSamples
         Materials drawn from the posterior density: their spread is the uncertainty.
     shift_factors : ShiftLaw or None
@@ -112,24 +112,24 @@ class IdentifiedMaterial:
     frequency_range : (float, float)
         Lowest and highest frequency v/a of the contacts at the reference, rad/s.
     level_range : (float, float)
-        Limits between which |E| at the middle frequency lies in 95 % of the samples, Pa.  Without an anchor they rest
-        on what is assumed of the spectrum, and do not hold the truth as often.
+        95 % limits of |E| at the middle frequency from the samples, Pa.  Without an anchor they depend on the prior of
+        the spectrum, and hold less often.
     family : tuple of LevelFit
-        Without an anchor: what friction alone cannot tell apart; empty with one.
+        Without an anchor: materials with nearly the same friction; empty with one.
     friction : FrictionCurves
         Of the identified material at the measured points, with 95 % limits.
     residuals : (n,) array
-        Measured less fitted, over the standard error, in the order of `friction`.
+        Measured minus fitted, over the standard error, in the order of `friction`.
     chi2, freedom : float
-        Sum of their squares, and their number less what the fit has taken up.
+        Sum of their squares, and their degrees of freedom.
     rms : float
         Root mean square of the relative residuals.
     error_scale : float
-        What the standard errors of the measurement were multiplied by, because the residuals are larger.
+        Factor by which the standard errors of the measurement were multiplied, as the residuals are larger.
     roughness : float
         Standard deviation of d ln C/d ln τ over an e-fold of τ for which there is most evidence.
     iterations : int
-        Steps that were made, contacts solved in each.
+        Steps made, with contacts solved in each.
     notes : tuple of str
         One sentence each.
     """
@@ -255,48 +255,48 @@ class IdentifiedMaterial:
 
     @property
     def known(self) -> tuple[str, ...]:
-        """What of the modulus is identified, one sentence each: what goes with the material into its file."""
-        return (*self._told_level(), self._told_band())
+        """The identified parts of the modulus, one sentence each; they are stored with the material."""
+        return (*self._level_words(), self._band_words())
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """What was found, and what not, one sentence each."""
-        return (self._told_fit(), *self.known, *self._told_shift(), *self.notes)
+        """The result and its limits, one sentence each."""
+        return (self._fit_words(), *self.known, *self._shift_words(), *self.notes)
 
-    def _told_fit(self) -> str:
+    def _fit_words(self) -> str:
         return (
-            f"The friction of {len(self.friction)} points is met to {100.0 * self.rms:.2g} % (root mean square); χ² = "
-            f"{self.chi2:.3g} with {self.freedom:.3g} degrees of freedom."
+            f"The friction of {len(self.friction)} points is fitted to {100.0 * self.rms:.2g} % (root mean square); χ² "
+            f"= {self.chi2:.3g} with {self.freedom:.3g} degrees of freedom."
         )
 
-    def _told_level(self) -> tuple[str, ...]:
+    def _level_words(self) -> tuple[str, ...]:
         low, high = self.level_range
         if self.anchored:
             return ()
         sentence = (
-            "The level of the modulus is not identified: friction alone hardly tells it, and no anchor or prior was "
-            f"given; that |E| at {self.middle:.2g} rad/s is {low / 1e6:.3g} to {high / 1e6:.3g} MPa rests on what was "
-            "assumed of the spectrum and not on the friction, so that every modulus holds up to a factor, and the "
-            "family tells which materials give nearly the same friction."
+            "The level of the modulus is not identified: friction alone hardly determines it, and no anchor or prior "
+            f"was given. |E| at {self.middle:.2g} rad/s, {low / 1e6:.3g} to {high / 1e6:.3g} MPa, follows from the "
+            "prior of the spectrum and not from the friction, so that every modulus is known up to a factor; the "
+            "family has materials with nearly the same friction."
         )
         return (sentence,)
 
-    def _told_band(self) -> str:
+    def _band_words(self) -> str:
         band = self.identified
         about = "" if self.shift_factors is None else f" at {celsius(float(self.shift_factors.reference)):.1f} °C"
         of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
         if codes(self.notes) & NOTHING_IDENTIFIED:
-            return "Nothing of the modulus is identified: the friction does not show that a rubber's loss makes it."
+            return "Nothing of the modulus is identified: the friction may not come from the loss of a rubber."
         if band.high <= band.low:
             return f"Nowhere is the standard error of {of} {100.0 * band.limit:g} % or less."
         return (
             f"The standard error of {of} is {100.0 * band.limit:g} % or less from {band.low:.2g} to {band.high:.2g} "
             f"rad/s{about}, {band.decades:.1f} decades, that of E'' over {self.identified_loss.decades:.1f} of them; "
-            "beyond, the material is an extrapolation, with the band of a smooth spectrum. All bands assume a smooth "
-            "spectrum: one mode per decade ripples E'' by about 6 %, which friction averages out and no band includes."
+            "beyond, the material is extrapolated, with the band of a smooth spectrum. All bands assume a smooth "
+            "spectrum: one mode per decade makes E'' oscillate by about 6 %, which friction averages and no band has."
         )
 
-    def _told_shift(self) -> tuple[str, ...]:
+    def _shift_words(self) -> tuple[str, ...]:
         from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
         if not self.shift_found or not isinstance(self.shift_factors, ShiftFactors):
