@@ -42,7 +42,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 
 def test_rubber_is_that_of_the_run_file(workspace: Context) -> None:
     made = rubbers.made_rubber({"material": {**SWEEPS, "shift": "wlf+arrhenius"}}, workspace)
-    table = material_of({**SWEEPS, "shift": "wlf+arrhenius"}).beside(EXAMPLE.parent)
+    table = material_of({**SWEEPS, "shift": "wlf+arrhenius"}).relative_to(EXAMPLE.parent)
     whole = rubbers.make_rubber(table)
     assert made.shift_used == "wlf+arrhenius"
     np.testing.assert_array_equal(made.material.modes_at().C, whole.material.modes_at().C)

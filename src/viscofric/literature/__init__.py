@@ -1,1 +1,1 @@
-"""Which papers a result rests on: the references, which of them a result needs, and how they are printed."""
+"""The papers behind each result: references, the references of a result, and their output."""

@@ -1,4 +1,4 @@
-"""What each kind of result rests on: references, each with what for."""
+"""The references of each kind of result, with the reasons."""
 
 from __future__ import annotations
 
@@ -42,10 +42,11 @@ _LAWS: tuple[type[ParametricLaw], ...] = (WLF, Arrhenius, VFT, WLFArrhenius, Inv
 
 @singledispatch
 def basis(result: object) -> Basis:
-    """Yield the references that a result rests on, each with what for."""
+    """Yield the references of a result, each with the reason."""
     raise InputError(
-        f"citations() does not know what a {type(result).__name__} rests on; give a rubber, a contact, friction "
-        "curves, a master curve, Persson's theory or results of a study."
+        f"citations() has no references for a {type(result).__name__}; give a material, a contact, friction "
+        "curves, a master curve, Persson's theory or results of a study.",
+        code="no-references",
     )
 
 
@@ -70,7 +71,7 @@ def _of_spectrum(spectrum: RetardationSpectrum) -> Basis:
 
 
 def modes(method: str = "") -> Basis:
-    """Yield what a retardation spectrum rests on, as it is or fitted by a method of `fit_retardation_spectrum`."""
+    """Yield the references of a retardation spectrum, given or fitted by a method of `fit_retardation_spectrum`."""
     yield PAPER, "the rubber as a sum of retardation modes (Eqs. 3 and 5)"
     if method == FROM_FRICTION:
         yield from _identification()
@@ -96,7 +97,7 @@ def _of_shift(shift: ShiftLaw) -> Basis:
 
 
 def shifted_by(law: type[ShiftLaw]) -> Basis:
-    """Yield what shift factors of a kind rest on."""
+    """Yield the references of shift factors of a kind."""
     yield PAPER, "time-temperature superposition (Eq. 4)"
     if issubclass(law, (WLF, WLFArrhenius)):
         yield from _for("law of the shift factors", "williams1955")
@@ -111,7 +112,7 @@ def _of_laws(laws: LawComparison) -> Basis:
 
 
 def compared_laws() -> Basis:
-    """Yield what the choice of a shift law rests on."""
+    """Yield the references of the choice of a shift law."""
     yield from _for("choice of the law", "akaike1974")
 
 
@@ -121,7 +122,7 @@ def _of_superposition(fit: Superposition) -> Basis:
 
 
 def superposed_sweeps() -> Basis:
-    """Yield what the superposition of sweeps rests on."""
+    """Yield the references of the superposition of sweeps."""
     yield PAPER, "time-temperature superposition (Eq. 4)"
     yield from _for("shift factors and common curves sought together", "golub1973")
     yield from _for("how smooth the common curves are", "wood2011")
@@ -150,7 +151,7 @@ def _of_contact(solution: ContactSolution) -> Basis:
 
 
 def solved_contact(*, line: bool) -> Basis:
-    """Yield what a solved contact of a single indenter rests on."""
+    """Yield the references of a solved contact of a single indenter."""
     yield PAPER, "the contact problem and its Green's function (Eq. 8)"
     yield from _for("the method of boundary elements for steady viscoelastic contact", "carbone2013")
     if not line:
@@ -171,7 +172,7 @@ def _of_periodic(solution: PeriodicSolution) -> Basis:
 
 
 def solved_surface() -> Basis:
-    """Yield what a solved contact of a periodic surface rests on."""
+    """Yield the references of a solved contact of a periodic surface."""
     yield PAPER, "the contact problem, here in Fourier space"
     yield from _for("operator splitting and its acceleration", "lions1979", "anderson1965")
     yield from _for("the linear solver", "eisenstat1983")
@@ -212,12 +213,12 @@ def _of_curves(curves: FrictionCurves) -> Basis:
 
 
 def separated_friction() -> Basis:
-    """Yield what viscoelastic friction rests on that was separated from Coulomb friction."""
+    """Yield the references of viscoelastic friction separated from Coulomb friction."""
     yield PAPER, "separation of viscoelastic from Coulomb friction (Eq. 9)"
 
 
 def banded_friction() -> Basis:
-    """Yield what the band of predicted friction rests on."""
+    """Yield the references of the uncertainty band of predicted friction."""
     yield from _for("uncertainty of the rubber", "efron1993")
     yield from _adjoint()
 
@@ -230,7 +231,7 @@ def _of_master(master: FrictionMasterCurve) -> Basis:
 
 
 def shifted_friction(*, found: bool) -> Basis:
-    """Yield what a friction master curve rests on, given or found shift factors."""
+    """Yield the references of a friction master curve, with given or found shift factors."""
     yield from one_curve()
     yield from _for("the smooth curve through the points", "cleveland1979")
     if found:
@@ -238,7 +239,7 @@ def shifted_friction(*, found: bool) -> Basis:
 
 
 def one_curve() -> Basis:
-    """Yield what friction at all temperatures on one curve rests on."""
+    """Yield the references of one friction curve for all temperatures."""
     yield PAPER, "one friction curve for all temperatures (Eq. 10)"
 
 

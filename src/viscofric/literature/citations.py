@@ -1,4 +1,4 @@
-"""The papers that results rest on, each with what for: `citations`."""
+"""The papers behind results, with the reasons: `citations`."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ _WIDTH = 118
 
 @dataclass(frozen=True)
 class Citation:
-    """A reference, and what it is cited for.
+    """A reference, and the reasons to cite it.
 
     Attributes
     ----------
     reference : Reference
     reasons : tuple of str
-        What of the result rests on it, a few words each.
+        The parts of the result that use it, a few words each.
     """
 
     reference: Reference
@@ -37,7 +37,7 @@ class Citation:
 
 @dataclass(frozen=True)
 class Citations:
-    """References that results rest on, the software first; printed as a list, or as BibTeX.
+    """References of results, the software first; printed as a list, or as BibTeX.
 
     Attributes
     ----------
@@ -74,19 +74,19 @@ class Citations:
         return tuple(entry.reference.key for entry in self.entries)
 
     def bibtex(self) -> str:
-        """Return all entries of BibTeX, in UTF-8, one below the other."""
+        """Return all BibTeX entries, in UTF-8, one below the other."""
         return "\n\n".join(entry.reference.bibtex() for entry in self.entries) + "\n"
 
 
 def citations(*results: object) -> Citations:
-    """Name the papers that results rest on: methods, laws and data, each with what it is cited for.
+    """Return the papers behind results: methods, laws and data, each with the reason to cite it.
 
     Parameters
     ----------
     *results : Material, Superposition, ContactSolution, FrictionCurves, StudyResults and others
-        One or several: a rubber, its spectrum, shifts, laws and samples; a `Layer`; solutions of contacts, friction
-        curves and master curves; an identified rubber; surfaces' spectra, Persson's theory and friction on rough
-        surfaces; results of a study, which know all of their parts.
+        One or several: a material, its spectrum, shifts, laws and samples; a `Layer`; solutions of contacts, friction
+        curves and master curves; an identified material; surfaces' spectra, Persson's theory and friction on rough
+        surfaces; results of a study, which contain all of these.
 
     Returns
     -------
@@ -96,12 +96,12 @@ def citations(*results: object) -> Citations:
     Raises
     ------
     InputError
-        If nothing is given, or something that is no result.
+        If nothing is given, or something that is not a result.
 
     Notes
     -----
-    A result tells what it holds: a contact does not know its rubber, nor friction curves how their rubber was found.
-    Give these too, as in the example.  Titles and DOIs that could not be confirmed are left out of the references.
+    A contact does not contain its material, nor do friction curves contain the fit of theirs: give these, too, as in
+    the example.  Titles and DOIs that could not be confirmed are left out of the references.
 
     Examples
     --------
@@ -118,14 +118,16 @@ polymers and other glass-forming liquids”, J. Am. Chem. Soc. 77 (1955) 3701–
     True
     """
     if not results:
-        raise InputError("citations() needs a result: a rubber, a contact, friction curves, results of a study …")
+        raise InputError(
+            "citations() needs a result: a material, a contact, friction curves, results of a study …", code="no-result"
+        )
     reasons: dict[Reference, list[str]] = {_software(): ["what everything here was computed with"]}
     for result in results:
         for reference, reason in basis(result):
             known = reasons.setdefault(reference, [])
             if reason not in known:
                 known.append(reason)
-    return Citations(tuple(Citation(reference, tuple(told)) for reference, told in reasons.items()))
+    return Citations(tuple(Citation(reference, tuple(known)) for reference, known in reasons.items()))
 
 
 def _software() -> Reference:

@@ -1,10 +1,10 @@
-"""One reference: printed for readers, and as an entry of BibTeX."""
+"""One reference: printed for readers, and as a BibTeX entry."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-#: What LaTeX takes for commands in the text of a field.
+#: Characters that are commands of LaTeX.
 _ESCAPED = str.maketrans({"&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "$": r"\$"})
 
 
@@ -17,18 +17,18 @@ class Reference:
     key : str
         Of the BibTeX entry.
     authors : tuple of str
-        Initials before the family name; empty where they are not known.
+        Initials before the family name; empty if unknown.
     year : int or None
     title : str
-        Empty where only the place is known.
+        Empty if unknown.
     journal, volume, pages : str
         Of a paper; `pages` may be its first page, or its number.
     publisher : str
         Of a book.
     doi : str
-        Empty where there is none, or none that is certain.
+        Empty if there is none, or none that is certain.
     note : str
-        What else is to be said, or all that is known of the source.
+        Further text, or all that is known of the source.
     """
 
     key: str
@@ -53,7 +53,7 @@ class Reference:
         return ", ".join(part for part in (", ".join(self.authors), title, where, doi, self.note) if part)
 
     def bibtex(self) -> str:
-        """Return the entry of BibTeX, in UTF-8."""
+        """Return the BibTeX entry, in UTF-8."""
         kind = "article" if self.journal else "book" if self.publisher else "misc"
         fields = {
             "author": " and ".join(author if "." in author else f"{{{author}}}" for author in self.authors),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -69,7 +69,6 @@ class Solved:
         ]
 
 
-@dataclass(frozen=True, eq=False)
 class Contacts:
     """The contacts of a study.
 
@@ -86,19 +85,11 @@ class Contacts:
         Of all of them together, so that they share solved contacts.
     """
 
-    study: Study
-    rubbers: Sequence[StudyRubber]
-    measured: Measurement | None
-    sweep: Sweep = field(init=False)
-    at_points: tuple[Case, ...] = field(init=False)
-    along: tuple[Case, ...] = field(init=False)
-    plan: Plan = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "sweep", self.study.sweep())
-        object.__setattr__(self, "at_points", self._at_points())
-        object.__setattr__(self, "along", self._along())
-        object.__setattr__(self, "plan", self._plan())
+    def __init__(self, study: Study, rubbers: Sequence[StudyRubber], measured: Measurement | None) -> None:
+        self.study, self.rubbers, self.measured = study, rubbers, measured
+        self.sweep: Sweep = study.sweep()
+        self.at_points, self.along = self._at_points(), self._along()
+        self.plan: Plan = self._plan()
 
     def results(self) -> tuple[Solved, Solved, Solved]:
         """Return the three parts with their results; raise `InputError` if the plan has not run."""

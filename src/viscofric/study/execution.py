@@ -56,7 +56,7 @@ def run_study(
     path : str or Path
         The run file (TOML).
     output : str or Path, optional
-        Folder for the results; ``<run file>.results`` beside the run file if not given.
+        Folder for the results; ``<run file>.results`` next to the run file if not given.
     resume : bool
         Whether the folder may hold what another run left, finished or not.  Contacts that are solved there are taken as
         they are if they are the same to the last digit, whatever the run file was then, and the results are replaced.

@@ -104,7 +104,7 @@ class Rubber:
         return said
 
 
-def make_rubber(wanted: MaterialTable, *, liquids: bool = False) -> Rubber:
+def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
     """Return the material of [material] of a run file, whose paths are resolved.
 
     With `liquids`, a liquid, which has no spectrum for contacts, becomes a table of its master curve, with a note.
@@ -116,98 +116,96 @@ def make_rubber(wanted: MaterialTable, *, liquids: bool = False) -> Rubber:
     DataFileError, SuperpositionError, InputError
         If a file cannot be used or does not state tension or shear, or the fit fails.
     """
-    if wanted.dma is not None:
-        return _from_sweeps(wanted, liquids)
-    return _ready(wanted) if wanted.master_curve is None else _from_master_curve(wanted, liquids)
+    if table.dma is not None:
+        return _from_sweeps(table, liquids)
+    return _predefined(table) if table.master_curve is None else _from_master_curve(table, liquids)
 
 
-def _ready(wanted: MaterialTable) -> Rubber:
+def _predefined(table: MaterialTable) -> Rubber:
     notes: tuple[str, ...] = ()
     synthetic = False
-    if wanted.file is None:
-        entry = catalogue_entry(str(wanted.catalogue))
+    if table.file is None:
+        entry = catalogue_entry(str(table.catalogue))
         material, synthetic, source = catalogue_material(entry.name), entry.kind != "published", "the catalogue"
     else:
-        card = open_card(wanted.file)
-        material, notes, source = card.material, tuple(card.notes), f"the file {wanted.file.name}"
-    if wanted.reference_temperature is not None:
-        material = material.at_reference(wanted.reference_temperature)
-    if wanted.name:
-        material = replace(material, name=wanted.name)
+        card = open_card(table.file)
+        material, notes, source = card.material, tuple(card.notes), f"the file {table.file.name}"
+    if table.reference_temperature is not None:
+        material = material.at_reference(table.reference_temperature)
+    if table.name:
+        material = replace(material, name=table.name)
     return Rubber(material, notes=notes, source=source, synthetic=synthetic)
 
 
-def _from_sweeps(wanted: MaterialTable, liquids: bool) -> Rubber:
-    files = wanted.dma or ()
+def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
+    files = table.dma or ()
     name = str(files[0]) if len(files) == 1 else f"{files[0]} and {len(files) - 1} more"
     sweeps = read_dma(
         *files,
-        deformation=wanted.deformation,
-        temperature=wanted.temperature,
-        modulus_unit=wanted.modulus_unit,
+        deformation=table.deformation,
+        temperature=table.temperature,
+        modulus_unit=table.modulus_unit,
     )
     try:
-        fit = _superposed(wanted, sweeps)
-        shift, laws, used = _law_or_table(wanted.shift, fit.shift_factors)
+        fit = _superposed(table, sweeps)
+        shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
     except DataFileError:
         raise  # it names its file
     except InputError as error:
         raise error.at(name) from error
-    spectrum, flowing = _spectrum(wanted, fit.master_curve, _verdict(fit), liquids)
+    spectrum, flowing = _spectrum(table, fit.master_curve, _verdict(fit), liquids)
     material = Material(
         spectrum,
         shift=shift,
-        poisson_ratio=wanted.poisson_ratio,
-        name=wanted.name,
+        poisson_ratio=table.poisson_ratio,
+        name=table.name,
         vertical_shift=fit.vertical_shift,
     )
-    notes = (*fit.notes, *flowing, *_undecided(laws, wanted.shift))
-    origin = "given" if wanted.shift_factors else "held" if wanted.fixed_shift_factors else "found"
+    notes = (*fit.notes, *flowing, *_undecided(laws, table.shift))
+    origin = "given" if table.shift_factors else "held" if table.fixed_shift_factors else "found"
     return Rubber(material, sweeps=sweeps, fit=fit, laws=laws, shift_used=used, shift_origin=origin, notes=notes)
 
 
-def _from_master_curve(wanted: MaterialTable, liquids: bool) -> Rubber:
+def _from_master_curve(table: MaterialTable, liquids: bool) -> Rubber:
     """Use a given master curve, with its shift factors if they are given."""
-    path, reference = wanted.master_curve, wanted.reference_temperature
+    path, reference = table.master_curve, table.reference_temperature
     if path is None or reference is None:
         raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
     curve = read_master_curve(
         path,
         reference,
-        deformation=wanted.deformation,
-        poisson_ratio=wanted.poisson_ratio,
-        modulus_unit=wanted.modulus_unit,
+        deformation=table.deformation,
+        poisson_ratio=table.poisson_ratio,
+        modulus_unit=table.modulus_unit,
     )
     shift: ShiftLaw | None = None
-    if wanted.shift_factors is not None:
-        factors = read_shift_factors(wanted.shift_factors, reference)
-        shift, laws, used = _law_or_table(wanted.shift, factors)
+    if table.shift_factors is not None:
+        factors = read_shift_factors(table.shift_factors, reference)
+        shift, laws, used = _law_or_table(table.shift, factors)
     else:
         laws, used = None, ""
-    spectrum, flowing = _spectrum(wanted, curve, (), liquids)
-    material = Material(spectrum, shift=shift, poisson_ratio=wanted.poisson_ratio, name=wanted.name)
-    notes = (*flowing, *_undecided(laws, wanted.shift))
+    spectrum, flowing = _spectrum(table, curve, (), liquids)
+    material = Material(spectrum, shift=shift, poisson_ratio=table.poisson_ratio, name=table.name)
+    notes = (*flowing, *_undecided(laws, table.shift))
     return Rubber(material, master_curve=curve, laws=laws, shift_used=used, notes=notes)
 
 
-def _undecided(laws: LawComparison | None, wanted: str) -> tuple[str, ...]:
+def _undecided(laws: LawComparison | None, choice: str) -> tuple[str, ...]:
     """Return notes about an undecided choice among laws, if the best law is used."""
-    if laws is None or wanted != "best":
+    if laws is None or choice != "best":
         return ()
     return tuple(note for note in laws.notes if note.code == "laws-undecided")
 
 
 def _spectrum(
-    wanted: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...], liquids: bool
+    table: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...], liquids: bool
 ) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
     """Fit the spectrum; warnings about the master curve go into it, so that they stay in its file.
 
     A liquid becomes a table, with a note, or is refused.
     """
     try:
-        spectrum = fit_retardation_spectrum(
-            curve, tau_ratio=wanted.tau_ratio, method=wanted.spectrum, modes=wanted.modes
-        )
+        spectrum = fit_retardation_spectrum(curve, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
     except LiquidError as error:
         if not liquids:
             raise
@@ -223,34 +221,34 @@ def _verdict(fit: Superposition) -> tuple[str, ...]:
     return tuple(failed if check.consistent else [*failed, check.sentences[-1]])
 
 
-def _superposed(wanted: MaterialTable, sweeps: IsothermalSweeps) -> Superposition:
-    reference = wanted.reference_temperature
+def _superposed(table: MaterialTable, sweeps: IsothermalSweeps) -> Superposition:
+    reference = table.reference_temperature
     if reference is None:
         raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
-    given = None if wanted.shift_factors is None else read_shift_factors(wanted.shift_factors)
+    given = None if table.shift_factors is None else read_shift_factors(table.shift_factors)
     return superpose(
         sweeps,
         reference,
-        poisson_ratio=wanted.poisson_ratio,
-        vertical=None if wanted.vertical_shift == "none" else wanted.vertical_shift,
+        poisson_ratio=table.poisson_ratio,
+        vertical=None if table.vertical_shift == "none" else table.vertical_shift,
         shift=given,
-        fixed=wanted.fixed_shift_factors or None,
+        fixed=table.fixed_shift_factors or None,
     )
 
 
-def _law_or_table(wanted: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:
+def _law_or_table(choice: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:
     """Return α(T) as requested, the comparison of laws, and the choice."""
     try:
         laws = factors.compare_laws()
     except InputError:  # no law describes the factors
         laws = None
-        if wanted == "best":
+        if choice == "best":
             raise
-    if wanted == "measured":
-        return factors, laws, wanted
-    if wanted == "best" and laws is not None:
+    if choice == "measured":
+        return factors, laws, choice
+    if choice == "best" and laws is not None:
         return laws.best, laws, laws.chosen.kind
-    return factors.law(wanted), laws, wanted
+    return factors.law(choice), laws, choice
 
 
 def shift_of(rubber: Rubber) -> ShiftLaw:

@@ -45,7 +45,7 @@ MATERIAL_FILE = "rubber.json"
 
 
 def run_material(
-    wanted: MaterialTable,
+    table: MaterialTable,
     output: str | Path,
     *,
     title: str = "Rubber",
@@ -57,7 +57,7 @@ def run_material(
 
     Parameters
     ----------
-    wanted : MaterialTable
+    table : MaterialTable
     output : str or Path
         Folder for the results, made if missing.
     title, command : str
@@ -83,8 +83,8 @@ def run_material(
     import xarray
 
     folder = Path(output)
-    hashes = input_hashes(wanted.inputs)
-    rubber = make_rubber(wanted, liquids=True)
+    hashes = input_hashes(table.inputs)
+    rubber = make_rubber(table, liquids=True)
     draws = draw_rubber(rubber, samples)
     tree = xarray.DataTree.from_dict(rubber_groups(rubber, draws))
     tree.attrs = {

@@ -1,7 +1,6 @@
-"""What shows that the contact engine is right: checks against closed forms, other solvers, energy, and refinement.
+"""Verification of the contact engine: checks against closed forms, other solvers, energy balance, and refinement.
 
-They are what ``viscofric verify`` runs and what the verification page shows, and they are tested to fail where they
-should.
+``viscofric verify`` and the verification page run them; tests show that each check can fail.
 """
 
 from viscofric.verification import (
@@ -18,7 +17,7 @@ from viscofric.verification import (
 )
 from viscofric.verification.check import Check, Comparison, Outcome, run_checks, select
 
-#: All checks, in the order in which they are told.
+#: All checks, in the order of the report.
 CHECKS: tuple[Check, ...] = (
     *elastic.CHECKS,
     *waves.CHECKS,

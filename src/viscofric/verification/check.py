@@ -1,4 +1,4 @@
-"""A check: numbers that are computed, numbers that are known in another way, and how far they may differ, and why."""
+"""A check: computed numbers, numbers known independently, and the allowed differences with their reasons."""
 
 from __future__ import annotations
 
@@ -20,19 +20,18 @@ Measure: TypeAlias = Literal["relative", "absolute", "at least", "at most"]
 
 @dataclass(frozen=True)
 class Comparison:
-    """One number against what it should be.
+    """One computed number and its expected value.
 
     Attributes
     ----------
     case : str
-        The problem that was solved.
+        The solved problem.
     quantity : str
-        What is compared, with its unit or what it is counted in.
-    computed, expected : float
+        What is compared, with its unit.
     bound : float
-        Largest error with which it passes.
+        Largest error that passes.
     measure : {"relative", "absolute", "at least", "at most"}
-        What the error is.  With the last two it is what the number lacks of the expected one, or exceeds it by.
+        Kind of error; of the last two, the amount below or above the expected number.
     """
 
     case: str
@@ -44,7 +43,7 @@ class Comparison:
 
     @property
     def error(self) -> float:
-        """Difference in the given measure; infinite where there is no number to compare."""
+        """Difference in the given measure; infinite without a number to compare."""
         difference = self.computed - self.expected
         if not math.isfinite(difference):
             return math.inf
@@ -63,7 +62,7 @@ class Comparison:
 
     @property
     def severity(self) -> float:
-        """Error over bound; what is worst of a check is shown."""
+        """Error over bound; the largest of a check is shown."""
         if self.bound > 0.0:
             return self.error / self.bound
         return 0.0 if self.error == 0.0 else math.inf
@@ -71,22 +70,22 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Check:
-    """One witness: a set of comparisons of one kind.
+    """A set of comparisons of one kind.
 
     Attributes
     ----------
     name : str
-        As the command line takes it.
+        On the command line.
     title : str
-        What is checked, in a few words.
+        Subject, in a few words.
     group : str
-        The kind of witness: closed forms, reference values, …
+        Kind: closed forms, reference values, …
     source : str
-        Where the expected numbers come from.
+        Source of the expected numbers.
     reason : str
-        Why the bounds are what they are.
+        Reason for the bounds.
     compare : callable
-        Does the work and yields the comparisons.
+        Computes and yields the comparisons.
     """
 
     name: str
@@ -97,12 +96,9 @@ class Check:
     compare: Callable[[], Iterable[Comparison]]
 
     def run(self, backend: str = "scipy") -> Outcome:
-        """Do the work; a contact that could not be solved is a failure and is told as such.
+        """Compute the comparisons; a contact that cannot be solved is a failure of the check.
 
-        Parameters
-        ----------
-        backend : str
-            Arrays and FFTs that are checked; see `viscofric.contact.arrays.backend.Backend`.
+        `backend` names arrays and FFTs; see `viscofric.contact.arrays.backend.Backend`.
 
         Raises
         ------
@@ -122,14 +118,12 @@ class Check:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a check found.
+    """The result of a check.
 
     Attributes
     ----------
-    check : Check
-    comparisons : tuple of Comparison
     trouble : str
-        Why it could not be finished; empty if it was.
+        Why it could not be completed; empty if it was.
     seconds : float
         Wall-clock time.
     """
@@ -141,7 +135,7 @@ class Outcome:
 
     @property
     def passed(self) -> bool:
-        """Whether there is something to compare and all of it is within its bounds."""
+        """Whether there are comparisons and all are within their bounds."""
         return not self.trouble and bool(self.comparisons) and all(one.passed for one in self.comparisons)
 
     @property

@@ -1,7 +1,7 @@
-"""Contacts that are described by pure numbers: a ball or a cylinder, E∞/E0, and memory lengths over Hertz's a0.
+"""Contacts given by dimensionless numbers: a ball or a cylinder, E∞/E0, and memory lengths over Hertz's a0.
 
-They are stated in ordinary units (1 MPa, 10 mm, 0.1 m/s) and their answers counted in those of Hertz's contact at E0
-under the same load: lengths in a0, depths in a0²/R, friction in a0/R, pressures in p0.
+They have ordinary units (1 MPa, 10 mm, 0.1 m/s), and their results are in those of Hertz's contact at E0 under the
+same load: lengths in a0, depths in a0²/R, friction in a0/R, pressures in p0.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How errors fall with the cell: elastic and viscoelastic contacts on one grid after the other, and the order seen."""
+"""Decrease of errors with the cell: elastic and viscoelastic contacts on nested grids, and the observed order."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Refinement:
     least : dict
         Quantity -> the least order that it is to have.
     floor : dict
-        Quantity -> error of what is called exact; errors below twice that tell nothing.
+        Quantity -> error of the reference; errors below twice that are not significant.
     """
 
     name: str
@@ -54,8 +54,8 @@ class Refinement:
     def order(self, quantity: str) -> float:
         """Slope of log error against log cell by least squares: single errors jump as cells cross an edge."""
         size = np.abs(self.errors[quantity])
-        told = size > 2.0 * self.floor[quantity]
-        return float(-np.polyfit(np.log(self.cells[told]), np.log(size[told]), 1)[0])
+        significant = size > 2.0 * self.floor[quantity]
+        return float(-np.polyfit(np.log(self.cells[significant]), np.log(size[significant]), 1)[0])
 
 
 class _Parabola:
@@ -98,7 +98,7 @@ def _refinement(
     found: list[Stage],
     known: dict[str, tuple[float, float, float]],
 ) -> Refinement:
-    """Hold nested grids against exact numbers: quantity -> (number, its relative error, least order)."""
+    """Compare nested grids with exact numbers: quantity -> (number, its relative error, least order)."""
     read = {
         "friction μ, lean": lambda stage: stage.pressure_friction,
         "friction μ, energy": lambda stage: stage.energy_friction,

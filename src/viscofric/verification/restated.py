@@ -1,4 +1,4 @@
-"""The same contact stated in another way: other axes, a table of moduli for the spectrum, other FFTs."""
+"""The same contact in another form: other axes, a table of moduli for the spectrum, other FFTs."""
 
 from __future__ import annotations
 

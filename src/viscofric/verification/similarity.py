@@ -1,4 +1,4 @@
-"""What must change nothing: other units, the sense of the motion, how modes are counted; and what shifts do."""
+"""Changes without effect: other units, the sense of the motion, splitting of modes; and the effect of shifts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A cylinder and a ball alone on a layer: a thin one is a foundation, known exactly, and a deep one a half-space."""
+"""A single cylinder and ball on a layer: a thin one is a foundation, known exactly, and a deep one a half-space."""
 
 from __future__ import annotations
 

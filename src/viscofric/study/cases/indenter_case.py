@@ -201,11 +201,11 @@ class IndenterCase(Case):
             "interpolated": True,
         }
         for row, (number, place) in enumerate(zip(between.cases, here, strict=True)):
-            case, told = cases[number], _with_units(between.found, row, place)
+            case, numbers = cases[number], _with_units(between.found, row, place)
             if math.isinf(ends[0].half_width):
-                told["half_width"] = math.inf
+                numbers["half_width"] = math.inf
             try:
-                doubts = _doubts(case, _extent(told), told["indentation"])
+                doubts = _doubts(case, _extent(numbers), numbers["indentation"])
             except InputError as error:
                 yield number, Failure.of(error, case.label)
                 continue
@@ -215,7 +215,7 @@ class IndenterCase(Case):
                 "load": case.load,
                 "warnings": doubts,
             }
-            record = Record.of(**(known | told | shared))
+            record = Record.of(**(known | numbers | shared))
             yield number, record if sensitivities is None else sensitivities.complete(record, row)
 
 
@@ -259,17 +259,17 @@ def _stiffness(material: Material, modulus: float | None, poisson_ratio: float) 
 def _with_units(found: Interpolated, row: int, place: Place) -> dict[str, float]:
     """Return the numbers of a case and their errors, with units."""
     units = units_of(place.units, place.b)
-    told = dict(zip(NAMES, (units * found.values[row]).tolist(), strict=True))
+    numbers = dict(zip(NAMES, (units * found.values[row]).tolist(), strict=True))
     errors = units * np.hypot(found.from_nodes[row], found.between[row])
     for name, error in zip(ERRORS, errors.tolist(), strict=True):
         if name is not None:
-            told[name] = max(told.get(name, 0.0), error)
-    return told | {"interpolation_error": float(units[FRICTION] * found.between[row, FRICTION])}
+            numbers[name] = max(numbers.get(name, 0.0), error)
+    return numbers | {"interpolation_error": float(units[FRICTION] * found.between[row, FRICTION])}
 
 
-def _extent(told: dict[str, float]) -> Extent:
-    side = told["half_width"]
-    return Extent(told["rear"], told["front"], 0.0 if math.isinf(side) else side)
+def _extent(numbers: dict[str, float]) -> Extent:
+    side = numbers["half_width"]
+    return Extent(numbers["rear"], numbers["front"], 0.0 if math.isinf(side) else side)
 
 
 def _doubts(case: IndenterCase, contact: Extent, indentation: float) -> tuple[str, ...]:

@@ -172,9 +172,9 @@ class Record:
     def from_values(cls, values: dict[str, Any]) -> Self:
         """Return a record from `values`, without fields; raise ValueError, TypeError or KeyError if it is invalid."""
         given = {**values, "warnings": tuple(values["warnings"])}
-        if "contact_area_fraction" not in values and (told := values["sensitivity"]) is not None:
-            columns = {name: np.array(told[name], dtype=float) for name in _COLUMNS}
-            given["sensitivity"] = ComplianceSensitivity(**{**told, **columns})
+        if "contact_area_fraction" not in values and (stored := values["sensitivity"]) is not None:
+            columns = {name: np.array(stored[name], dtype=float) for name in _COLUMNS}
+            given["sensitivity"] = ComplianceSensitivity(**{**stored, **columns})
         record = cls.of(**given)
         if not all(isinstance(text, str) for text in record.warnings) or not isinstance(record.interpolated, bool):
             raise TypeError("warnings are not texts.")
@@ -190,8 +190,8 @@ class Record:
             return values
         values["sensitivity"] = None
         if self.sensitivity is not None:
-            told = {field.name: getattr(self.sensitivity, field.name) for field in fields(self.sensitivity)}
-            values["sensitivity"] = told | {name: told[name].tolist() for name in _COLUMNS}
+            stored = {field.name: getattr(self.sensitivity, field.name) for field in fields(self.sensitivity)}
+            values["sensitivity"] = stored | {name: stored[name].tolist() for name in _COLUMNS}
         return values
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
@@ -46,17 +46,16 @@ class Task:
         Of the verb: everything that determines the result.
     label : str
         For people: "30 °C, 20 mm/s".
-    key : str
-        A hash of the arguments and of the solver's source.
     """
 
     verb: Callable[..., Record]
     arguments: dict[str, Any]
     label: str = ""
-    key: str = field(init=False, default="")
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "key", key_of(self.arguments))
+    @functools.cached_property
+    def key(self) -> str:
+        """A hash of the arguments and of the solver's source."""
+        return key_of(self.arguments)
 
     @property
     def fields(self) -> bool:

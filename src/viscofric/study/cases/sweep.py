@@ -192,10 +192,10 @@ def others_in(sweep: Sweep, number: int) -> list[str]:
 
 
 def _others(axis: Axis, point: int, line: bool) -> list[str]:
-    told = []
+    parts = []
     for name, values in axis.columns.items():
         if name in _RATE or (name == "sample" and values[point] == 0):
             continue
         words = shown(name, values[point], line)
-        told.append(words if name in ("material", "load") else f"{name.replace('_', ' ')} {words}")
-    return told
+        parts.append(words if name in ("material", "load") else f"{name.replace('_', ' ')} {words}")
+    return parts

@@ -111,13 +111,13 @@ class Plan:
         else:
             self.ask(task, partial(self.settle, number))
 
-    def ask(self, task: Task, tell: Callable[[Outcome], None]) -> None:
-        """Have a task solved, or its outcome told at once where it is known."""
+    def ask(self, task: Task, callback: Callable[[Outcome], None]) -> None:
+        """Request the solution of a task; `callback` gets the outcome, at once if it is known."""
         if task.key in self._known:
-            tell(self._known[task.key])
+            callback(self._known[task.key])
             return
         self._waiting.setdefault(task.key, task)
-        self._callbacks.setdefault(task.key, []).append(tell)
+        self._callbacks.setdefault(task.key, []).append(callback)
 
     def case(self, number: int) -> Case:
         """Return a case by its number."""

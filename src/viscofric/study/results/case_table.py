@@ -137,13 +137,13 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
     """
     shared = [name for name in one.coordinates if name in other.coordinates]
     remarks = []
-    for table, beside in ((one, other), (other, one)):
+    for table, other_table in ((one, other), (other, one)):
         for name in table.coordinates:
             if name in shared:
                 continue
             if table.varies(name):
                 raise InputError(
-                    f"{table.name} varies the {name}, which {beside.name} does not state: no case can be paired.",
+                    f"{table.name} varies the {name}, which {other_table.name} does not state: no case can be paired.",
                     code="no-common-cases",
                 )
             remarks.append(

@@ -55,14 +55,14 @@ def rubbers_of(tree: xarray.DataTree) -> dict[str, xarray.DataTree]:
     branches = tree.children.get("materials")
     if branches is None:
         return {str(tree.attrs.get("material", "")): tree}
-    told = tree[_PREDICTION].coords["material"].values.tolist() if _PREDICTION in tree.children else []
-    names = dict(enumerate(map(str, told), 1))
+    given = tree[_PREDICTION].coords["material"].values.tolist() if _PREDICTION in tree.children else []
+    names = dict(enumerate(map(str, given), 1))
     return {names.get(int(number), number): branch for number, branch in branches.children.items()}
 
 
 def open_tree(path: str | Path) -> tuple[xarray.DataTree, Path]:
     """Return the tree of results and their folder; see `open_results`."""
-    import h5netcdf  # noqa: F401 - what is wrong with it is nothing of the file's
+    import h5netcdf  # noqa: F401 - its own errors are not those of the file
     import xarray
 
     file = file_path(path)

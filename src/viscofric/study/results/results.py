@@ -126,7 +126,7 @@ class StudyResults:
 
     @property
     def beyond_accuracy(self) -> int:
-        """Number of cases in which the estimated numerical error of friction is above the accuracy asked for."""
+        """Number of cases in which the estimated numerical error of friction exceeds the requested accuracy."""
         cases = self.dataset
         return int(beyond_accuracy(cases, float(cases.attrs.get("accuracy", math.inf))).sum())
 
@@ -253,14 +253,14 @@ def _table_of(given: StudyResults | FrictionCurves | str | Path) -> CaseTable:
     return CaseTable.of_curves(given) if isinstance(given, FrictionCurves) else CaseTable.of_file(given)
 
 
-def input_hashes(inputs: Iterable[Path], beside: Path | None = None) -> str:
-    """Return the SHA-256 of each input file, as JSON by path, relative to `beside` for files below that folder."""
+def input_hashes(inputs: Iterable[Path], folder: Path | None = None) -> str:
+    """Return the SHA-256 of each input file, as JSON by path, relative to `folder` for files below that folder."""
     hashes = {}
     for path in inputs:
         # The reader reports what is not a plain file.
         if path.is_file():
             with path.open("rb") as file:
-                hashes[_from(beside, path)] = hashlib.file_digest(file, "sha256").hexdigest()
+                hashes[_from(folder, path)] = hashlib.file_digest(file, "sha256").hexdigest()
     return json.dumps(hashes, ensure_ascii=False)
 
 

@@ -24,7 +24,7 @@ def json_schema() -> dict[str, Any]:
         "anyOf": [one, {"type": "array", "items": one, "minItems": 1, "maxItems": material["maxItems"]}],
     }
     for table in schema["properties"].values():
-        if "$ref" in table:  # beside it this dialect hears nothing; the table tells its own defaults
+        if "$ref" in table:  # other keys are ignored there in this dialect; the table has its own defaults
             table.pop("default", None)
     schema["oneOf"] = [{"required": [body]} for body in ("indenter", "surface")]
     about = "What a study asks for. Every quantity carries its unit; paths are relative to the run file."

@@ -154,7 +154,7 @@ class MaterialTable(Table):
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
 
-    def beside(self, folder: Path) -> MaterialTable:
+    def relative_to(self, folder: Path) -> MaterialTable:
         """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
         changes: dict[str, Any] = {}
         if self.dma is not None:

@@ -92,7 +92,7 @@ class MeasurementTable(Table):
             "temperature_tolerance": self.temperature_tolerance,
         }
 
-    def beside(self, folder: Path) -> MeasurementTable:
+    def relative_to(self, folder: Path) -> MeasurementTable:
         """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
         changes: dict[str, Any] = {"mtm": tuple(path for one in self.mtm for path in files_of(folder, one))}
         if self.curves is not None:

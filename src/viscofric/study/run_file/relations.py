@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from viscofric.study.run_file.tables import Problem
 
-    #: Tables that are right in themselves, by their names in the file; what is wrong or left out is not there.
+    #: Valid tables by their names in the file.
     Tables: TypeAlias = Mapping[str, Any]
 
 
@@ -58,11 +58,11 @@ def _body(tables: Tables) -> Iterator[Problem]:
         return
     if conditions is None:
         return
-    wanted, other, of = ("load", "pressure", "an indenter") if surface is None else ("pressure", "load", "a [surface]")
+    needed, other, of = ("load", "pressure", "an indenter") if surface is None else ("pressure", "load", "a [surface]")
     if getattr(conditions, other):
-        yield f"conditions.{other}", f"is not for {of}; give {wanted} instead, such as {_EXAMPLES[wanted]!r}"
-    elif not getattr(conditions, wanted):
-        yield f"conditions.{wanted}", f"is missing; {of} needs one, such as {_EXAMPLES[wanted]!r}"
+        yield f"conditions.{other}", f"is not for {of}; give {needed} instead, such as {_EXAMPLES[needed]!r}"
+    elif not getattr(conditions, needed):
+        yield f"conditions.{needed}", f"is missing; {of} needs one, such as {_EXAMPLES[needed]!r}"
     if surface is None and conditions.direction:
         yield "conditions.direction", "is for a rough [surface]; the motion of an indenter is along x"
 
@@ -108,8 +108,8 @@ def _sweep(tables: Tables) -> Iterator[Problem]:
                 yield f"sweep.together.{number}.{place}", f"{name!r} is not an axis of this study; {hint}"
         lengths = {name: len(known[name]) for name in group if name in choices}
         if len(set(lengths.values())) > 1:
-            told = ", ".join(f"{name} has {count}" for name, count in lengths.items())
-            yield f"sweep.together.{number}", f"axes that vary together need the same number of values, but {told}"
+            counts = ", ".join(f"{name} has {count}" for name, count in lengths.items())
+            yield f"sweep.together.{number}", f"axes that vary together need the same number of values, but {counts}"
     if whole:
         yield from _twice(tables, known)
 
@@ -143,10 +143,10 @@ def _size(tables: Tables) -> Iterator[Problem]:
     known = coordinates(tables)
     count = count_cases(axes_of(known, _together(tables, known)))
     if count > MOST_CASES:
-        told = " × ".join(f"{len(values):,} {name}" for name, values in known.items() if len(values) > 1)
+        counts = " × ".join(f"{len(values):,} {name}" for name, values in known.items() if len(values) > 1)
         yield (
             "",
-            f"asks for {count:,} cases ({told}), more than {MOST_CASES:,}; give fewer points, or several run files",
+            f"asks for {count:,} cases ({counts}), more than {MOST_CASES:,}; give fewer points, or several run files",
         )
 
 

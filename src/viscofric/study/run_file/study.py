@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.tables import Problem
 
-#: A run file is far shorter; what is longer is something else.
+#: Far above the length of any run file.
 LONGEST_RUN_FILE = 1_000_000  # characters
 _MOST_BYTES = 4 * LONGEST_RUN_FILE + 4
 #: Tables and lists within each other that a run file may need, and a little more.
@@ -164,7 +164,7 @@ def load_study(path: str | Path) -> Study:
     Parameters
     ----------
     path : str or Path
-        A TOML file; data files in it are looked for beside it.
+        A TOML file; paths in it are relative to its folder.
 
     Returns
     -------
@@ -320,9 +320,9 @@ def _parts(key: str) -> list[str | int]:
 def _resolve_paths(study: Study, path: Path) -> Study:
     folder = path.parent
     try:
-        materials = tuple(material.beside(folder) for material in study.materials)
-        measurement = None if study.measurement is None else study.measurement.beside(folder)
-        surface = None if study.surface is None else study.surface.beside(folder)
+        materials = tuple(material.relative_to(folder) for material in study.materials)
+        measurement = None if study.measurement is None else study.measurement.relative_to(folder)
+        surface = None if study.surface is None else study.surface.relative_to(folder)
     except (OSError, ValueError) as error:
         raise StudyError(f"{path}: {getattr(error, 'strerror', None) or error}.") from None
     return study.model_copy(update={"materials": materials, "measurement": measurement, "surface": surface})

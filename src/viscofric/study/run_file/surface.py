@@ -209,7 +209,7 @@ class SurfaceTable(Table):
             exact=self.exact,
         )
 
-    def beside(self, folder: Path) -> SurfaceTable:
+    def relative_to(self, folder: Path) -> SurfaceTable:
         """Return the table with its path relative to a folder."""
         return self if self.file is None else self.model_copy(update={"file": folder / self.file})
 

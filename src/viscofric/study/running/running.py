@@ -59,8 +59,8 @@ class Event:
 
     def as_dict(self) -> dict[str, Value]:
         """Return the attributes that are set."""
-        told = ((field.name, getattr(self, field.name)) for field in fields(self))
-        return {name: value for name, value in told if value is not None}
+        values = ((field.name, getattr(self, field.name)) for field in fields(self))
+        return {name: value for name, value in values if value is not None}
 
 
 class Progress(Protocol):

@@ -224,7 +224,7 @@ def measurement_table(study: Mapping[str, Any], folders: Folders) -> Measurement
         raise wrong_tables(error, values, {**TABLES, "": _MeasurementTables}) from None
     insist_on_uploads("measurement.mtm", table.mtm, folders.files)
     insist_on_uploads("measurement.curves", table.curves, folders.files)
-    return table.beside(folders.files)
+    return table.relative_to(folders.files)
 
 
 def indenter_of(study: Mapping[str, Any]) -> Indenter | None:

@@ -82,7 +82,7 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
         raise wrong_tables(error, values, {**TABLES, "": _RubberTables}) from None
     for key in ("dma", "master_curve", "file", "shift_factors"):
         insist_on_uploads(f"material.{key}", getattr(tables.material, key), folders.files)
-    return tables.material.beside(folders.files), tables.uncertainty
+    return tables.material.relative_to(folders.files), tables.uncertainty
 
 
 def made_rubber(study: Mapping[str, Any], folders: Folders) -> Rubber:
