@@ -78,7 +78,7 @@ def test_process_that_ends_too_early_is_told() -> None:
 
 
 def test_what_cannot_be_handed_over_is_told() -> None:
-    with pytest.raises(InputError, match=r"workers = 2: what is to be solved cannot be handed .* use one worker"):
+    with pytest.raises(InputError, match=r"workers = 2: the calls cannot be sent .* use one worker"):
         call_all(statistics.fmean, [{"data": lambda: 1.0}] * 2, workers=2)
 
     def local(data: object) -> object:
@@ -177,7 +177,7 @@ def test_exception_that_cannot_be_handed_back_keeps_its_sentence(
     with Workers(2) as workers:
         with pytest.raises(ViscofricError, match="WornError: ball is worn by 2 mm"):
             call_all(faulty_calls.worn, [{"depth": 2}, {"depth": 3}], workers=workers)
-        with pytest.raises(InputError, match=r"cannot be handed .*TextIOWrapper.* use one worker"):
+        with pytest.raises(InputError, match=r"cannot be sent .*TextIOWrapper.* use one worker"):
             call_all(faulty_calls.opened, [{"path": os.devnull}] * 2, workers=workers)
         assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
 

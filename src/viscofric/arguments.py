@@ -1,6 +1,6 @@
-"""Where arguments of public names become numbers, flags, text: in one place, so that nothing of them is lost silently.
+"""Validation of numbers, flags and text given to public names, in one place, so that nothing is lost silently.
 
-Quantities with units pass through `viscofric.units`, which gets its numbers from here as well.
+Quantities with units are converted in `viscofric.units`, which uses this module for their numbers.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: What NumPy holds in an array that is not of real numbers, by the letter of its kind.
+#: Letter of a NumPy kind other than real numbers -> its name.
 _KINDS = {
     "c": "complex numbers, whose imaginary part would be lost",
     "b": "True or False",
@@ -32,37 +32,25 @@ _KINDS = {
     "V": "records",
     "T": "text",
 }
-#: Points per decade of a spectrum: more are closer than any measurement tells them apart.
+#: Largest number of points per decade of a spectrum, far above any measurement's resolution.
 MOST_PER_DECADE = 10_000
-#: Counts and seeds beyond it are slips.
+#: Largest count or seed.
 LARGEST_WHOLE = 2**63 - 1
-#: What is larger (or, of what must be above zero, smaller than its inverse) overflows when it is squared.
+#: The square of a larger number (or of the inverse of a smaller one) overflows.
 LARGEST = 1e150
-#: Larger arrays are refused before memory is asked for: a square of 16384² takes 2 GiB, and computing a dozen of them.
+#: Larger arrays are refused before allocation: 16384² values take 2 GiB, and a computation a dozen such arrays.
 MOST_VALUES = 2**28
 
 
 def numbers(values: object, name: str, *, infinite: bool = False, missing: bool = False) -> Array:
-    """Return what was given for one number or many as floats, in its shape; what is an array of floats is not copied.
+    """Return one number or many as floats, in their shape; an array of floats is not copied.
 
-    Parameters
-    ----------
-    values : array_like
-        Real numbers in SI units.
-    name : str
-        What they are, for errors.
-    infinite, missing : bool
-        Whether infinite ones, or NaN for missing ones, may be among them.
-
-    Raises
-    ------
-    InputError
-        If there are complex, masked, infinite or missing numbers among them, or something else than numbers.
+    `infinite` and `missing` allow infinite numbers and NaN.  Complex, masked or other values are an `InputError`.
     """
     try:
         found = real(values)
     except ValueError as error:
-        raise InputError(f"{name} = {brief(values)}: must be an array of numbers, and holds {error}.") from None
+        raise InputError(f"{name} = {brief(values)}: must be an array of numbers, but contains {error}.") from None
     allowed = np.isfinite(found) | (np.isinf(found) & infinite) | (np.isnan(found) & missing)
     if not allowed.all():
         wrong = float(found[~allowed].flat[0])
@@ -71,13 +59,7 @@ def numbers(values: object, name: str, *, infinite: bool = False, missing: bool 
 
 
 def real(values: object) -> Array:
-    """Return numbers as floats in their shape, NaN and infinite ones as well.
-
-    Raises
-    ------
-    ValueError
-        Saying what there is in place of a real number.
-    """
+    """Return numbers as floats in their shape, NaN and infinite ones too; `ValueError` names other values."""
     if type(values) is np.ndarray and values.dtype == np.float64:
         return values
     if type(values) is float:
@@ -86,7 +68,7 @@ def real(values: object) -> Array:
     if any(isinstance(one, np.ma.MaskedArray) and np.ma.is_masked(one) for one in several):
         raise ValueError("a masked value")
     if any(hasattr(one, "magnitude") and hasattr(one, "to") for one in several):
-        raise ValueError("a unit where plain numbers are wanted")
+        raise ValueError("a unit where plain numbers are needed")
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError):
@@ -99,9 +81,9 @@ def real(values: object) -> Array:
 
 
 def _float(value: object) -> float:
-    """Turn a number that NumPy has no kind for into a float."""
+    """Convert a number of a type without a NumPy kind to a float."""
     if not isinstance(value, (Real, Decimal)) or isinstance(value, bool):
-        raise ValueError(_KINDS["c"] if isinstance(value, complex) else f"{brief(value)}, which is no number")
+        raise ValueError(_KINDS["c"] if isinstance(value, complex) else f"{brief(value)}, which is not a number")
     try:
         return float(value)
     except OverflowError:
@@ -109,7 +91,7 @@ def _float(value: object) -> float:
 
 
 def number(value: object, name: str) -> float:
-    """Return one real, finite number as a float; a text is none, whatever it says."""
+    """Return one real, finite number as a float; text is refused."""
     try:
         found = real(value)
     except ValueError as error:
@@ -129,7 +111,7 @@ def whole_number(value: object, name: str, least: int, most: int | None = None, 
 
 
 def flag(value: object, name: str) -> bool:
-    """Return True or False, and refuse what Python would take for one of them."""
+    """Return True or False, and refuse other values that Python accepts as truth values."""
     if not isinstance(value, (bool, np.bool_)):
         raise InputError(f"{name} = {brief(value)}: must be True or False.")
     return bool(value)
@@ -143,28 +125,28 @@ def text(value: object, name: str) -> str:
 
 
 def sentences(values: Iterable[str], name: str) -> tuple[Note, ...]:
-    """Return several texts as notes; one text alone is not taken for its letters."""
+    """Return several texts as notes; a single text is refused, rather than split into letters."""
     if not isinstance(values, (tuple, list)) or not all(isinstance(one, str) for one in values):
         raise InputError(f"{name} = {brief(values)}: must be a tuple of texts.")
     return tuple(map(note_of, values))
 
 
 def insist_on(value: object, name: str, *kinds: type, right: str = "") -> None:
-    """Refuse what is of none of the kinds; `right` says in words what is wanted."""
+    """Refuse a value of none of the kinds; `right` describes the right one in words."""
     if not isinstance(value, kinds):
         wanted = right or " or ".join(kind.__name__ for kind in kinds)
         raise InputError(f"{name} = {brief(value)}: must be {wanted}.")
 
 
 def insist_on_function(value: object, name: str, *, needed: bool = False) -> None:
-    """Refuse what cannot be called; None stands for no function, where one is not needed."""
+    """Refuse what cannot be called, except None if no function is needed."""
     if not (callable(value) or (value is None and not needed)):
         raise InputError(f"{name} = {brief(value)}: must be a function.")
 
 
 def check_cost(sizes: Iterable[Any], name: str) -> None:
-    """Refuse an array that no memory holds before it is asked for; the product of its sizes is its number of values."""
+    """Refuse an array of these sizes before allocation if no memory holds it."""
     count = math.prod(sizes)
     if not count <= MOST_VALUES:
         shown = f"{count:.2g}" if count < 1e300 else "more than 1e300"
-        raise InputError(f"{name} would have {shown} points; at most {MOST_VALUES:.2g} are computed with.")
+        raise InputError(f"{name} would have {shown} points; the limit is {MOST_VALUES:.2g}.")

@@ -1,4 +1,4 @@
-"""What readers hand over: typed, immutable measurements in SI units, with notes on what was doubtful."""
+"""The output of readers: typed, immutable measurements in SI units, with notes on what is doubtful."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 #: How a dynamic mechanical analyser deformed its sample.
 Deformation: TypeAlias = Literal["tension", "shear"]
 
-#: Larger whole numbers are not told apart as floats.
+#: Larger whole numbers are not exact as floats.
 _LARGEST_WHOLE = 2**53
 
 
 def read_only(values: object, name: str = "a column of measurements") -> Array:
-    """Return a read-only float copy, so that frozen measurements stay frozen; name it where it holds no numbers."""
+    """Return a read-only float copy, so that frozen measurements stay frozen; errors use the name."""
     column = np.array(numbers(values, name, infinite=True, missing=True))
     column.flags.writeable = False
     return column
@@ -43,7 +43,7 @@ def whole_numbers(values: object, name: str) -> Integers:
 
 
 def picked(rows: object, count: int, noun: str) -> Integers:
-    """Return the places of the rows that a mask or places pick out of so many."""
+    """Return the places of rows that a mask, or places, select."""
     try:
         places = np.array(None) if np.ma.is_masked(rows) else np.asarray(rows)
     except ValueError:
@@ -57,7 +57,7 @@ def picked(rows: object, count: int, noun: str) -> Integers:
             f"select needs true or false for each of the {count} {noun}, or their places.", code="wrong-selection"
         )
     if places.min() < -count or places.max() >= count:
-        raise InputError(f"select names one beyond the {count} {noun} that there are.", code="wrong-selection")
+        raise InputError(f"select names a place beyond the {count} {noun}.", code="wrong-selection")
     return places.astype(np.int64)
 
 
@@ -121,11 +121,11 @@ class IsothermalSweeps:
     deformation : {"tension", "shear"}
         Whether the moduli are E (tension) or G (shear).
     source : str
-        Where they came from (a file's name).
+        Origin, such as a file's name.
     notes : tuple of str
         What the reader found doubtful, left out, sorted or averaged: one sentence each.
     format : str
-        What the reader took the file for, in words; empty for sweeps that no file holds.
+        The recognised format in words; empty for sweeps from no file.
 
     Examples
     --------
@@ -176,7 +176,7 @@ class IsothermalSweeps:
             )
             for sweep in self.isotherms
         )
-        note = f"Shear moduli turned into tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
+        note = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
         return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
 
     def to_dataset(self) -> xarray.Dataset:
@@ -208,7 +208,7 @@ class IsothermalSweeps:
 
 @dataclass(frozen=True, eq=False)
 class MasterCurve:
-    """Tensile modulus at one reference temperature, every measured point moved by its isotherm's shift.
+    """Tensile modulus at one reference temperature, every measured point shifted by its isotherm's shift factor.
 
     Parameters
     ----------

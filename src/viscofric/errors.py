@@ -1,4 +1,4 @@
-"""The few exceptions that users of viscofric meet; every message is one clear sentence."""
+"""The exceptions of viscofric; every message is one clear sentence."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of users: opened with care, decoded whatever instrument wrote them, written whole or not at all."""
+"""Files of users: opened with care, decoded from any instrument's encoding, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 
 #: A table of measurements has a few million bytes.  A text of this size takes about 15 s and 1.4 GB to read.
 LARGEST_TABLE = 50_000_000  # bytes
-#: Heights of a surface in binary form, and what viscofric stores itself.
+#: Heights of a surface in binary form, and viscofric's own files.
 LARGEST_FILE = 200_000_000  # bytes
-#: What a packed file may hold when unpacked, and by how much its bytes may have been packed.
+#: Largest size of an unpacked file, and largest ratio to its packed size.
 LARGEST_UNPACKED = 500_000_000  # bytes
 LARGEST_RATIO = 400
-_SMALL = 10_000_000  # bytes, which may be packed as well as they like
+_SMALL = 10_000_000  # bytes, of any ratio
 #: Dots in all keys, or texts, of TOML that have more than a few: the parser's time grows with the square of a key's.
 _MOST_DOTS, _FEW_DOTS = 1000, 10
-# One key of TOML with its dots, or one text; what has no closing quotation mark goes on to the end of its line, so that
-# every character is looked at once.
+# One key of TOML with its dots, or one text; without a closing quotation mark it ends with its line, so that every
+# character is scanned once.
 _PART = r"""(?:[\w-]++|"(?:\\.|[^"\\\n])*+"?|'[^'\n]*+'?)"""
 _KEY = re.compile(rf"{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+")
 _HDF5 = b"\x89HDF\r\n\x1a\n"
@@ -41,30 +41,21 @@ _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 
 
 def file_path(path: object) -> Path:
-    """Return the name of a file as a path; raise `InputError` where something else is given."""
+    """Return the name of a file as a path, or raise `InputError` for anything else."""
     if not isinstance(path, (str, os.PathLike)):
-        raise InputError(
-            f"{brief(path)} is not the name of a file, which is text or a pathlib.Path.", code="not-a-name"
-        )
+        raise InputError(f"{brief(path)} is not the name of a file (text or a pathlib.Path).", code="not-a-name")
     if str(path) == "" or "\0" in str(path):
         raise DataFileError(brief(path), "is not the name of a file.", code="not-a-name")
     return Path(path)
 
 
 def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
-    """Return what a regular file holds.
-
-    Parameters
-    ----------
-    path : str or path
-        The file.
-    most : int, optional
-        Bytes that such a file has at most; by default those of a table of measurements.
+    """Return the content of a regular file of at most so many bytes, by default those of a table of measurements.
 
     Raises
     ------
     DataFileError
-        If there is no such file, it cannot be opened, is a folder, device or pipe, or is too large.
+        If the file does not exist, cannot be opened, is a folder, device or pipe, or is too large.
     """
     file = file_path(path)
     shown = str(path)
@@ -87,13 +78,7 @@ def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
 
 
 def insist_on_short_text(data: bytes, path: str | PathLike[str]) -> None:
-    """Refuse heights of a surface as text that takes far longer and more memory to read than in binary form.
-
-    Raises
-    ------
-    DataFileError
-        If it has more bytes than a table of measurements.
-    """
+    """Refuse heights as long text, which takes far more time and memory to read than in binary form."""
     if len(data) > LARGEST_TABLE:
         size, right, binary = math.ceil(len(data) / 1e6), LARGEST_TABLE / 1e6, LARGEST_FILE / 1e6
         problem = f"holds {size} MB of text, at most {right:.0f} MB of which are read; save the heights with "
@@ -101,26 +86,13 @@ def insist_on_short_text(data: bytes, path: str | PathLike[str]) -> None:
 
 
 def decoded(data: bytes, path: str | PathLike[str]) -> str:
-    """Return bytes as text: UTF-16 with its mark, UTF-8 with or without, else Windows-1252.
-
-    Parameters
-    ----------
-    data : bytes
-        What the file holds.
-    path : str or path
-        Named in errors.
-
-    Raises
-    ------
-    DataFileError
-        If it is no text.
-    """
+    """Return bytes as text (UTF-16 with its mark, UTF-8, else Windows-1252); binary ones are a `DataFileError`."""
     try:
         text = data.decode("utf-16") if data.startswith((b"\xff\xfe", b"\xfe\xff")) else data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        # Instrument software under Windows; the five bytes that its code page leaves open stand for no letter.
+        # Instrument software under Windows; five bytes of its code page are undefined.
         text = data.decode("cp1252", errors="replace")
-    # Text has no control characters but tabs and ends of lines; a workbook or an image is full of them.
+    # Text has no control characters except tabs and ends of lines; workbooks and images have many.
     if _CONTROL.search(text):
         raise DataFileError(path, "is a binary file; a text table is needed (export it as CSV).", code="binary")
     return text
@@ -132,25 +104,18 @@ def read_text(path: str | PathLike[str], most: int | None = None) -> str:
 
 
 def parse_json(text: str | bytes, **options: Any) -> Any:
-    """Return what JSON holds; raise `ValueError`, in a sentence, where it is none or nested too deeply.
-
-    Parameters
-    ----------
-    text : str or bytes
-    **options
-        Of `json.loads`.
-    """
+    """Return the content of JSON, or raise `ValueError` with a sentence; options are those of `json.loads`."""
     try:
         return json.loads(text, **options)
     except RecursionError:
-        raise ValueError("lists or objects lie within each other too deeply") from None
+        raise ValueError("lists or objects are nested too deeply") from None
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Return what TOML holds; raise `InputError` where it is nested too deeply, `ValueError` where it is none."""
+    """Return the content of TOML; `InputError` if it is nested too deeply, `ValueError` if it is not TOML."""
     import tomllib
 
-    deep = InputError("lists or tables lie within each other too deeply", code="too-deep")
+    deep = InputError("lists or tables are nested too deeply", code="too-deep")
     dots = (key[0].count(".") for key in _KEY.finditer(text))
     if sum(count for count in dots if count > _FEW_DOTS) > _MOST_DOTS:
         raise deep
@@ -161,13 +126,7 @@ def parse_toml(text: str) -> dict[str, Any]:
 
 
 def saved_array(data: bytes, path: str | PathLike[str]) -> NDArray[np.generic]:
-    """Return the array of an .npy file, if it is as large as it says.
-
-    Raises
-    ------
-    DataFileError
-        If it is damaged, holds objects, or announces more than there is.
-    """
+    """Return the array of an .npy file; a damaged one, of objects, or larger than the file is a `DataFileError`."""
     import numpy as np
 
     file = io.BytesIO(data)
@@ -184,13 +143,7 @@ def saved_array(data: bytes, path: str | PathLike[str]) -> NDArray[np.generic]:
 
 
 def insist_on_size(data: bytes, path: str | PathLike[str]) -> None:
-    """Refuse bytes of a zip archive or of HDF5 that would unpack to far more than measurements need.
-
-    Raises
-    ------
-    DataFileError
-        If they would, or the file is damaged.
-    """
+    """Raise `DataFileError` for a zip archive or HDF5 that is damaged or unpacks to far more than measurements need."""
     try:
         if data.startswith(b"PK"):
             with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -200,7 +153,7 @@ def insist_on_size(data: bytes, path: str | PathLike[str]) -> None:
             sizes = _unpacked(io.BytesIO(data)), len(data)
         else:
             return
-    except Exception as error:  # noqa: BLE001 - torn archives and HDF5 raise whatever they meet
+    except Exception as error:  # noqa: BLE001 - damaged archives and HDF5 raise anything
         reason = (str(error).splitlines() or [type(error).__name__])[0][:120].rstrip(".")
         raise DataFileError(path, f"is damaged ({reason}).", code="damaged") from None
     size, packed = sizes
@@ -211,14 +164,9 @@ def insist_on_size(data: bytes, path: str | PathLike[str]) -> None:
 
 
 def insist_on_true_size(file: Path) -> None:
-    """Refuse an HDF5 file that announces far more than it can hold, before anything of it is read.
+    """Raise `ValueError` for a damaged HDF5 file that announces far more than it can hold, before reading it.
 
-    Results may be large, and are as large as they say.
-
-    Raises
-    ------
-    ValueError
-        If it does; the file is damaged.
+    Results may be large, if their file is.
     """
     size = _unpacked(file)
     if size > _SMALL and size > LARGEST_RATIO * file.stat().st_size:
@@ -226,7 +174,7 @@ def insist_on_true_size(file: Path) -> None:
 
 
 def _unpacked(file: object) -> int:
-    """Return how many bytes the arrays of HDF5 take, or their chunks where those are larger."""
+    """Return the number of bytes of the arrays of HDF5, or of their chunks if those are larger."""
     import h5py
 
     total = 0
@@ -250,20 +198,10 @@ def _umask() -> int:
 
 
 def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> None:
-    """Write a file by way of a temporary one beside it, moved into place when it is complete.
+    """Write a file through a temporary one in its folder, moved into place when complete.
 
-    Parameters
-    ----------
-    path : Path
-        Replaced if it exists; a symbolic link itself, not what it points to.
-    content : bytes
-    make_folder : bool
-        Whether to make its folder where there is none.
-
-    Raises
-    ------
-    DataFileError
-        If the folder or the file cannot be written.
+    An existing file is replaced, and of a symbolic link the link itself.  If folder or file cannot be written,
+    `DataFileError` is raised.
     """
     try:
         if make_folder:
@@ -272,7 +210,7 @@ def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> No
         temporary = Path(name)
         try:
             with os.fdopen(handle, "wb") as file:
-                # Temporary files are for their owner alone; what is written here is to be handed on.
+                # Temporary files are private; this one gets the usual permissions.
                 temporary.chmod(0o666 & ~_umask())
                 file.write(content)
                 file.flush()

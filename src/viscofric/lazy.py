@@ -1,4 +1,4 @@
-"""Packages whose names are loaded when they are first used: importing a part of one does not load the rest."""
+"""Names of packages imported at first use: importing one part does not load the rest."""
 
 from __future__ import annotations
 
@@ -11,14 +11,7 @@ if TYPE_CHECKING:
 
 
 def loaded_when_used(package: str, homes: Mapping[str, str]) -> Callable[[str], Any]:
-    """Return a package's ``__getattr__`` (PEP 562), which fetches public names from the modules that define them.
-
-    Parameters
-    ----------
-    package : str
-    homes : mapping
-        Public name -> module.
-    """
+    """Return a package's ``__getattr__`` (PEP 562), which imports names from modules, ``{name: module}``."""
 
     def fetch(name: str) -> Any:
         if name not in homes:

@@ -1,4 +1,4 @@
-"""Nominal values behind readings that scatter about them, and how far apart readings of one nominal value may be."""
+"""Nominal values of scattered readings, and the tolerance of readings with one nominal value."""
 
 from __future__ import annotations
 
@@ -15,28 +15,19 @@ if TYPE_CHECKING:
     from viscofric.notes import Note
 
 
-#: Readings scatter about their nominal condition; the next condition is further off than this.
+#: Smallest difference of nominal conditions; readings scatter less.
 SAME_TEMPERATURE = 1.0  # K
 SAME_SPEED = 0.05  # relative
 SAME_LOAD = 0.05  # relative
 
-#: Readings that follow each other so closely that they stretch over more tolerances are not one condition.
+#: Readings without gaps that extend over more tolerances are not one condition.
 LONGEST_CHAIN = 4.0
 
 
 def numbered(values: Array, allowed: Array) -> Integers:
-    """Give nominal values numbers in ascending order: a gap wider than allowed starts the next one.
+    """Return the number of the nominal value of each reading, from 0, ascending.
 
-    Parameters
-    ----------
-    values : (n,) array
-    allowed : (n,) array
-        The widest gap that each value may have to its neighbour of the same nominal value.
-
-    Returns
-    -------
-    (n,) array of int
-        Number of the nominal value of each reading, from 0.
+    A gap wider than `allowed`, (n,), between neighbours begins the next nominal value.
     """
     order = np.argsort(values, kind="stable")
     apart = np.diff(values[order]) > np.maximum(allowed[order][1:], allowed[order][:-1])
@@ -46,21 +37,15 @@ def numbered(values: Array, allowed: Array) -> Integers:
 
 
 def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str | Note]) -> Integers:
-    """Give nominal values numbers as `numbered` does, and insist that they can be told from scatter.
+    """Return numbers of nominal values as `numbered`, provided that they can be distinguished from scatter.
 
-    Parameters
-    ----------
-    values : (n,) array
-    allowed : (n,) array
-        The widest gap that each value may have to its neighbour of the same nominal value.
-    refusal : callable
-        The sentence that refuses readings without gaps, from their lowest and highest value.
+    `refusal` is the sentence about readings without gaps, from their lowest and highest value.
 
     Raises
     ------
     InputError
-        If values without gaps stretch over more than four times what is allowed between neighbours, counted from each
-        to the next: what is allowed may grow with the values.
+        If values without gaps extend over more than four times the allowed difference of neighbours, counted from each
+        to the next: the allowed difference may grow with the values.
     """
     labels = numbered(values, allowed)
     order = np.argsort(values, kind="stable")

@@ -1,9 +1,9 @@
-"""Independent calls shared out among processes, which give the same digits as one process would; and calls with limits.
+"""Independent calls distributed over processes, with the same digits as in one process; and calls with limits.
 
-Starting a process takes most of a second, importing above all: `Workers` live on from one set of calls to the next.
+Starting a process takes most of a second, mainly for imports: `Workers` stay for several sets of calls.
 
-The processes are plain children that read calls from their standard input, so that, unlike with `multiprocessing`, the
-user's script need not guard its first lines against being run again, nor a notebook be importable.
+The processes are plain children that read calls from their standard input. Unlike with `multiprocessing`, the user's
+script needs no guard of its first lines, and a notebook need not be importable.
 """
 
 from __future__ import annotations
@@ -32,24 +32,23 @@ if TYPE_CHECKING:
     Child: TypeAlias = subprocess.Popen[bytes]
 
 _SERVE = "from viscofric.serving import serve; serve({parent}, {needed!r}, {memory})"
-_ENDED = "a process ended before its contact was solved, for want of memory as a rule; use fewer workers."
-# Waiting without an end cannot be interrupted everywhere (Windows).
+_ENDED = "a process ended before its contact was solved, usually for lack of memory; use fewer workers."
+# Waiting without a limit cannot be interrupted everywhere (Windows).
 _LONGEST_WAIT = 1.0  # s
 
 
 class Workers:
-    """Processes that share out one set of calls after another among them, until the end of a ``with`` block.
+    """Processes that share one set of calls after another, until the end of a ``with`` block.
 
-    As a rule they are started when there are first calls for them; `call_all` and what rests on it take them for a
-    number.
+    They are usually started for their first calls; `call_all` and its callers accept them in place of a number.
 
     Parameters
     ----------
     number : int
-        Processes.  One: everything is done in this one.
+        Number of processes.  With one, everything is done in this process.
     needed : str, optional
-        Module that the calls need.  With it, processes are started at the beginning of the block, and import it while
-        this process makes up the calls.
+        Module that the calls need.  Processes are then started at the beginning of the block and import it while
+        this process prepares the calls.
 
     Raises
     ------
@@ -58,7 +57,7 @@ class Workers:
 
     Notes
     -----
-    Processes that ended or were interrupted are started anew for the next calls.  While they are at work, further
+    Processes that ended or were interrupted are restarted for the next calls.  While they are busy, further
     calls, from another thread or from `progress`, get further processes.
 
     Examples
@@ -97,7 +96,7 @@ class Workers:
 
     @contextlib.contextmanager
     def _children(self, count: int) -> Iterator[list[Child]]:
-        """Lend processes; an exception ends them, as they may be at work still."""
+        """Lend processes; an exception ends them, since they may still be busy."""
         if self._started is None:
             raise InputError("workers: must be used within their block, with Workers(2) as workers: ...")
         lent: list[Child] = []
@@ -121,20 +120,20 @@ class Workers:
 
 
 class LimitedProcess:
-    """A process for calls that may never end or fill the memory; started for the first call, it waits for the next.
+    """A process for calls that may never end or fill the memory; it starts with the first call and is kept.
 
     Parameters
     ----------
     seconds : float
-        Time that a call may take.
+        Time limit of a call.
     memory : int
-        Address space of the process in bytes, where the system has such a limit (Windows has none).
+        Limit of its address space in bytes, if the system has such a limit (Windows has none).
     needed : str, optional
         Module that the calls need, imported when the process starts.
 
     Notes
     -----
-    Calls from several threads each get a process of their own; one of these stays.
+    Calls from several threads each get their own process; one of these is kept.
     """
 
     def __init__(self, seconds: float, memory: int, needed: str = "") -> None:
@@ -174,7 +173,7 @@ class LimitedProcess:
             raise
         finally:
             alarm.cancel()
-        if kind == "ended" or isinstance(value, MemoryError):  # what is left of it may be damaged
+        if kind == "ended" or isinstance(value, MemoryError):  # its state may be damaged
             _end(child)
             raise TimeoutError if time.monotonic() >= end else MemoryError
         self._keep(child)
@@ -183,7 +182,7 @@ class LimitedProcess:
         return value
 
     def _free(self) -> Child | None:
-        if self._owner != os.getpid():  # a fork must not speak to the process of its parent
+        if self._owner != os.getpid():  # a fork must not use the process of its parent
             for child in self._idle:
                 child.returncode = 0
             self._idle.clear()
@@ -202,7 +201,7 @@ class LimitedProcess:
             self._idle.append(child)
 
     def close(self) -> None:
-        """End the process that waits."""
+        """End the idle process."""
         while self._idle:
             _end(self._idle.pop())
 
@@ -212,17 +211,17 @@ def _started(needed: str, memory: int = 0, **environment: str) -> Child:
     path = os.pathsep.join(path for path in sys.path if path)
     with _interrupts_wait():
         return subprocess.Popen(
-            # -P: modules in the working folder must not stand in for those of this process
+            # -P: modules in the working folder must not replace those of this process
             [sys.executable, "-P", "-c", program],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**os.environ, **environment, "PYTHONPATH": path},
-            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # none flashes up under Windows
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # no window under Windows
         )
 
 
 def _answer_of(child: Child, message: bytes) -> tuple[str, Any]:
-    """Have a process make a call; return what became of it."""
+    """Send a call to a process, and return the kind of its end and the value."""
     assert child.stdin is not None
     assert child.stdout is not None
     try:
@@ -235,9 +234,9 @@ def _answer_of(child: Child, message: bytes) -> tuple[str, Any]:
 
 @contextlib.contextmanager
 def _interrupts_wait() -> Iterator[None]:
-    """Keep an interrupt waiting, and from what is started meanwhile: it is the business of this process alone.
+    """Delay an interrupt, and hide it from a process that is being started: only this process handles it.
 
-    A terminal sends it to all of them, also to those that cannot ignore it yet.
+    A terminal sends it to all of them, including those that cannot ignore it yet.
     """
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
@@ -256,34 +255,29 @@ def call_all(
     workers: int | Workers = 1,
     progress: Callable[[int], object] | None = None,
 ) -> list[Any]:
-    """Call a function with each of several sets of arguments.
+    """Call a function with each of several sets of arguments, and return the results in their order.
 
     Parameters
     ----------
     function : callable
         Importable by its name, if there is more than one worker.
     calls : sequence of dict
-        Keyword arguments; what they hold can be pickled, if there is more than one worker.
+        Keyword arguments; they can be pickled, if there is more than one worker.
     workers : int or Workers
-        Processes: a number of them for these calls alone, or those that are kept for more.  One: everything is done
-        in this one.
+        Number of processes for these calls alone, or processes that are kept for more.  With one, everything is done in
+        this process.
     progress : callable, optional
         Called in this process with the number of finished calls, after each.
-
-    Returns
-    -------
-    list
-        In the order of the calls.
 
     Raises
     ------
     InputError
         If the number of workers is not a whole one above zero, they are used outside their block, or a call cannot be
-        handed to another process.
+        sent to another process.
     ViscofricError
         If a process ends before its call is finished.
     Exception
-        What a call raises; the first in order of those that were begun, if there are several.  No more are begun then.
+        The exception of a call; of several, the first in order.  No further calls are begun then.
 
     Notes
     -----
@@ -319,35 +313,33 @@ def call_all(
 def as_they_come(
     function: Callable[..., Any], calls: Sequence[dict[str, Any]], *, workers: Workers, tries: int = 3
 ) -> Generator[tuple[int, str, Any]]:
-    """Call a function with each of several sets of arguments, and tell of each as soon as it is begun and finished.
+    """Call a function with each of several sets of arguments, and yield the begin and the end of each.
 
-    Unlike with `call_all`, an error of one call does not keep the others from being made, and a process that ended is
-    replaced by another, which makes its call again.
+    Unlike in `call_all`, an error of one call does not stop the others, and a process that ended is replaced by
+    another, which repeats its call.
 
     Parameters
     ----------
-    function : callable
-        Importable by its name, if there is more than one worker.
-    calls : sequence of dict
-        Keyword arguments; what they hold can be pickled, if there is more than one worker.
+    function, calls
+        As for `call_all`.
     workers : Workers
         Within their block.
     tries : int
-        As many processes may end during a call before it is given up.
+        Number of processes that may end during a call before it is given up.
 
     Yields
     ------
     index : int
         Of the call.
     kind : str
-        ``"begun"``, ``"result"``, ``"error"`` (what it raised) or ``"ended"`` (given up: its processes ended).
+        ``"begun"``, ``"result"``, ``"error"`` (its exception) or ``"ended"`` (given up: its processes ended).
     value : object
-        What the call returned or raised; for ``"ended"`` an exception that says so.
+        Result or exception of the call; for ``"ended"`` an exception that states this.
 
     Raises
     ------
     InputError
-        If the workers are used outside their block, or a call cannot be handed to another process.
+        If the workers are used outside their block, or a call cannot be sent to another process.
 
     Notes
     -----
@@ -359,7 +351,7 @@ def as_they_come(
             yield index, "begun", None
             try:
                 value = function(**call)
-            except Exception as error:  # noqa: BLE001 - it is handed on
+            except Exception as error:  # noqa: BLE001 - it is yielded
                 yield index, "error", error
             else:
                 yield index, "result", value
@@ -370,9 +362,9 @@ def as_they_come(
 
 
 class _SharedCalls:
-    """Calls handed out one after the other to some processes, by a thread for each of these.
+    """Calls given to some processes one after the other, by one thread for each process.
 
-    Calls whose process ended are made again by another one, until `tries` ended.  If it `stops`, none is begun after
+    A call whose process ended is repeated by another one, until `tries` ended.  With `stops`, none is begun after
     one that failed.
     """
 
@@ -388,25 +380,25 @@ class _SharedCalls:
         try:
             self.messages = [pickle.dumps((name, call)) for call in calls]
         except (pickle.PicklingError, AttributeError, TypeError) as error:
-            raise _not_handed_over(workers.number, error) from None
+            raise _not_sent(workers.number, error) from None
         self.workers, self.stops = workers, stops
-        self.told: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
+        self.events: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
         self.waiting = deque(range(len(calls)))
         self.tries_left = [tries] * len(calls)
         self.lock = threading.Lock()
         self.closed = False
 
     def answers(self, children: list[Child]) -> Iterator[tuple[int, str, Any]]:
-        """Yield what becomes of the calls, until none of the processes is at work any more."""
+        """Yield begin and end of the calls, until no process is busy any more."""
         self.children = children
         threads = [threading.Thread(target=self._keep_busy, args=(child,), daemon=True) for child in children]
         unanswered = len(self.messages)
         try:
             for thread in threads:
                 thread.start()
-            while unanswered and (any(thread.is_alive() for thread in threads) or not self.told.empty()):
+            while unanswered and (any(thread.is_alive() for thread in threads) or not self.events.empty()):
                 with contextlib.suppress(queue.Empty):
-                    index, kind, value = self.told.get(timeout=_LONGEST_WAIT)
+                    index, kind, value = self.events.get(timeout=_LONGEST_WAIT)
                     unanswered -= kind != "begun"
                     yield index, "error" if kind == "ended" and self.stops else kind, value
             if unanswered and not self.stops:
@@ -421,7 +413,7 @@ class _SharedCalls:
 
     def _keep_busy(self, child: Child | None) -> None:
         while child is not None and (index := self._next()) is not None:
-            self.told.put((index, "begun", None))
+            self.events.put((index, "begun", None))
             kind, value = self._ask(child, index)
             if kind == "ended":
                 self.tries_left[index] -= 1
@@ -430,7 +422,7 @@ class _SharedCalls:
                     self.waiting.appendleft(index)
                     continue
             self._stop_after(kind)
-            self.told.put((index, kind, value))
+            self.events.put((index, kind, value))
 
     def _stop_after(self, kind: str) -> None:
         if self.stops and kind != "result":
@@ -440,11 +432,11 @@ class _SharedCalls:
     def _ask(self, child: Child, index: int) -> tuple[str, Any]:
         kind, value = _answer_of(child, self.messages[index])
         if kind == "not understood":
-            return "error", _not_handed_over(self.workers.number, value)
+            return "error", _not_sent(self.workers.number, value)
         return kind, value
 
     def _replaced(self, child: Child) -> Child | None:
-        """Return another process in place of one that ended; None where none can be started or is wanted."""
+        """Return another process in place of one that ended; None if none can be started or is needed."""
         child.kill()
         child.wait()
         with self.lock:
@@ -457,10 +449,8 @@ class _SharedCalls:
             return fresh
 
 
-def _not_handed_over(workers: int, reason: object) -> InputError:
-    return InputError(
-        f"workers = {workers}: what is to be solved cannot be handed to another process ({reason}); use one worker."
-    )
+def _not_sent(workers: int, reason: object) -> InputError:
+    return InputError(f"workers = {workers}: the calls cannot be sent to another process ({reason}); use one worker.")
 
 
 def _end(child: Child) -> None:

@@ -1,4 +1,4 @@
-"""The other end of `viscofric.processes`: what a process does that answers calls from another."""
+"""The other end of `viscofric.processes`: a process that answers calls of another."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from importlib import import_module
 
 from viscofric.errors import ViscofricError
 
-_BETWEEN_LOOKS = 0.5  # s
+_CHECK_INTERVAL = 0.5  # s
 
 
 def serve(parent: int, needed: str = "", memory: int = 0) -> None:
-    """Answer calls from standard input on standard output until there are no more; run in a process of its own.
+    """Answer calls from standard input on standard output until there are no more, in a separate process.
 
     Parameters
     ----------
     parent : int
-        Number of the process that asks; without it, this one ends at once, whatever it is doing.
+        Number of the calling process; when it ends, this one ends at once.
     needed : str
-        Module that the calls need, imported before the first of them comes.
+        Module that the calls need, imported before the first of them.
     memory : int
-        Address space that it may have in bytes; 0 for no limit.
+        Limit of the address space in bytes; 0 for no limit.
     """
     if memory:
         limit_memory(memory)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the business of the process that asks
-    if sys.platform != "win32":  # where a process that lost its parent gets another
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the calling process handles interrupts
+    if sys.platform != "win32":  # an orphaned process gets another parent
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
     answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # whatever is printed must not get between the answers
+    os.dup2(2, 1)  # printed text must not mix with the answers
     if needed:
         import_module(needed)
     while True:
@@ -45,12 +45,12 @@ def serve(parent: int, needed: str = "", memory: int = 0) -> None:
         try:
             pickle.dump(_answer(message), answers)
             answers.flush()
-        except BrokenPipeError:  # nobody asks any more
+        except BrokenPipeError:  # the calling process closed its end
             os._exit(1)
 
 
 def limit_memory(most: int) -> None:
-    """Let this process have no more address space, in bytes, where the system knows how; calls that want more fail."""
+    """Limit the address space of this process, in bytes, if the system can; calls that need more fail."""
     if sys.platform == "win32":
         return
     import resource
@@ -61,19 +61,19 @@ def limit_memory(most: int) -> None:
 
 
 def at_most(wanted: int, hard: int) -> int:
-    """Return a limit that the system, which may set one already, lets a process have."""
-    return wanted if hard < 0 else min(wanted, hard)  # below zero: there is none
+    """Return a limit that the system, which may have a lower one already, accepts."""
+    return wanted if hard < 0 else min(wanted, hard)  # below zero: no limit
 
 
 def _end_with(parent: int) -> None:
-    """End this process soon after another one, its parent, was killed."""
+    """End this process soon after its parent ended."""
     while os.getppid() == parent:
-        time.sleep(_BETWEEN_LOOKS)
+        time.sleep(_CHECK_INTERVAL)
     os._exit(1)
 
 
 def _answer(message: bytes) -> bytes:
-    """Call what a message names; return what became of it, pickled."""
+    """Make the call of a message, and return the kind of its end and the value, pickled."""
     try:
         name, call = pickle.loads(message)
         module, _, function = name.partition(":")
@@ -82,19 +82,19 @@ def _answer(message: bytes) -> bytes:
         return pickle.dumps(("not understood", str(error)))
     try:
         result = called(**call)
-    except Exception as error:  # noqa: BLE001 - it is raised again by the process that asked
-        return _told(error)
+    except Exception as error:  # noqa: BLE001 - it is raised again in the calling process
+        return _pickled(error)
     try:
         return pickle.dumps(("result", result))
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         return pickle.dumps(("not understood", str(error)))
 
 
-def _told(error: Exception) -> bytes:
-    """Return an exception pickled; one that cannot be, or not be had back, in words."""
+def _pickled(error: Exception) -> bytes:
+    """Return an exception pickled, or its sentence if its class cannot be pickled and restored."""
     try:
         answer = pickle.dumps(("error", error))
         pickle.loads(answer)
-    except Exception:  # noqa: BLE001 - whatever its class does when it is made again
+    except Exception:  # noqa: BLE001 - restoring it may raise anything
         return pickle.dumps(("error", ViscofricError(f"{type(error).__name__}: {error}")))
     return answer

@@ -1,4 +1,4 @@
-"""What bodies do with heat."""
+"""Thermal properties of bodies."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from viscofric.units import Quantity, positive
 
 @dataclass(frozen=True)
 class ThermalProperties:
-    """What a body does with heat.
+    """Thermal properties of a body.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ class ThermalProperties:
     heat_capacity : float, str or pint.Quantity
         c, J/(kg K).
     name : str
-        As sentences name the body.
+        Name of the body in sentences.
 
     Raises
     ------

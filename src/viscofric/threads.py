@@ -1,4 +1,4 @@
-"""BLAS kept to one thread: threads slow iterative solvers down, many-fold on a busy machine."""
+"""BLAS limited to one thread: threads slow down iterative solvers, many-fold on a busy machine."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def one_blas_thread(function: Callable[_Parameters, _Result]) -> Callable[_Param
 
 @functools.lru_cache(maxsize=1)
 def _libraries(modules: int) -> ThreadpoolController:
-    """Look for libraries of threads, which takes milliseconds: once, and again when more modules are imported."""
+    """Return the thread libraries; the search takes milliseconds and is repeated only after further imports."""
     from threadpoolctl import ThreadpoolController
 
     return ThreadpoolController()

@@ -35,7 +35,7 @@ class TractionStep:
     source : str
         The file that holds the step.
     kind, description, started : str
-        As the file has them: ``"BOD_TIMED"``, ``"running-in"``, ``"23/03/2018 10:12:01"``; empty if it does not.
+        As in the file: ``"BOD_TIMED"``, ``"running-in"``, ``"23/03/2018 10:12:01"``; else empty.
     readings : int
         Number of its readings.
     load, temperature, speed : float
@@ -76,12 +76,12 @@ _COLUMNS = {
     "track_radius": ("m", "radius of the ball's track on the disc"),
 }
 
-#: No rubber has a friction coefficient above this; what is larger was read in another unit, or is damaged.
+#: Above every friction coefficient of rubber; larger values have another unit, or are damaged.
 LARGEST_FRICTION = 10.0
 
 
 def notes_on_friction(friction: ArrayLike) -> tuple[Note, ...]:
-    """Return a note where friction coefficients are larger than any rubber has."""
+    """Return a note on friction coefficients above those of any rubber."""
     sizes = np.abs(np.asarray(friction, dtype=float))
     count = int(np.count_nonzero(sizes > LARGEST_FRICTION))
     if not count:
@@ -108,9 +108,9 @@ class TractionRuns:
     temperature : (n,) array
         K.
     replicate : (n,) array of int
-        Number of the repetition that a row belongs to.  Readings of one `step` are no repetitions, whatever it is.
+        Number of the repetition that a row belongs to.  Readings of one `step` are never repetitions.
     source : str
-        Where they came from.
+        Origin, such as names of files.
     notes : tuple of str
         What the reader found doubtful or changed: one sentence each.
     zero_force : (n,) array, optional
@@ -122,7 +122,7 @@ class TractionRuns:
     track_radius : (n,) array, optional
         Of the ball's track on the disc, m; NaN where it was not recorded.
     steps : tuple of TractionStep
-        What the files say of the steps, which `step` numbers; counts and means are taken from the rows, and steps
+        The steps that `step` numbers, as described in the files; counts and means are those of the rows, and steps
         without rows are left out.
 
     Examples
@@ -244,15 +244,13 @@ class TractionRuns:
         )
 
     def _in_steps(self, name: str, wanted: int | Sequence[int]) -> Mask:
-        """Tell which readings belong to some steps, all of which there must be."""
+        """Return which readings belong to some steps, which must exist."""
         numbers = np.atleast_1d(whole_numbers(wanted, name))
         asked = Remedy(f"{name} = {brief(wanted)}")
         if name == "except_steps":
             asked = setting("measurement.except_steps", "Steps to leave out", ",".join(map(str, numbers)))
         if self.step is None:
-            raise InputError(
-                "", code="no-steps", remedy=asked + ": these traction runs do not say what steps they are of."
-            )
+            raise InputError("", code="no-steps", remedy=asked + ": these traction runs have no numbers of steps.")
         known = np.isin(numbers, self.step)
         if not np.all(known):
             there = f": there is no step {numbers[~known][0]}; steps go from {self.step.min()} to {self.step.max()}."
@@ -265,7 +263,7 @@ def _summarised(runs: TractionRuns, known: Iterable[TractionStep]) -> tuple[Trac
     if runs.step is None or not len(runs):
         return ()
     numbers, place, counts = np.unique(runs.step, return_inverse=True, return_counts=True)
-    told = {step.number: step for step in known}
+    stated = {step.number: step for step in known}
 
     def mean(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> list[float]:
         return [float(value) for value in np.bincount(place, values) / counts]
@@ -277,7 +275,7 @@ def _summarised(runs: TractionRuns, known: Iterable[TractionStep]) -> tuple[Trac
     columns = zip(numbers, counts, mean(runs.load), mean(runs.temperature), mean(disc), ratio, strict=True)
     return tuple(
         replace(
-            told.get(int(number), TractionStep(int(number))),
+            stated.get(int(number), TractionStep(int(number))),
             readings=int(count),
             load=load,
             temperature=temperature,

@@ -1,8 +1,8 @@
-"""Units at the edges: text, numbers or pint quantities in, SI floats and arrays out.
+"""Units at the interfaces: text, numbers or pint quantities in, SI floats and arrays out.
 
 Plain numbers are SI (temperatures in kelvin).  Text is one plain number and one unit, such as ``"100 mm/s"`` or
-``"30 degC"``; it is never evaluated.  pint quantities carry their own unit.  pint itself sees only the text of the
-unit, and is imported only when a unit has to be understood.
+``"30 degC"``; it is never evaluated.  pint quantities carry their own unit.  pint itself receives only the text of the
+unit, and is imported only when a unit has to be interpreted.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _EXAMPLE = {
     "dimensionless": "the plain number 0.5",
 }
 
-#: SI unit -> how it is commonly written, to find what was meant by other capitals.
+#: SI unit -> common notations, to suggest one with other capitals.
 _COMMON = {
     "m": ("nm", "um", "mm", "cm", "m", "km"),
     "N": ("mN", "N", "kN"),
@@ -60,7 +60,7 @@ _COMMON = {
     "delta_degC": ("K",),
     "J/mol": ("J/mol", "kJ/mol"),
 }
-#: Letters that pint takes for coulomb and farad.
+#: Letters that pint reads as coulomb and farad.
 _DEGREES = {"c": "degC", "f": "degF"}
 
 CELSIUS_ZERO = 273.15  # K
@@ -72,7 +72,7 @@ _DECIMAL_COMMA = re.compile(r"(?P<whole>[+-]?[0-9]*),(?P<part>[0-9]+(?:[eE][+-]?
 _PARTED = re.compile(
     r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s].*)"
 )
-# A unit is names with single-digit exponents, multiplied and divided; what else pint might evaluate is kept from it.
+# A unit is names with single-digit exponents, multiplied and divided; pint gets nothing else to evaluate.
 _LONGEST_UNIT = 40
 _TERM = r"[^\W\d]+(?:\s?(?:\*\*|\^)\s?(?:-?[0-9]|\(-?[0-9]\))|⁻?[¹²³])?(?![0-9⁻¹²³^])"
 _JOIN = r"(?:\s?[*/]\s?|\s)"
@@ -82,36 +82,27 @@ _UNIT = re.compile(rf"(?:1\s?/\s?)?(?:{_TERM}|{_GROUP})(?:{_JOIN}(?:{_TERM}|{_GR
 
 @lru_cache(maxsize=1)
 def registry() -> pint.UnitRegistry[Any]:
-    """Return the one pint registry that viscofric uses (made at first need)."""
+    """Return viscofric's pint registry, made at first use."""
     try:
         import pint
 
         return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
-    except Exception as error:  # pint imports what it finds of other packages, files of the user's among them
+    except Exception as error:  # pint imports other packages, and files of the user with such names
         raise ViscofricError(f"units cannot be read: {not_imported('pint', error)}.") from error
 
 
 def _wrong(name: str, value: object, unit: str, reason: str, right: str = "") -> InputError:
-    right = right or f"right would be, for instance, {_EXAMPLE.get(unit, f'a quantity in {unit}')}"
+    right = right or f"write, for example, {_EXAMPLE.get(unit, f'a quantity in {unit}')}"
     return InputError(f"{name} = {brief(value)}: {reason}; {right}.")
 
 
 def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
-    """Return ``(factor, offset)`` so that ``SI = factor * number + offset`` for a unit's text.
-
-    Parameters
-    ----------
-    text : str
-        A unit as written in a file's header: ``"MPa"``, ``"°C"``, ``"Hz"``.
-    unit : str
-        The SI unit wanted.
-    name : str
-        What it is the unit of, for the error message.
+    """Return ``(factor, offset)`` of ``SI = factor * number + offset`` for a unit as in a file's header.
 
     Raises
     ------
     InputError
-        If the text is not a unit, or not one of the right dimension.
+        If the text, such as ``"MPa"`` or ``"°C"``, is not a unit, or not one of the right dimension.
     """
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     zero, one = (_convert(_quantity(number, text, text, unit, name), text, unit, name) for number in (0.0, 1.0))
@@ -125,20 +116,20 @@ def _quantity(number: float, text: str, shown: str, unit: str, name: str) -> pin
         if len(plain) > _LONGEST_UNIT or not _UNIT.fullmatch(plain):
             raise ValueError(plain)
         return units.Quantity(number, units.Unit(plain))
-    except Exception as error:  # pint raises many kinds; all mean the same to the user
-        reason = f"{text!r} is not a unit that is known"
+    except Exception as error:  # pint raises many kinds
+        reason = f"{text!r} is not a known unit"
         raise _wrong(name, shown, unit, reason, _meant(shown, text, unit)) from error
 
 
 def _plain(text: str) -> str:
-    """Write the degree, micro and product signs that instruments print in the way pint reads them."""
+    """Replace the degree, micro and product signs of instruments by those that pint reads."""
     text = text.strip().replace("µ", "u").replace("μ", "u").replace("·", "*").replace("℃", "°C")
     text = re.sub(r"(?<=[^\W\d])\.(?=[^\W\d])", "*", text)
     return text.replace("°C", "degC").replace("°F", "degF").replace("°K", "K")
 
 
 def _meant(shown: str, text: str, unit: str) -> str:
-    """Suggest the common unit that differs by its capitals only, if there is just one."""
+    """Suggest the one common unit that differs only in its capitals."""
     plain = _plain(text).replace("°", "deg").casefold()
     near = [one for one in _COMMON.get(unit, ()) if one.casefold() == plain]
     if unit == "K" and plain in _DEGREES:
@@ -149,20 +140,7 @@ def _meant(shown: str, text: str, unit: str) -> str:
 
 
 def to_si(value: Quantity, unit: str, name: str = "value") -> float:
-    """Convert one value to a float in an SI unit.
-
-    Parameters
-    ----------
-    value : float, str or pint.Quantity
-        Plain numbers are taken to be in `unit` already.
-    unit : str
-        The SI unit: ``"m"``, ``"m/s"``, ``"N"``, ``"Pa"``, ``"K"`` (absolute temperature), ``"s"`` …
-    name : str
-        What the value is, for the error message.
-
-    Returns
-    -------
-    float
+    """Convert one value to a float in an SI unit; plain numbers are in `unit` already.
 
     Raises
     ------
@@ -182,12 +160,12 @@ def to_si(value: Quantity, unit: str, name: str = "value") -> float:
     if not np.isfinite(number):
         raise _wrong(name, value, unit, "is not a finite number")
     if abs(number) > LARGEST:
-        raise _wrong(name, value, unit, f"is beyond {LARGEST:g}, too large to compute with")
+        raise _wrong(name, value, unit, f"is beyond {LARGEST:g}, too large for computations")
     return number
 
 
 def _single(value: object) -> float:
-    """Return one real number as a float; ValueError says what there is instead."""
+    """Return one real number as a float; `ValueError` names what else it is."""
     found = real(value)
     if found.ndim:
         raise ValueError("several")
@@ -208,17 +186,17 @@ def _parse(text: str, unit: str, name: str) -> float:
 
 
 def _not_a_quantity(text: str, unit: str, name: str) -> InputError:
-    """Say what keeps a text from being one number and one unit."""
+    """Return the error of a text that is not one number and one unit."""
     plain = text.strip()
     if not plain:
         return _wrong(name, text, unit, "is empty")
     if parted := _PARTED.fullmatch(plain):
         whole = f"{re.sub(r'[^0-9.+-]', '', parted['number'])} {parted['unit']}"
         if parted["mark"] != "," or "." in parted["number"] or parted["number"].count(",") > 1:
-            return _wrong(name, text, unit, "parts its thousands", f"write {whole!r}")
+            return _wrong(name, text, unit, "has thousands separators", f"write {whole!r}")
     if comma := _DECIMAL_COMMA.fullmatch(plain):
         decimal = f"{comma['whole'] or '0'}.{comma['part']} {comma['unit']}"
-        also = f", or {whole!r} if it parts thousands" if parted else ""
+        also = f", or {whole!r} if it separates thousands" if parted else ""
         return _wrong(name, text, unit, "has a decimal comma", f"write {decimal!r}{also}")
     if _UNIT.fullmatch(_plain(plain)) and len(plain) <= _LONGEST_UNIT:
         return _wrong(name, text, unit, "has no number")
@@ -230,17 +208,17 @@ def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = ""
     import pint
 
     try:
-        # pint would move a difference to absolute zero, and an absolute temperature away from it.
+        # pint would convert temperature differences to temperatures and the reverse.
         units = [str(key) for key, _ in quantity.unit_items()]
         if unit == "K" and any(one.startswith("delta_") for one in units):
-            raise _wrong(name, str(shown), unit, "is a temperature difference where a temperature is wanted")
+            raise _wrong(name, str(shown), unit, "is a temperature difference where a temperature is needed")
         if unit == "delta_degC" and units in (["degree_Celsius"], ["degree_Fahrenheit"], ["degree_Reaumur"]):
-            raise _wrong(name, str(shown), unit, "is a temperature where a temperature difference is wanted")
+            raise _wrong(name, str(shown), unit, "is a temperature where a temperature difference is needed")
         return _single(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         reason = f"has the wrong kind of unit ({quantity.units})"
         if unit == "dimensionless":
-            reason = f"has a unit ({quantity.units}) where none belongs"
+            reason = f"has a unit ({quantity.units}), but must be a pure number"
         raise _wrong(name, str(shown), unit, reason, right) from None
     except InputError:
         raise
@@ -261,7 +239,7 @@ def to_si_array(values: Quantities, unit: str, name: str = "value") -> Array:
             raise TypeError
         each = list(values)  # type: ignore[arg-type]
     except TypeError:
-        raise _wrong(name, values, unit, "is not a number with a unit, nor a list of such") from None
+        raise _wrong(name, values, unit, "is not a number with a unit, or a list of these") from None
     return np.array([to_si(value, unit, name) for value in each])
 
 
@@ -272,7 +250,7 @@ def to_si_in_shape(values: Quantities, unit: str, name: str) -> Array:
     if isinstance(values, (list, tuple)) or np.ndim(values) > 0:
         rows = [to_si_in_shape(value, unit, name) for value in values]  # type: ignore[union-attr]
         if len({row.shape for row in rows}) > 1:
-            raise _wrong(name, values, unit, "has rows that are not equally long")
+            raise _wrong(name, values, unit, "has rows of different lengths")
         return np.array(rows, dtype=float)
     return np.asarray(to_si(values, unit, name))  # type: ignore[arg-type]
 
@@ -283,7 +261,7 @@ def positive(value: Quantity, unit: str, name: str) -> float:
     if number <= 0.0:
         raise _wrong(name, value, unit, "must be above absolute zero" if unit == "K" else "must be above zero")
     if number < 1.0 / LARGEST:
-        raise _wrong(name, value, unit, f"is below {1.0 / LARGEST:g}, too small to compute with")
+        raise _wrong(name, value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
     return number
 
 
@@ -305,14 +283,14 @@ def checked_poisson_ratio(value: Quantity, name: str = "poisson_ratio", *, above
 
 
 def angular_frequency(value: Quantity, name: str) -> float:
-    """Return an angular frequency in rad/s; hertz count 2π each, plain numbers are rad/s.
+    """Return an angular frequency in rad/s; a value in hertz is multiplied by 2π, plain numbers are in rad/s.
 
-    pint holds the radian for a pure number, so that it would take one hertz for one radian per second.
+    pint treats the radian as a pure number and would read one hertz as one radian per second.
 
     Raises
     ------
     InputError
-        If it is not above zero, or its unit is neither one of hertz nor rad/s.
+        If it is not above zero, or its unit is neither hertz nor rad/s.
     """
     if isinstance(value, str):
         if value.rstrip().lower().endswith("hz"):
@@ -323,7 +301,7 @@ def angular_frequency(value: Quantity, name: str) -> float:
 
 
 def two_lengths(value: Quantity | tuple[Quantity, Quantity], name: str = "spacing") -> tuple[float, float]:
-    """Return two lengths above zero, those along x and y, m; one that is given is both."""
+    """Return two lengths above zero, along x and y, m; a single one stands for both."""
     pair = value if isinstance(value, (tuple, list)) else (value, value)
     if len(pair) != 2:
         raise InputError(f"{name} = {brief(value)}: must be one length or two, those of x and y.")
@@ -331,31 +309,31 @@ def two_lengths(value: Quantity | tuple[Quantity, Quantity], name: str = "spacin
 
 
 def velocity(value: Quantity, name: str = "speed") -> float:
-    """Convert like `to_si`, but let infinite speeds pass, one of the elastic limits."""
+    """Convert like `to_si`, but accept infinite speeds, one of the elastic limits."""
     if isinstance(value, float) and math.isinf(value):
         return value
     return to_si(value, "m/s", name)
 
 
 def celsius(kelvin: float) -> float:
-    """Turn kelvin into degrees Celsius."""
+    """Convert kelvin to degrees Celsius."""
     return kelvin - CELSIUS_ZERO
 
 
 def kelvin_hint(kelvin: float) -> str:
-    """Return the end of a sentence that helps who gave degrees Celsius as a plain number, or nothing."""
+    """Return a hint for a plain number that was probably meant in degrees Celsius, or an empty text."""
     if kelvin >= COLDEST_PLAUSIBLE:
         return ""
     return f"; plain numbers are kelvin: for {kelvin:.4g} °C write '{kelvin:.4g} degC'"
 
 
 def plain(number: float, digits: int = 4) -> str:
-    """Return a number as people write it: at most so many significant digits, no power of ten up to a million."""
+    """Return a number in the usual notation: at most so many significant digits, no power of ten up to a million."""
     if 10**digits <= abs(number) < 1e6:
         return f"{float(f'{number:.{digits - 1}e}'):.0f}"
     return f"{number:.{digits}g}"
 
 
-def told_speed(speed: float, digits: int = 4) -> str:
+def shown_speed(speed: float, digits: int = 4) -> str:
     """Return a speed (m/s) with its unit: mm/s, or m/s from 1 m/s on."""
     return f"{plain(speed, digits)} m/s" if speed >= 0.99995 else f"{plain(1e3 * speed, digits)} mm/s"

@@ -371,7 +371,7 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
         ((*RUBBER, *BALL, "--sliding-base"), 2, "--sliding-base is for"),
         ((*RUBBER, *BALL, "--layer", "1"), 1, "thickness of the layer = '1': has no unit"),
         (("--material", DMA, *BALL), 1, "`viscofric material fit` makes one of DMA sweeps"),
-        ((*RUBBER, "--cone", "0.1", *BALL[2:]), 1, "right would be, for instance, '5 deg'"),
+        ((*RUBBER, "--cone", "0.1", *BALL[2:]), 1, "write, for example, '5 deg'"),
         ((*RUBBER, *BALL, "--window", "1 mm,1 mm"), 1, "must be 3 lengths (rear, front, side)"),
         ((*RUBBER, *BALL, "--direction", "north"), 1, "direction = 'north'"),
         ((*RUBBER, *BALL, "--direction", "30"), 1, "direction = '30': has no unit"),

@@ -74,14 +74,14 @@ WRONG = [
         'load = "25 N"',
         'load = "0 N"',
         {"conditions.load": "value"},
-        "conditions.load: '0 N': must be above zero; right would be, for instance, '25 N'.",
+        "conditions.load: '0 N': must be above zero; write, for example, '25 N'.",
     ),
     Wrong(
         BALL,
         'load = "25 N"',
         'load = "-3 N"',
         {"conditions.load": "value"},
-        "conditions.load: '-3 N': must be above zero; right would be, for instance, '25 N'.",
+        "conditions.load: '-3 N': must be above zero; write, for example, '25 N'.",
     ),
     Wrong(
         BALL,
@@ -95,7 +95,7 @@ WRONG = [
         'load = "25 N"',
         'load = "25 mm"',
         {"conditions.load": "value"},
-        "conditions.load: '25 mm': has the wrong kind of unit (millimeter); right would be, for instance, '25 N'.",
+        "conditions.load: '25 mm': has the wrong kind of unit (millimeter); write, for example, '25 N'.",
     ),
     Wrong(
         BALL,
@@ -112,14 +112,14 @@ WRONG = [
         'radius = "9.525 mm"',
         'radius = "big"',
         {"indenter.radius": "value"},
-        "indenter.radius: 'big': has no number; right would be, for instance, '9.525 mm'.",
+        "indenter.radius: 'big': has no number; write, for example, '9.525 mm'.",
     ),
     Wrong(
         BALL,
         '"20 mm/s"',
         '"0 mm/s"',
         {"conditions.speed.from": "value"},
-        "conditions.speed.from: '0 mm/s': must be above zero; right would be, for instance, '100 mm/s'.",
+        "conditions.speed.from: '0 mm/s': must be above zero; write, for example, '100 mm/s'.",
     ),
     Wrong(
         BALL,
@@ -197,7 +197,7 @@ WRONG = [
         'dma = "dma.csv"',
         'dma = "dma.csv"\nfixed_shift_factors = { "cold" = 1.2 }',
         {"material.fixed_shift_factors": "value"},
-        "material.fixed_shift_factors: 'cold': has no number; right would be, for instance, '30 degC'.",
+        "material.fixed_shift_factors: 'cold': has no number; write, for example, '30 degC'.",
     ),
     Wrong(
         BALL,
@@ -218,7 +218,7 @@ WRONG = [
         'temperature = ["30 degC", "60 degC"]',
         'temperature = "30 degC"\nthickness = "0 mm"',
         {"conditions.thickness": "value"},
-        "conditions.thickness: '0 mm': must be above zero; right would be, for instance, '9.525 mm'.",
+        "conditions.thickness: '0 mm': must be above zero; write, for example, '9.525 mm'.",
     ),
     Wrong(
         BALL,
@@ -361,7 +361,7 @@ WRONG = [
         '"20 mm/s"',
         '"-20 mm/s"',
         {"conditions.speed.from": "value"},
-        "conditions.speed.from: '-20 mm/s': must be above zero; right would be, for instance, '100 mm/s'.",
+        "conditions.speed.from: '-20 mm/s': must be above zero; write, for example, '100 mm/s'.",
     ),
     Wrong(
         BALL,
@@ -442,7 +442,7 @@ WRONG = [
         "[indenter]",
         '[cluster]\nmemory = "8 mm"\nwalltime = "2 h"\n[indenter]',
         {"cluster.memory": "value"},
-        "cluster.memory: '8 mm': has the wrong kind of unit (millimeter); right would be, for instance, '8 GB'.",
+        "cluster.memory: '8 mm': has the wrong kind of unit (millimeter); write, for example, '8 GB'.",
     ),
     Wrong(
         BALL,

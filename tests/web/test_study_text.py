@@ -70,7 +70,7 @@ def test_every_mistake_stands_beside_its_field(tmp_path: Path) -> None:
         "conditions.speed.points",
         "conditions.temperature[1]",
     }
-    assert found["conditions.load"].startswith("'25 X': 'X' is not a unit that is known")
+    assert found["conditions.load"].startswith("'25 X': 'X' is not a known unit")
     assert "thickness" in found["layer.thicknes"]
     assert str(tmp_path) not in str(caught.value)
 

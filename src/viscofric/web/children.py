@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _PROGRAM = "from viscofric.web.child import main; main({parent})"
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _LONGEST_END = 1.0  # s that its last words may take
-_ENDED = "The process that computed this ended, for want of memory as a rule; ask for less accuracy or fewer points."
+_ENDED = "The process that computed this ended, usually for lack of memory; ask for less accuracy or fewer points."
 
 
 class Message(NamedTuple):

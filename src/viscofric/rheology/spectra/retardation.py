@@ -242,7 +242,7 @@ class RelaxationSpectrum(FrequencyResponse):
     def __init__(self, E0: Quantity, E: ArrayLike, tau: ArrayLike) -> None:
         rubber = to_si(E0, "Pa", "E0")
         if rubber < 0.0:
-            raise InputError(f"E0 = {E0!r}: must not be below zero; right would be, for instance, '3 MPa'.")
+            raise InputError(f"E0 = {E0!r}: must not be below zero; write, for example, '3 MPa'.")
         object.__setattr__(self, "E0", rubber)
         object.__setattr__(self, "E", mode_column(E, "E", "Pa"))
         object.__setattr__(self, "tau", mode_column(tau, "tau", "s"))

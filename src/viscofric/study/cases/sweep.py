@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.contact.bodies import Layer
-from viscofric.units import celsius, plain, told_speed
+from viscofric.units import celsius, plain, shown_speed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -165,13 +165,13 @@ def shown(name: str, value: float | str, line: bool = False) -> str:
     if name == "load":
         return f"{plain(value / 1e3)} N/mm" if line else f"{plain(value)} N"
     if name == "speed":
-        return told_speed(value)
+        return shown_speed(value)
     return f"{value:g}" if name in _COUNTED else f"{plain(1e3 * value)} mm"
 
 
 def place(case: Case) -> str:
     """Return temperature and speed of a case in words."""
-    return f"{plain(celsius(case.temperature))} °C, {told_speed(case.speed)}"
+    return f"{plain(celsius(case.temperature))} °C, {shown_speed(case.speed)}"
 
 
 def place_in(sweep: Sweep, number: int) -> str:
