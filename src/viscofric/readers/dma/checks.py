@@ -86,12 +86,8 @@ def _leave_out(
     else:
         hertz = points.angular_frequency[first] / (2 * math.pi)
         where = f"{celsius(points.temperature[first]):z.1f} °C, {hertz:.4g} Hz"
-        notes.append(
-            Note(
-                "points-left-out",
-                f"{_capital(named)} left out: {why[0]} ({values[0][first]:.4g} {values[1]} at {where}).",
-            )
-        )
+        said = f"{_capital(named)} left out: {why[0]} ({values[0][first]:.4g} {values[1]} at {where})."
+        notes.append(Note("points-left-out", said))
 
 
 def _span(points: Points, rows: Indices) -> str:

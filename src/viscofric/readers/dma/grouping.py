@@ -65,12 +65,8 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
     notes = []
     if moving:
         what = "1 point left out: its" if len(moving) == 1 else f"{len(moving)} points left out: their"
-        notes.append(
-            Note(
-                "temperature-moving",
-                f"{what} temperature was changing between two isotherms ({points.named(sorted(moving))}).",
-            )
-        )
+        said = f"{what} temperature was changing between two isotherms ({points.named(sorted(moving))})."
+        notes.append(Note("temperature-moving", said))
     merged = _merged(points, groups)
     kept = _insist_on_several(points, merged, source)
     _insist_on_one_temperature(points, kept, source)

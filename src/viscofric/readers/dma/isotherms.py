@@ -156,12 +156,8 @@ def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tup
     notes = [Note("deformation", f"The file's header states that the moduli were measured in {kind}{by}.")]
     silent = [one for one in readings if one.deformation is None]
     if silent:
-        notes.append(
-            Note(
-                "deformation-not-said",
-                f"{_names(silent)}: no statement whether the moduli are tensile or shear; read as {kind}.",
-            )
-        )
+        text = f"{_names(silent)}: no statement whether the moduli are tensile or shear; read as {kind}."
+        notes.append(Note("deformation-not-said", text))
     return kind, notes
 
 
@@ -192,9 +188,8 @@ def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: in
     unsorted = [one for one in sweeps if np.any(np.diff(points.angular_frequency[one.rows]) < 0)]
     averaged = [one for one in sweeps if len(one.rows) > len(one.origins)]
     if unsorted:
-        notes.append(
-            Note("sorted", f"The rows {at([one.isotherm.temperature for one in unsorted])} were sorted by frequency.")
-        )
+        said = f"The rows {at([one.isotherm.temperature for one in unsorted])} were sorted by frequency."
+        notes.append(Note("sorted", said))
     if averaged:
         repeated = sum(len(one.rows) - len(one.origins) for one in averaged)
         what = "1 repeated frequency" if repeated == 1 else f"{repeated} repeated frequencies"
@@ -202,20 +197,12 @@ def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: in
         notes.append(Note("averaged", f"{what} {at([one.isotherm.temperature for one in averaged])} {were} averaged."))
         again = [one.isotherm.temperature for one in averaged if all(len(rows) > 1 for rows in one.origins)]
         if again:
-            notes.append(
-                Note(
-                    "measured-again",
-                    f"All frequencies {at(again)} were measured more than once, as in repeated sweeps.",
-                )
-            )
+            said = f"All frequencies {at(again)} were measured more than once, as in repeated sweeps."
+            notes.append(Note("measured-again", said))
         worst, kelvin = max(_disagreement(points, one) for one in averaged)
         if worst > REPEATS_DIFFER:
-            notes.append(
-                Note(
-                    "repeats-differ",
-                    f"Repeated readings differ by up to {100 * worst:.0f} % of their modulus {at([kelvin])}.",
-                )
-            )
+            said = f"Repeated readings differ by up to {100 * worst:.0f} % of their modulus {at([kelvin])}."
+            notes.append(Note("repeats-differ", said))
     if files == 1 and np.any(np.diff(points.temperature[keep]) < -ISOTHERM_GAP):
         notes.append(Note("sorted", "The isotherms were sorted by temperature."))
     return notes

@@ -60,12 +60,8 @@ def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
             fastest = max(fastest, drift)
     notes = []
     if wide:
-        notes.append(
-            Note(
-                "temperature-range",
-                f"The temperature ranges over up to {furthest:.1f} K within the {_isotherm(wide)} {at(wide)}.",
-            )
-        )
+        said = f"The temperature ranges over up to {furthest:.1f} K within the {_isotherm(wide)} {at(wide)}."
+        notes.append(Note("temperature-range", said))
     if drifting:
         told = f"drifts steadily, by up to {fastest:.1f} K, within the {_isotherm(drifting)} {at(drifting)}"
         notes.append(Note("temperature-drifts", f"The temperature {told}."))
@@ -164,20 +160,12 @@ def _on_sense(sweeps: Sequence[Sorted]) -> list[Note]:
     loss = np.concatenate([one.isotherm.loss_modulus for one in sweeps])
     if storage.min() > LIKE_LOGARITHMS[0] and storage.max() < LIKE_LOGARITHMS[1]:
         span = f"{storage.min():.3g} to {storage.max():.3g}"
-        notes.append(
-            Note(
-                "logarithms",
-                f"All storage moduli lie between {span} Pa and look like logarithms; they were read as moduli.",
-            )
-        )
+        said = f"All storage moduli lie between {span} Pa and look like logarithms; they were read as moduli."
+        notes.append(Note("logarithms", said))
     lossy = float(np.median(loss / storage))
     if lossy > LARGEST_LOSS:
-        notes.append(
-            Note(
-                "columns-swapped",
-                f"Half of all tan δ are above {lossy:.3g}, as of a liquid; are the columns of the moduli swapped?",
-            )
-        )
+        said = f"Half of all tan δ are above {lossy:.3g}, as of a liquid; are the columns of the moduli swapped?"
+        notes.append(Note("columns-swapped", said))
     level = [float(np.median(np.log(one.isotherm.storage_modulus))) for one in sweeps]
     if len(sweeps) > 2 and np.all(np.diff(level) > 0.0):
         notes.append(

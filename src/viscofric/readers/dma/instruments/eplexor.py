@@ -239,10 +239,6 @@ def _taken_apart(shifts: ShiftList, step: Indices) -> list[Note]:
     absent = np.sort(np.delete(shifts.temperatures, found)) - CELSIUS_ZERO
     if absent.size:
         listed = ", ".join(f"{one:z.1f}" for one in absent)
-        notes.append(
-            Note(
-                "temperatures-without-rows",
-                f"The sheet 'Shiftlist' also names {listed} °C, for which the workbook has no rows.",
-            )
-        )
+        said = f"The sheet 'Shiftlist' also names {listed} °C, for which the workbook has no rows."
+        notes.append(Note("temperatures-without-rows", said))
     return notes

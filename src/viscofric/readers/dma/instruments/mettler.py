@@ -95,12 +95,8 @@ def read(source: Source) -> Readings:
             )
     notes = []
     if "x" in blocks[0].names:
-        notes.append(
-            Note(
-                "strain-unknown",
-                "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown.",
-            )
-        )
+        said = "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown."
+        notes.append(Note("strain-unknown", said))
     return Readings(
         source.path,
         NAME,

@@ -157,17 +157,12 @@ def _doubts(interval: Interval) -> list[Note]:
         if lines:
             shown = ", ".join(str(line) for line in lines[:3]) + (" and more" if len(lines) > 3 else "")
             what = "1 point was" if len(lines) == 1 else f"{len(lines)} points were"
-            notes.append(
-                Note("points-left-out", f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown}).")
-            )
+            said = f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown})."
+            notes.append(Note("points-left-out", said))
     strain = interval.places.get("strain amplitude")
     if strain is not None and interval.units[strain] not in STRAIN_FACTORS:
-        notes.append(
-            Note(
-                "strain-amplitude-not-read",
-                f"The strain amplitudes were not read: column {interval.columns[strain]!r} has no unit such as '%'.",
-            )
-        )
+        said = f"The strain amplitudes were not read: column {interval.columns[strain]!r} has no unit such as '%'."
+        notes.append(Note("strain-amplitude-not-read", said))
     if interval.missing:
         notes.append(
             Note(

@@ -133,9 +133,8 @@ def _points(source: Source, step: Step, notes: list[str]) -> _Points:
         insist_on_agreement(source.path, storage, loss, None if tangent is None else tangent.values)
     else:
         loss = storage * step.signals["tan delta"].values
-        notes.append(
-            Note("loss-computed", "The file has no loss modulus; it was computed as storage modulus times tan δ.")
-        )
+        said = "The file has no loss modulus; it was computed as storage modulus times tan δ."
+        notes.append(Note("loss-computed", said))
     good = (
         np.isfinite(temperature) & np.isfinite(frequency) & np.isfinite(storage) & np.isfinite(loss) & (frequency > 0)
     )
@@ -160,12 +159,8 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
         problem = f"step {step.name!r} has no column 'Temperature'; give "
         remedy = setting("material.temperature", "Temperature of the sweep", "'25 degC'") + "."
         raise DataFileError(source.path, problem, code="no-temperature", remedy=remedy)
-    notes.append(
-        Note(
-            "temperature-given",
-            f"No column holds a temperature; {celsius(source.temperature):z.1f} °C was given by the user.",
-        )
-    )
+    said = f"No column holds a temperature; {celsius(source.temperature):z.1f} °C was given by the user."
+    notes.append(Note("temperature-given", said))
     return np.full(len(step.places), source.temperature)
 
 
@@ -175,12 +170,8 @@ def _modulus(source: Source, step: Step, role: str, notes: list[str]) -> Array:
         problem = f"column {signal.heading!r} has the unit {signal.unit!r}; leave out modulus_unit."
         raise DataFileError(source.path, problem, code="unit-not-needed")
     if source.modulus_unit:
-        notes.append(
-            Note(
-                "modulus-unit-given",
-                f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as requested.",
-            )
-        )
+        said = f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as requested."
+        notes.append(Note("modulus-unit-given", said))
         return unit_conversion(source.modulus_unit, "Pa", "modulus_unit")[0] * signal.values
     return _conversion(source, step, signal, "Pa", "MPa")[0] * signal.values
 
@@ -234,11 +225,7 @@ def _strain(step: Step, notes: list[str]) -> Array:
     factor = STRAIN_FACTORS.get(signal.unit)
     if factor is None:
         shown = f"the unit {signal.unit!r}" if signal.unit else "no unit"
-        notes.append(
-            Note(
-                "strain-amplitude-not-read",
-                f"The strain amplitudes were not read: column {signal.heading!r} has {shown}, not '%'.",
-            )
-        )
+        said = f"The strain amplitudes were not read: column {signal.heading!r} has {shown}, not '%'."
+        notes.append(Note("strain-amplitude-not-read", said))
         return nothing
     return np.where(signal.values >= 0.0, factor * signal.values, math.nan)

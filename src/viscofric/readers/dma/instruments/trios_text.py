@@ -113,9 +113,8 @@ def _lims_table(draft: list[Row], notes: list[str]) -> Table:
         elif label == "data point":
             table.rows.append((line, values))
     if re.fullmatch(r"[0-9]{1,9}", stated) and int(stated) != len(table.rows):
-        notes.append(
-            Note("points-missing", f"Step {table.name!r} states {int(stated)} points and holds {len(table.rows)}.")
-        )
+        said = f"Step {table.name!r} states {int(stated)} points and holds {len(table.rows)}."
+        notes.append(Note("points-missing", said))
     return table
 
 

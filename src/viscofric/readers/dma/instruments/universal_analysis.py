@@ -168,9 +168,8 @@ def _step_of_text(
         notes.append(Note("events", f"{marks}; no point was read there."))
     if measured and rows[-1] is measured[-1] and len(rows[-1][1]) < len(names):
         line, _ = measured.pop()
-        notes.append(
-            Note("cut-short", f"The last row (line {line}) is torn and was left out; the file may have been cut short.")
-        )
+        said = f"The last row (line {line}) is torn and was left out; the file may have been cut short."
+        notes.append(Note("cut-short", said))
     for line, cells in measured:
         if len(cells) < len(names):
             problem = f"the row has {len(cells)} cells where the header names {len(names)} signals."
@@ -189,13 +188,11 @@ def _step_of_records(title: str, names: list[str], units: list[str], data: bytes
         _note_records_behind(records, int(negative[0]), notes)
         records = records[: negative[0]]
     elif len(data) % size:
-        notes.append(
-            Note("cut-short", f"Record {count + 1} is torn and was left out; the file may have been cut short.")
-        )
+        said = f"Record {count + 1} is torn and was left out; the file may have been cut short."
+        notes.append(Note("cut-short", said))
     else:
-        notes.append(
-            Note("cut-short", "No record with a negative time closes the data; the file may have been cut short.")
-        )
+        said = "No record with a negative time closes the data; the file may have been cut short."
+        notes.append(Note("cut-short", said))
     records = np.where(np.isfinite(records), records, np.nan)
     places = roles([_ALSO.get(name.lower(), name) for name in names])
     signals = {role: Signal(names[place], units[place], records[:, place]) for role, place in places.items()}

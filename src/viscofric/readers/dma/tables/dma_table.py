@@ -9,25 +9,9 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
+from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
-from viscofric.readers.dma.names import (
-    ANGULAR_FREQUENCY,
-    COMPLEX_MODULUS,
-    FREQUENCY,
-    ISOTHERM,
-    LOSS_MODULUS,
-    LOSS_TANGENT,
-    REDUCED_ANGULAR_FREQUENCY,
-    REDUCED_FREQUENCY,
-    SET_TEMPERATURE,
-    STEP,
-    STORAGE_MODULUS,
-    TEMPERATURE,
-    deformation_of,
-    quantity,
-    said_by_columns,
-    temperature_in_name,
-)
+from viscofric.readers.dma.names import deformation_of, quantity, said_by_columns, temperature_in_name
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
 from viscofric.readers.table import MISSING
@@ -36,7 +20,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
     from viscofric.readers.dma.names import Said
     from viscofric.readers.source import Source
-    from viscofric.readers.table import Column, Table
+    from viscofric.readers.table import Table
 
 
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
@@ -54,15 +38,15 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
         If there is no frequency, or the columns do not give both moduli.
     """
     found = {
-        "temperature": table.find(TEMPERATURE, "temperature"),
+        "temperature": table.find(names.TEMPERATURE, "temperature"),
         "frequency": _frequency_place(table, master_curve=master_curve),
-        "storage modulus": table.find(STORAGE_MODULUS, "storage modulus"),
-        "loss modulus": table.find(LOSS_MODULUS, "loss modulus"),
-        "complex modulus": table.find(COMPLEX_MODULUS, "complex modulus"),
-        "tan delta": table.find(LOSS_TANGENT, "tan delta"),
+        "storage modulus": table.find(names.STORAGE_MODULUS, "storage modulus"),
+        "loss modulus": table.find(names.LOSS_MODULUS, "loss modulus"),
+        "complex modulus": table.find(names.COMPLEX_MODULUS, "complex modulus"),
+        "tan delta": table.find(names.LOSS_TANGENT, "tan delta"),
     }
     if found["temperature"] is None:
-        found["temperature"] = table.find(ISOTHERM if master_curve else SET_TEMPERATURE, "temperature")
+        found["temperature"] = table.find(names.ISOTHERM if master_curve else names.SET_TEMPERATURE, "temperature")
     places = {what: place for what, place in found.items() if place is not None}
     tangent = places.get("tan delta")
     if tangent is not None and table.columns[tangent].unit not in ("", "1"):  # a tangent has no unit
@@ -83,10 +67,9 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
 
 
 def _frequency_place(table: Table, *, master_curve: bool) -> int | None:
-    measured = (ANGULAR_FREQUENCY, "angular frequency"), (FREQUENCY, "frequency")
-    reduced = (REDUCED_ANGULAR_FREQUENCY, "reduced angular frequency"), (REDUCED_FREQUENCY, "reduced frequency")
-    for names, what in (*reduced, *measured) if master_curve else (*measured, *reduced):
-        place = table.find(names, what)
+    measured, reduced = ["angular frequency", "frequency"], ["reduced angular frequency", "reduced frequency"]
+    for what in reduced + measured if master_curve else measured + reduced:
+        place = table.find(names.QUANTITIES[what], what)
         if place is not None:
             return place
     return None
@@ -102,12 +85,8 @@ def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) ->
     place = places["frequency"]
     if not table.columns[place].unit and _is_angular(table, place):
         shown = table.columns[place].heading
-        notes.append(
-            Note(
-                "frequency-without-unit",
-                f"The column {shown!r} has no unit; it was read in rad/s, as its name implies.",
-            )
-        )
+        said = f"The column {shown!r} has no unit; it was read in rad/s, as its name implies."
+        notes.append(Note("frequency-without-unit", said))
         return table.numbers_or_missing(place)
     return _in_rad_per_second(table, place)
 
@@ -130,15 +109,13 @@ def _in_rad_per_second(table: Table, place: int) -> Array:
 
 def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array) -> None:
     """Raise `DataFileError` where a second column of frequency contradicts the first."""
-    used, other = places["frequency"], table.find(FREQUENCY, "frequency")
+    used, other = places["frequency"], table.find(names.FREQUENCY, "frequency")
     if other is None or other == used or is_reduced(table, places):
         return
     apart = np.abs(_in_rad_per_second(table, other) - angular) > PRINTED_FREQUENCY * np.abs(angular)
     if np.any(apart):
         row = int(np.argmax(apart))
-        both = [
-            f"{table.rows[row][place].strip()} in column {table.columns[place].heading!r}" for place in (other, used)
-        ]
+        both = (f"{_cell(table, row, place)} in column {table.columns[place].heading!r}" for place in (other, used))
         problem = f"{' and '.join(both)} contradict each other (ω = 2πf); correct or leave out one of them."
         raise DataFileError(table.path, problem, int(table.lines[row]), code="columns-contradict")
 
@@ -162,12 +139,8 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
         notes.append(Note("storage-computed", "The storage moduli were computed as loss modulus over tan δ."))
         tangent = np.where(tangent == 0.0, np.nan, tangent)
         return values["loss modulus"] / tangent, values["loss modulus"]
-    notes.append(
-        Note(
-            "moduli-computed",
-            "Storage and loss moduli were computed from the absolute value of the complex modulus and tan δ.",
-        )
-    )
+    said = "Storage and loss moduli were computed from the absolute value of the complex modulus and tan δ."
+    notes.append(Note("moduli-computed", said))
     storage = values["complex modulus"] / np.hypot(1.0, tangent)
     return storage, storage * tangent
 
@@ -190,10 +163,8 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
     column = table.columns[place]
     if source.modulus_unit and not column.unit:
         factor, offset = unit_conversion(source.modulus_unit, "Pa", "modulus_unit")
-        note = Note(
-            "modulus-unit-given",
-            f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as requested.",
-        )
+        said = f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as requested."
+        note = Note("modulus-unit-given", said)
         if note not in notes:
             notes.append(note)
     else:
@@ -205,11 +176,8 @@ def deformation(table: Table, places: dict[str, int]) -> Said:
     """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`."""
     said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
     if {"tension", "shear"} <= {kind for kind, _ in said}:
-        raise DataFileError(
-            table.path,
-            "one modulus is tensile (E) by its heading, the other shear (G).",
-            code="deformation-contradicts",
-        )
+        problem = "one modulus is tensile (E) by its heading, the other shear (G)."
+        raise DataFileError(table.path, problem, code="deformation-contradicts")
     for kind, place in said:
         if kind is not None:
             return kind, f"the heading {table.columns[place].heading!r}"
@@ -335,54 +303,42 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
 
 
 def _note_numbered(table: Table, notes: list[str]) -> None:
-    """Name the columns that differ from those of a sweep by a number only and are not read."""
-    numbered = [repr(column.heading) for column in table.columns if _is_numbered(column)]
+    """Add a note on unread columns whose names differ from those of a sweep by a number only."""
+    others = (column for column in table.columns if not quantity(column.name))
+    numbered = [repr(column.heading) for column in others if quantity(column.unnumbered)]
     if numbered:
         text = f"Numbered columns that are not read: {', '.join(numbered)}; give each sweep a table of its own."
         notes.append(Note("unused-columns", text))
 
 
-def _is_numbered(column: Column) -> bool:
-    return not quantity(column.name) and bool(column.unnumbered and quantity(column.unnumbered))
-
-
 def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
-    """Return fractions, None where no one column tells them with a unit that is understood."""
+    """Return fractions, None without exactly one column of them with a known unit."""
     found = [p for p, column in enumerate(table.columns) if quantity(column.name) == "strain amplitude"]
     if len(found) > 1:
         several = " and ".join(repr(table.columns[place].heading) for place in found)
-        notes.append(
-            Note("strain-amplitude-not-read", f"The strain amplitudes were not read: {several} may hold them.")
-        )
+        said = f"The strain amplitudes were not read: {several} may hold them."
+        notes.append(Note("strain-amplitude-not-read", said))
     if len(found) != 1:
         return None
     column = table.columns[found[0]]
     factor = STRAIN_FACTORS.get(column.unit.strip() or "1")
     if factor is None:
-        notes.append(
-            Note(
-                "strain-amplitude-not-read",
-                f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'.",
-            )
-        )
+        said = f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'."
+        notes.append(Note("strain-amplitude-not-read", said))
         return None
     try:
         values = factor * table.numbers_or_missing(found[0])
     except DataFileError:  # words in a column that is not needed
         return None
     if not column.unit.strip():
-        notes.append(
-            Note(
-                "strain-without-unit",
-                f"Column {column.heading!r} has no unit; it was read as a fraction (0.01 is 1 %).",
-            )
-        )
+        said = f"Column {column.heading!r} has no unit; it was read as a fraction (0.01 is 1 %)."
+        notes.append(Note("strain-without-unit", said))
     return np.where(values >= 0.0, values, np.nan)
 
 
 def _step(table: Table) -> Integers | None:
-    """Return the numbers of steps, None where no one column holds whole numbers for them."""
-    found = [p for p, column in enumerate(table.columns) if column.name.lower() in STEP]
+    """Return the numbers of steps, None without exactly one column of whole numbers for them."""
+    found = [p for p, column in enumerate(table.columns) if column.name.lower() in names.STEP]
     if len(found) != 1:
         return None
     try:
