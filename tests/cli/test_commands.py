@@ -58,11 +58,17 @@ def write(folder: Path, *, dma: str | None = None, study: str = STUDY) -> Path:
 
 
 @pytest.fixture(scope="module")
-def once(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the results of one run, not to be changed."""
+def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
+    """Return what one run printed, and the folder of its results."""
     folder = tmp_path_factory.mktemp("once")
-    assert call("run", write(folder)).exit_code == 0
-    return folder / "study.results"
+    return call("run", write(folder)), folder / "study.results"
+
+
+@pytest.fixture(scope="module")
+def once(run: tuple[Result, Path]) -> Path:
+    """Return the results of one run, not to be changed."""
+    assert run[0].exit_code == 0
+    return run[1]
 
 
 @pytest.fixture
@@ -79,14 +85,18 @@ def told(result: Result) -> str:
     return line
 
 
-def test_run_names_the_files_it_wrote(tmp_path: Path) -> None:
-    result = call("run", write(tmp_path))
+def test_run_names_the_files_it_wrote(run: tuple[Result, Path]) -> None:
+    result, _ = run
     assert result.exit_code == 0, result.output
     for words in ("figure ", "data ", "report "):
         paths = [line.split(maxsplit=1)[1] for line in result.stdout.splitlines() if line.startswith(words)]
         assert paths
         assert all(Path(path).stat().st_size > 0 for path in paths)
-    again = call("report", tmp_path / "study.results")
+
+
+@pytest.mark.slow
+def test_report_is_written_again(finished: Path) -> None:
+    again = call("report", finished)
     assert again.exit_code == 0, again.output
 
 
@@ -145,6 +155,7 @@ def test_missing_run_file_is_told(tmp_path: Path) -> None:
     assert "no such file" in told(call("run", tmp_path / "study.toml"))
 
 
+@pytest.mark.slow
 def test_shuffled_and_repeated_rows_are_accepted_with_a_note(tmp_path: Path) -> None:
     lines = (EXAMPLE / "dma.csv").read_text(encoding="utf-8").splitlines()
     header = [line for line in lines if line.startswith(("#", "temperature"))]
@@ -184,6 +195,7 @@ def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: 
     ]
 
 
+@pytest.mark.slow
 def test_missed_accuracy_is_a_warning_and_a_number_and_no_failure(tmp_path: Path) -> None:
     surface = """
     [material]
@@ -216,6 +228,7 @@ def test_missed_accuracy_is_a_warning_and_a_number_and_no_failure(tmp_path: Path
     assert result.stderr.count(f"In {beyond} of 2 cases") == 1
 
 
+@pytest.mark.slow
 def test_check_of_results_names_what_is_damaged(finished: Path) -> None:
     assert call("check", "--results", finished).exit_code == 0
     case = min((finished / "cases").glob("*.json"))
@@ -229,6 +242,7 @@ def test_check_of_results_names_what_is_damaged(finished: Path) -> None:
         assert call(*wrong).exit_code == 2
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="Windows keeps open files")
 def test_results_that_are_removed_before_the_end_are_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from viscofric.report import html
@@ -247,6 +261,7 @@ def test_errors_are_told_without_an_empty_line_before_them(tmp_path: Path) -> No
     assert call("run", tmp_path / "study.toml").stderr.startswith("Error: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["figures", "report.html"])
 def test_report_that_cannot_be_written_is_told(finished: Path, name: str) -> None:
     (finished / name).rename(finished / "old")
@@ -282,6 +297,7 @@ def test_template_names_every_key_of_a_run_file() -> None:
             assert name in written[key] or f"\n{name} = " in surface.replace("\n# ", "\n"), f"[{key}] {name}"
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(600)
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
 @pytest.mark.parametrize(
@@ -311,6 +327,7 @@ def test_signals_end_a_run_with_one_sentence(tmp_path: Path, sent: signal.Signal
     assert "Aborted" not in errors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", ["viscofric.cli.report", "viscofric.report.figures.study"])
 def test_interruption_while_modules_load_is_one_sentence(finished: Path, tmp_path: Path, place: str) -> None:
     (tmp_path / "interrupts.py").write_text(
@@ -327,6 +344,7 @@ def test_interruption_while_modules_load_is_one_sentence(finished: Path, tmp_pat
     assert done.stderr.strip() == "Interrupted."
 
 
+@pytest.mark.slow
 def test_matplotlib_writes_nothing_to_the_home_folder(finished: Path, tmp_path: Path) -> None:
     home = tmp_path / "home"
     home.mkdir()
@@ -356,6 +374,7 @@ def test_unknown_command_suggests_the_nearest() -> None:
     assert "Did you mean 'run'?" in result.output
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device here that is always full")
 def test_output_to_a_full_disk_is_one_sentence() -> None:
     with Path("/dev/full").open("w") as full:
@@ -369,6 +388,7 @@ def test_output_to_a_full_disk_is_one_sentence() -> None:
     assert (done.returncode, done.stderr) == (1, "Error: the output: No space left on device.\n")
 
 
+@pytest.mark.slow
 def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(tmp_path, study=STUDY.replace('"100 mm/s"', '["100 mm/s", "200 mm/s"]'))
     from viscofric.study.running import executors
@@ -389,9 +409,10 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(executors, "attempt", attempt)
     assert "contains an unfinished study (1 solved contacts); resume it (--resume)" in told(call("run", path))
     assert call("run", path, "--resume").exit_code == 0
-    assert "holds the results of a study already" in told(call("run", path))
+    assert "contains the results of a study" in told(call("run", path))
 
 
+@pytest.mark.slow
 def test_programs_are_told_of_a_run_line_by_line(once: Path, tmp_path: Path) -> None:
     """Nothing else on standard output, and on standard error nothing but warnings."""
     study = write(tmp_path)

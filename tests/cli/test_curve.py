@@ -63,6 +63,7 @@ def test_json_tells_inputs_and_points() -> None:
     assert found["inputs"]["material"]["E0"] == 1e6
 
 
+@pytest.mark.slow
 def test_a_rubber_of_sweeps_has_bands_about_its_friction() -> None:
     words = ("--dma", DMA, "--reference", "30 degC", *BALL, "--speed", "100 mm/s", "--temperature", "60 degC")
     done = call(*words, "--samples", 20, "--synthetic")

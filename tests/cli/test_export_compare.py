@@ -28,6 +28,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     return folder / "a", folder / "b"
 
 
+@pytest.mark.slow
 def test_each_format_is_written_beside_the_results(pair: tuple[Path, Path]) -> None:
     for form, name in (("csv", "results.csv"), ("excel", "results.xlsx"), ("netcdf", "prediction.nc")):
         done = call("export", pair[0], "--to", form)
@@ -84,6 +85,7 @@ def test_the_same_results_compare_as_the_same(pair: tuple[Path, Path]) -> None:
     assert done.stdout.splitlines()[-1] == "The same within a relative difference of 0."
 
 
+@pytest.mark.slow
 def test_different_results_are_told_with_their_provenance(pair: tuple[Path, Path]) -> None:
     done = call("compare", *pair)
     assert done.exit_code == 1

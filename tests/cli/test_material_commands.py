@@ -43,6 +43,7 @@ def test_read_says_what_the_file_holds(tmp_path: Path) -> None:
     assert after.deformation == "tension"
 
 
+@pytest.mark.slow
 def test_fit_writes_the_rubber_for_everyone(fitted: tuple[Path, str]) -> None:
     folder, printed = fitted
     for name in ("rubber.json", "shift_factors.csv", "master_curve.csv", "spectrum.csv", "report.html", "results.nc"):
@@ -102,6 +103,7 @@ def test_catalogue_is_listed_with_its_sources() -> None:
     assert "SYNTHETIC" in done.output
 
 
+@pytest.mark.slow
 def test_sparse_spectrum_has_no_more_modes_than_asked(tmp_path: Path) -> None:
     done = call(
         "fit", EXAMPLE, "--reference", "30 degC", "--spectrum", "sparse", "--modes", 8, "--samples", 0, "-o", tmp_path
@@ -123,6 +125,7 @@ def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
     assert raw.read_bytes() == EXAMPLE.read_bytes()
 
 
+@pytest.mark.slow
 def test_a_card_that_cannot_be_written_keeps_no_other_from_it(tmp_path: Path) -> None:
     done = call(
         "fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "-o", tmp_path / "out",
@@ -162,6 +165,7 @@ def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str],
     )
 
 
+@pytest.mark.slow
 def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
     done = call("fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "--synthetic", "-o", tmp_path / "out")
     assert done.exit_code == 0, done.output

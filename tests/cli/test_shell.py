@@ -39,6 +39,7 @@ def test_every_command_of_the_overview_exists_by_its_name() -> None:
         assert import_module(f"viscofric.cli.{name}").command.name == name
 
 
+@pytest.mark.slow
 def test_commands_and_options_are_completed() -> None:
     assert complete("viscofric m", 1) == ["material", "measure", "master"]
     assert complete("viscofric material s", 2) == ["show"]
@@ -55,6 +56,7 @@ def test_completion_script_is_one_that_the_shell_takes(shell: str) -> None:
         subprocess.run([found, "-n"], input=done.stdout, text=True, check=True)
 
 
+@pytest.mark.slow
 def test_a_reader_that_has_enough_is_no_error() -> None:
     reading, writing = os.pipe()
     os.close(reading)

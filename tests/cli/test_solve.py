@@ -184,6 +184,7 @@ def test_a_direction_is_an_angle_or_two_numbers() -> None:
         assert by_angle["results"][name] == pytest.approx(exchanged["results"][name], rel=1e-6), name
 
 
+@pytest.mark.slow
 def test_the_force_across_the_motion_is_told_with_its_side() -> None:
     found = record(*OBLIQUE, "--direction", "30 deg")
     assert found["results"]["lateral_friction_coefficient"] < 0.0
@@ -197,6 +198,7 @@ def test_the_force_across_the_motion_is_told_with_its_side() -> None:
     assert "lateral" not in call(*RUBBER, *BALL).stdout
 
 
+@pytest.mark.slow
 def test_derivatives_are_told_as_slopes_in_logarithms() -> None:
     solution = expected(derivatives=True)
     assert solution.derivatives is not None
@@ -288,6 +290,7 @@ def test_a_profile_of_a_cylinder_is_a_cylinder(tmp_path: Path) -> None:
     assert ellipsoid["results"]["friction_coefficient"] == pytest.approx(expected().friction_coefficient, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_pictures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
     done = call(*RUBBER, *BALL, "--picture", tmp_path / "a.svg")
     assert done.exit_code == 0, done.output

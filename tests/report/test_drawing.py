@@ -42,6 +42,7 @@ def png_size(content: bytes) -> tuple[int, int]:
     return width, height
 
 
+@pytest.mark.slow
 def test_every_figure_is_written_as_png_and_svg(rendered: tuple[list[Path], Path]) -> None:
     paths, _ = rendered
     assert [path.name for path in paths] == [f"{name}.{form}" for name in NAMES for form in ("png", "svg")]
@@ -54,6 +55,7 @@ def test_every_figure_is_written_as_png_and_svg(rendered: tuple[list[Path], Path
             assert ET.fromstring(path.read_text("utf-8")).tag == "{http://www.w3.org/2000/svg}svg"
 
 
+@pytest.mark.slow
 def test_same_results_give_the_same_bytes(
     make_tree: Callable[..., xr.DataTree], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -65,6 +67,7 @@ def test_same_results_give_the_same_bytes(
     assert first == second
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_drawing_leaves_matplotlibs_settings_alone(tree: xr.DataTree) -> None:
     before = dict(matplotlib.rcParams)
@@ -104,6 +107,7 @@ def test_legends_of_synthetic_data_call_nothing_measured(tree: xr.DataTree, monk
     assert not any("measured" in text for text in words)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_figures_that_cannot_be_written_are_told(tree: xr.DataTree, tmp_path: Path) -> None:
     (tmp_path / "figures").write_text("a file where the folder should be")
@@ -116,6 +120,7 @@ def test_results_without_an_origin_count_as_synthetic(tree: xr.DataTree) -> None
     assert drawing.is_synthetic(tree)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_figures_that_the_results_lack_are_left_out(tree: xr.DataTree, tmp_path: Path) -> None:
     for name in ("isotherms", "prediction_master", "measurement"):
@@ -131,6 +136,7 @@ def test_figures_that_the_results_lack_are_left_out(tree: xr.DataTree, tmp_path:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_figures_survive_the_round_trip_through_a_file(tree: xr.DataTree, tmp_path: Path) -> None:
     import xarray as xr
@@ -141,6 +147,7 @@ def test_figures_survive_the_round_trip_through_a_file(tree: xr.DataTree, tmp_pa
     assert drawing.figure_images(again, ("svg",)) == drawing.figure_images(tree, ("svg",))
 
 
+@pytest.mark.slow
 def test_all_cases_failed_is_still_drawn(tree: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
     of_friction = NAMES[:4]
     monkeypatch.setattr(drawing, "FRICTION_FIGURES", {name: drawing.FRICTION_FIGURES[name] for name in of_friction})

@@ -157,6 +157,7 @@ def test_smooth_line_of_a_master_curve_bridges_no_gap(axes: Axes) -> None:
     assert legend_of(axes)[1] == ["smoothed", "its 95 % band", "60 °C", "30 °C"]
 
 
+@pytest.mark.slow
 def test_picture_is_the_same_bytes_every_time(tmp_path: Path) -> None:
     for name in ("a.svg", "b.svg"):
         save_picture(tmp_path / name, lambda: friction_figure(curves(coulomb=False)), name="friction", synthetic=True)

@@ -89,6 +89,7 @@ def test_page_has_every_part(tree: xr.DataTree, tmp_path: Path) -> None:
     assert all(page.attributes("alt"))
 
 
+@pytest.mark.slow
 def test_page_loads_nothing_from_elsewhere(rendered: tuple[list[Path], Path]) -> None:
     source = rendered[1].read_text("utf-8")
     page = Page(source)
@@ -105,6 +106,7 @@ def test_page_loads_nothing_from_elsewhere(rendered: tuple[list[Path], Path]) ->
         assert b"<script" not in svg
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered", "few_figures")
 def test_figures_drawn_once_are_those_of_the_files_and_of_the_report(tree: xr.DataTree, tmp_path: Path) -> None:
     paths, page = report.write_figures_and_report(tree, tmp_path / "once")
@@ -200,6 +202,7 @@ def test_synthetic_data_are_announced_first(
         assert page.text.index("Synthetic data:") < page.text.index("Viscoelastic friction of a material")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_page_without_measurement_does_not_speak_of_one(make_tree: Callable[..., xr.DataTree], tmp_path: Path) -> None:
     _, page = write(make_tree(measurement=False, data_origin="measured"), tmp_path)
@@ -210,6 +213,7 @@ def test_page_without_measurement_does_not_speak_of_one(make_tree: Callable[...,
     assert "Coulomb" not in page.text
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_page_of_one_case(make_tree: Callable[..., xr.DataTree], tmp_path: Path) -> None:
     _, page = write(make_tree(measurement=False, speeds=1, temperatures=1), tmp_path)
@@ -253,6 +257,7 @@ def test_study_file_with_a_space_is_quoted_in_the_command(
     assert "viscofric run 'my study.toml'" in page.text
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_same_results_give_the_same_page(make_tree: Callable[..., xr.DataTree], tmp_path: Path) -> None:
     first = report.write_report(make_tree(), tmp_path / "one").read_bytes()
@@ -267,6 +272,7 @@ def test_many_speeds_are_thinned_at_a_glance_only(make_tree: Callable[..., xr.Da
     assert "all of them are in the tables below" in glance.caption
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered", "few_figures")
 def test_report_that_cannot_be_written_is_told(tree: xr.DataTree, tmp_path: Path) -> None:
     (tmp_path / "report.html").mkdir()

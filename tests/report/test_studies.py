@@ -136,6 +136,7 @@ def test_what_varies_is_said(make_study: Callable[..., xr.DataTree]) -> None:
     assert "Varied as well: material (NBR 70 and FKM 75)." in asked
 
 
+@pytest.mark.slow
 def test_each_of_several_rubbers_has_its_figures(
     make_study: Callable[..., xr.DataTree], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

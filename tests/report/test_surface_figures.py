@@ -29,6 +29,7 @@ def solution(road: vf.Topography) -> vf.PeriodicSolution:
     return vf.solve_periodic(RUBBER, road.to_surface(), speed="0.1 m/s", pressure="10 kPa")
 
 
+@pytest.mark.slow
 def test_a_surface_and_its_contact_are_drawn_into_files(road, solution, tmp_path: Path):
     for name, draw in {
         "contact.svg": lambda: figures.rough_contact_figure(road, solution),
