@@ -49,15 +49,15 @@ class Ball(Indenter):
 
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m."""
-        return (x**2 + y**2) / (2.0 * self.radius)  # type: ignore[operator]
+        return (x**2 + y**2) / (2.0 * float(self.radius))
 
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x at (x, y)."""
-        return x / self.radius + 0.0 * y  # type: ignore[operator]
+        return x / float(self.radius) + 0.0 * y
 
     def slope_across(self, x: Array, y: Array) -> Array:
         """Slope of the height along y at (x, y)."""
-        return 0.0 * x + y / self.radius  # type: ignore[operator]
+        return 0.0 * x + y / float(self.radius)
 
     @property
     def reach(self) -> float:
@@ -101,11 +101,11 @@ class Cylinder(Indenter):
 
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m."""
-        return x**2 / (2.0 * self.radius) + 0.0 * y  # type: ignore[operator]
+        return x**2 / (2.0 * float(self.radius)) + 0.0 * y
 
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x at (x, y)."""
-        return x / self.radius + 0.0 * y  # type: ignore[operator]
+        return x / float(self.radius) + 0.0 * y
 
     def slope_across(self, x: Array, y: Array) -> Array:
         """Slope of the height along y at (x, y): zero."""
@@ -152,15 +152,15 @@ class Ellipsoid(Indenter):
 
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m."""
-        return x**2 / (2.0 * self.radius_x) + y**2 / (2.0 * self.radius_y)  # type: ignore[operator]
+        return x**2 / (2.0 * float(self.radius_x)) + y**2 / (2.0 * float(self.radius_y))
 
     def slope(self, x: Array, y: Array) -> Array:
         """Slope of the height along x at (x, y)."""
-        return x / self.radius_x + 0.0 * y  # type: ignore[operator]
+        return x / float(self.radius_x) + 0.0 * y
 
     def slope_across(self, x: Array, y: Array) -> Array:
         """Slope of the height along y at (x, y)."""
-        return 0.0 * x + y / self.radius_y  # type: ignore[operator]
+        return 0.0 * x + y / float(self.radius_y)
 
     @property
     def reach(self) -> float:
