@@ -329,6 +329,7 @@ def test_without_its_comments_a_card_is_still_a_card(tmp_path, program):
     assert card.material.poisson_ratio == pytest.approx(0.49, rel=1e-9)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=120, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.sampled_from(FORMATS), st.data())
 def test_damaged_cards_give_an_answer_or_one_clear_error(tmp_path, program, data):

@@ -121,6 +121,7 @@ def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
     )
 
 
+@pytest.mark.slow
 def test_loss_tangents_beside_a_free_vertical_shift_lie_in_the_band_without_it():
     """Bands from the same sweeps, without b and with it, do not exclude each other: friction follows tan δ."""
     measured = planted_sweeps(
@@ -146,6 +147,7 @@ def tangent(modulus):
     return modulus.imag / modulus.real
 
 
+@pytest.mark.slow
 def test_isotherms_that_are_each_off_do_not_pass_for_a_drift():
     for seed in range(3):
         for shared in (False, True):

@@ -65,6 +65,7 @@ def test_gaps_between_neighbours_are_told():
     assert not any("overlap once shifted" in sentence for sentence in (*whole.notes, *whole.check.sentences))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["glass", "same glass"])
 def test_a_resonance_in_the_glass_does_not_tear_isotherms_apart(real_data, name):
     fit = superposed(real_data, name)
@@ -161,6 +162,7 @@ def share_inside(master, samples):
     return float(np.mean((measured >= band.lower.real) & (measured <= band.upper.real)))
 
 
+@pytest.mark.slow
 def test_the_band_of_a_melting_eva_holds_what_was_measured(real_data):
     fit = superposed(real_data, "eva")
     samples = sample_materials(fit, samples=40)
@@ -168,6 +170,7 @@ def test_the_band_of_a_melting_eva_holds_what_was_measured(real_data):
     assert "misses the measured moduli" in samples.notes[0]
 
 
+@pytest.mark.slow
 def test_superposition_may_hold_roughly(real_data):
     rough, failed = superposed(real_data, "adhesive").check, superposed(real_data, "eva").check
     assert rough.roughly

@@ -87,6 +87,7 @@ def test_weak_modes_next_to_strong_ones_keep_their_digits():
     assert_same_modulus(prony.to_retardation(), prony)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(
     st.lists(st.tuples(st.floats(-6.0, 6.0), st.floats(-9.0, 9.0)), min_size=1, max_size=25),

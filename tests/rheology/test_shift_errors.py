@@ -61,6 +61,7 @@ def from_points_alone(sweeps):
     return np.sqrt(np.diag(found.covariance))
 
 
+@pytest.mark.slow
 def test_few_points_leave_as_many_degrees_of_freedom_as_there_are_beyond_shifts_and_curves():
     """Eight sweeps of three points: 48 values less 6 coefficients less 7 shifts are 35, not 42."""
     isotherms = 8
@@ -86,6 +87,7 @@ def along_sweeps(random, size, points, alike):
     return errors
 
 
+@pytest.mark.slow
 def test_errors_alike_along_a_sweep_widen_the_standard_errors():
     """Points whose errors are 0.7 alike count for (1 − 0.7)/(1 + 0.7) of as many independent ones.
 
@@ -198,6 +200,7 @@ def test_sweeps_without_offsets_keep_the_errors_of_their_points():
     assert 0.95 < np.mean(ratios) < 1.25
 
 
+@pytest.mark.slow
 def test_a_step_that_is_not_fixed_has_an_error_of_its_own_size(real_data):
     """The vendor's factors of an adhesive: E' alone asks for its coldest step, 2.9 decades, E'' for half of it."""
     sweeps = vf.read_dma(real_data / "dma" / "adhesive_ems_ca.csv", deformation="tension")
@@ -227,6 +230,7 @@ def test_profiles_agree_with_the_curvature_where_the_likelihood_is_a_parabola():
     assert about.unidentified == ()
 
 
+@pytest.mark.slow
 def test_the_vendors_factors_of_an_adhesive_are_those_of_its_storage_modulus_alone(real_data):
     """They join E' without a vertical shift; E'' asks for less, so that they are no truth for a joint fit."""
     sweeps = vf.read_dma(real_data / "dma" / "adhesive_ems_ca.csv", deformation="tension")
@@ -310,6 +314,7 @@ def test_a_law_fitted_to_bare_values_has_the_errors_of_a_regression_line():
     assert constant == pytest.approx(line.slope * np.log(10.0) * 8.314462618, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_scatter_added_to_a_law_counts_its_two_constants():
     """WLF to six values: χ² is brought to 6 − 1 − 2 = 3, and the errors hold what they promise over many tables."""
     random = np.random.default_rng(1)

@@ -51,6 +51,7 @@ def test_noise_free_sweeps_give_the_planted_shift_factors_and_modulus():
     assert pytest.approx((9.03534, 99.6), rel=1e-3) == (law.C1, law.C2)
 
 
+@pytest.mark.slow
 def test_planted_shift_factors_lie_within_their_standard_errors():
     scores = []
     for seed in range(25):
@@ -96,6 +97,7 @@ def test_the_reference_may_lie_between_isotherms(reference):
 SAME = 1e-3  # decades
 
 
+@pytest.mark.slow
 @settings(max_examples=8, deadline=None)
 @given(rate=st.floats(-6, 6), factor=st.floats(-9, 9), order=st.permutations(range(8)))
 def test_units_and_order_do_not_matter(rate, factor, order):
@@ -115,6 +117,7 @@ def test_units_and_order_do_not_matter(rate, factor, order):
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=8, deadline=None)
 @given(place=st.integers(0, 7), decades=st.floats(-1.0, 1.0))
 def test_one_isotherm_swept_faster_shifts_by_that_and_no_other_does(place, decades):
@@ -130,6 +133,7 @@ def test_one_isotherm_swept_faster_shifts_by_that_and_no_other_does(place, decad
     assert other.shift_factors.log10_values == pytest.approx(expected, abs=2 * SAME)
 
 
+@pytest.mark.slow
 @settings(max_examples=6, deadline=None)
 @given(kelvin=st.floats(WARM[0] + 273.15, WARM[7] + 273.15))
 def test_factors_about_any_reference_are_the_same_factors(kelvin):

@@ -71,6 +71,7 @@ def test_bands_hold_the_truth_and_are_narrower_than_the_noise():
     assert 0.001 < np.median(half_width(band)) < 0.015
 
 
+@pytest.mark.slow
 def test_bands_grow_with_the_noise():
     widths = []
     for noise in (0.005, 0.01, 0.02):
@@ -94,6 +95,7 @@ def coldest_uncertain(error):
     return covariance
 
 
+@pytest.mark.slow
 def test_an_uncertain_shift_widens_the_band_where_its_isotherm_stands_alone():
     sure = sample_materials(known_superposition())
     unsure = sample_materials(known_superposition(covariance=coldest_uncertain(0.1)))
@@ -111,6 +113,7 @@ def test_an_uncertain_shift_widens_the_band_where_its_isotherm_stands_alone():
     assert np.median(half_width(unsure.modulus_band(fast))[0] / expected) == pytest.approx(1.0, rel=0.3)
 
 
+@pytest.mark.slow
 def test_an_uncertain_shift_does_not_matter_where_its_isotherm_was_measured():
     # E at −10 °C and 0.1 to 10 Hz was measured there: what α is, and at what reduced frequency it was put, cancel.
     omega = 2.0 * np.pi * np.logspace(-1.2, 1.2, 12)
@@ -137,6 +140,7 @@ def test_shifts_are_drawn_from_their_covariance():
     assert found[keep] / product == pytest.approx(covariance[keep] / product, abs=0.25)
 
 
+@pytest.mark.slow
 def test_vertical_shifts_are_drawn_with_the_spectrum_they_belong_to():
     covariance = coldest_uncertain(0.02)
     sure, unsure = (
@@ -158,6 +162,7 @@ class ErringTogether(Superposition):
     cross_covariance: np.ndarray | None = None
 
 
+@pytest.mark.slow
 def test_horizontal_and_vertical_shifts_are_drawn_together():
     sizes = coldest_uncertain(0.05), coldest_uncertain(0.02)
     alone = known_superposition(covariance=sizes[0], vertical_covariance=sizes[1])
@@ -171,6 +176,7 @@ def test_horizontal_and_vertical_shifts_are_drawn_together():
         assert np.corrcoef(moved, raised)[0, 1] == pytest.approx(expected, abs=0.21 if expected == 0.0 else 0.04)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["wlf", "wlf+arrhenius", "polynomial"])
 def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
@@ -310,6 +316,7 @@ def test_what_a_fit_follows_is_missing_from_its_residuals():
     assert np.std(values) < 0.008
 
 
+@pytest.mark.slow
 def test_two_hundred_samples_take_no_longer_than_two_seconds():
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
     sample_materials(fit, samples=20)
@@ -318,6 +325,7 @@ def test_two_hundred_samples_take_no_longer_than_two_seconds():
     assert time.process_time() - start < 4.0  # 0.4 s; a loaded machine may be slow
 
 
+@pytest.mark.slow
 def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
     sweeps = vf.read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
     samples = sample_materials(vf.superpose(sweeps, "20 degC"))

@@ -55,11 +55,17 @@ class Family:
 
     def values(self, parameters: Array) -> Array:
         """Return log10 α, (n,)."""
-        return self.law(parameters).log10(self.temperatures)
+        return self._valid(parameters)._log10(self.temperatures)
 
     def gradient(self, parameters: Array) -> Array:
         """Return the derivatives of log10 α by the constants, (n, size)."""
-        return self.law(parameters).gradient(self.temperatures)
+        return self._valid(parameters)._gradient(self.temperatures)
+
+    def _valid(self, parameters: Array) -> ParametricLaw:
+        """Return the law; `InputError` where it has no value at one of the temperatures."""
+        law = self.law(parameters)
+        law._refuse(self.temperatures)
+        return law
 
     def _fitted(self, covariance: Array | None) -> tuple[Array | None, tuple[float, float] | None]:
         return covariance, None if covariance is None else self.range
