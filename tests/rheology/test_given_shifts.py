@@ -7,8 +7,8 @@ import pytest
 
 import viscofric as vf
 from rheology.planted import planted_sweeps, synthetic_polymer
-from viscofric.rheology.superposition.overlap import LogSweep
-from viscofric.rheology.superposition.own_shifts import own_shifts
+from viscofric.notes import codes
+from viscofric.rheology.superposition.overlap import LogSweep, own_shifts
 
 POLYMER = synthetic_polymer()
 WLF = POLYMER.shift.at_reference("30 degC")
@@ -21,7 +21,7 @@ def with_too_large_a_constant(factor, noise=0.01):
 
 
 def told(notes):
-    return [note for note in notes if "given shift factors do not join the isotherms" in note]
+    return [note for note in notes if codes([note]) == {"given-factors-wrong"}]
 
 
 @pytest.mark.parametrize("factor", [0.6, 1.4])
@@ -30,7 +30,7 @@ def test_a_law_that_is_wrong_everywhere_alike_is_told_of(factor):
     [note] = told(fit.notes)
     assert fit.check.holds  # which no shift along the frequency changes
     first = fit.check.sentences[0]
-    assert first.startswith("Superposition holds, but not with these shift factors")
+    assert first.code == "superposition-other-factors"
     found = own_shifts([LogSweep.of(one) for one in fit.isotherms], fit.shift_factors.log10_values)
     # What is left of 1 % at points a pair is at most 0.0043 √2 decades; interpolation takes some of it away.
     assert 0.0043 < found.attainable < 0.0062
@@ -44,7 +44,7 @@ def test_a_law_that_is_wrong_everywhere_alike_is_told_of(factor):
 def test_the_right_law_is_not_suspected(noise):
     fit = with_too_large_a_constant(1.0, noise)
     assert told(fit.notes) == []
-    assert fit.check.sentences[0].startswith("Superposition holds:")
+    assert fit.check.sentences[0].code == "superposition-holds"
     found = own_shifts([LogSweep.of(one) for one in fit.isotherms], fit.shift_factors.log10_values)
     # Each pair by itself gains one of some 50 degrees of freedom, and more where it overlaps little.
     assert found.attainable <= found.misfit < 1.2 * found.attainable + 1e-6

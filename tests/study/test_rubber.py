@@ -111,7 +111,7 @@ def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path
         "The rubber was identified from friction (fr.csv), no modulus of it was measured.",
         "|E(ω)| is known to 5 % from 3 to 400 rad/s.",
     )
-    assert spectrum.fit.E_inf_remark == "extrapolated: beyond what friction tells"
+    assert spectrum.fit.E_inf_remark == "extrapolated: beyond the range of the friction"
     assert not rubber(catalogue="pvb interlayer").from_friction
 
 

@@ -177,7 +177,7 @@ class Material:
     def modes_at(self, temperature: Quantity | None = None) -> RetardationSpectrum:
         """Return the retardation modes at a temperature, for what cannot do without: creep and the free contact.
 
-        Those of a table are fitted to it once, at its reference (`notes_on_modes` tells how well).
+        Those of a table are fitted to it once, at its reference (`notes_on_modes` says how well).
 
         Parameters
         ----------

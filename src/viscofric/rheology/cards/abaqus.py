@@ -133,8 +133,8 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     poisson = 0.5 if bulk is None else (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
     if not instantaneous:
         shear, bulk = _told(shear, bulk, poisson, content)
-    told = number_of(content, "E0")
-    long_term = None if told is None else told / (2.0 * (1.0 + poisson))
+    stated = number_of(content, "E0")
+    long_term = None if stated is None else stated / (2.0 * (1.0 + poisson))
     series = relative_series(shear, shares[0], times, long_term)
     bulk_series = None
     if bulk is not None:
@@ -213,12 +213,12 @@ def _told(
     shear: float, bulk: float | None, poisson: float, content: dict[str, Any] | None
 ) -> tuple[float, float | None]:
     """Return the instantaneous moduli of the comments where they are those of the card, to the last digit."""
-    told = number_of(content, "E_inf")
+    stated = number_of(content, "E_inf")
     tensile_modulus = 2.0 * (1.0 + poisson) * shear
     # Division by 1 − Σg loses as many digits as rubber and glass lie apart.
-    if told is None or abs(told - tensile_modulus) > 1e-9 * tensile_modulus:
+    if stated is None or abs(stated - tensile_modulus) > 1e-9 * tensile_modulus:
         return shear, bulk
-    scale = told / tensile_modulus
+    scale = stated / tensile_modulus
     return scale * shear, None if bulk is None else scale * bulk
 
 

@@ -116,11 +116,11 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     unknown = sorted(set(series) - {"SHEAR", "BULK"})
     if unknown or "SHEAR" not in series:
         raise InputError("wants TB,PRONY,…,SHEAR (and BULK); other options of TB,PRONY are not read.")
-    told = number_of(content, "E0")
+    stated = number_of(content, "E0")
     shear = modulus / (2.0 * (1.0 + ratio))
     bulk = modulus / (3.0 * (1.0 - 2.0 * ratio))
     alike = series["SHEAR"] == series.get("BULK")
-    share = None if told is None or not alike else told / modulus
+    share = None if stated is None or not alike else stated / modulus
     shear_series = relative_series(shear, *series["SHEAR"], None if share is None else share * shear)
     bulk_series = relative_series(bulk, *series.get("BULK", ([], [])), None if share is None else share * bulk)
     spectrum, poisson, found = tensile(shear_series, bulk_series)

@@ -126,7 +126,7 @@ class Reading:
         return temperature + CELSIUS_ZERO
 
     def unit_note(self) -> list[str]:
-        """Return the sentence that tells which units were assumed, if any."""
+        """Return the sentence that says which units were assumed, if any."""
         assumed = [unit for given, unit in ((self.modulus_unit, "Pa"), (self.time_unit, "s")) if not given]
         if not assumed:
             return []

@@ -253,7 +253,7 @@ def open_card(
     time_unit: str | None = None,
     temperature_unit: str | None = None,
 ) -> Card:
-    """Read a material card and tell what was assumed.
+    """Read a material card, with notes on what was assumed.
 
     Shear and bulk series of any kind are read: 1/E = 1/(3G) + 1/(9K) is turned into the retardation modes of E
     exactly.  Hyperelastic cards give their small-strain limit.
@@ -327,7 +327,7 @@ def read_card(
     time_unit: str | None = None,
     temperature_unit: str | None = None,
 ) -> Material:
-    """Read a material card; what was assumed is told by warnings (`open_card` returns it as notes instead).
+    """Read a material card; warnings say what was assumed (`open_card` returns it as notes instead).
 
     Parameters
     ----------

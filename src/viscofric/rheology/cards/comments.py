@@ -148,11 +148,11 @@ def stored_content(text: str) -> dict[str, Any] | None:
 def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material, list[Note]]:
     """Join what a card's keywords say with what its comments say; the keywords count where they differ."""
     if content is None:
-        told = {"name": solid.name, "poisson_ratio": solid.poisson_ratio}
-        material = assembled(solid.spectrum, told)
-        return _with_shift(material, solid.shift, told), []
+        stated = {"name": solid.name, "poisson_ratio": solid.poisson_ratio}
+        material = assembled(solid.spectrum, stated)
+        return _with_shift(material, solid.shift, stated), []
     notes, card = [], content["card"]
-    told = {name: value for name, value in content.items() if name != "card"}
+    stated = {name: value for name, value in content.items() if name != "card"}
     if not _close(card.get("poisson_ratio"), solid.poisson_ratio):
         notes.append(
             Note(
@@ -160,15 +160,15 @@ def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material,
                 f"The Poisson ratio was changed to {solid.poisson_ratio:.6g} in the card, which counts.",
             )
         )
-        told["poisson_ratio"] = solid.poisson_ratio
-    if card.get("shift") and not _same_law(card_law(shift_of(told.get("shift"))), solid.shift):
+        stated["poisson_ratio"] = solid.poisson_ratio
+    if card.get("shift") and not _same_law(card_law(shift_of(stated.get("shift"))), solid.shift):
         notes.append(Note("changed-in-card", "The shift was changed in the card, which counts."))
-        told.pop("shift", None)
-        return _with_shift(assembled(solid.spectrum, told), solid.shift, told), notes
-    return assembled(solid.spectrum, told), notes
+        stated.pop("shift", None)
+        return _with_shift(assembled(solid.spectrum, stated), solid.shift, stated), notes
+    return assembled(solid.spectrum, stated), notes
 
 
-def _with_shift(material: Material, shift: Any, told: dict[str, Any]) -> Material:
+def _with_shift(material: Material, shift: Any, stated: dict[str, Any]) -> Material:
     from dataclasses import replace
 
     return material if shift is None else replace(material, shift=shift)

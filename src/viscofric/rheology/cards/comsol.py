@@ -209,5 +209,5 @@ def _value(values: dict[str, str], name: str, unit: str) -> float:
 
 def _long_term(E0: float, content: dict[str, Any] | None) -> float:
     """Return E0 of the comments where it is that of the card, to the last digit."""
-    told = number_of(content, "E0")
-    return told if told is not None and abs(told - E0) <= 1e-12 * abs(E0) else E0
+    stated = number_of(content, "E0")
+    return stated if stated is not None and abs(stated - E0) <= 1e-12 * abs(E0) else E0

@@ -6,7 +6,7 @@ with decay constants β = 1/τ (0 for the long-term modulus), at most 18 terms; 
 law has A = Ea/R, a WLF law A = −C1 ln 10 and B = C2.  With one and the same sign of A the two formulae shift in
 opposite directions, so that one of them may stand wrongly in the manual: a WLF card must be checked on one element,
 which has to relax faster when warm; else A changes its sign.  The second card, for fits of load curves, is left
-blank, since terms count only then.  Fields are 20 characters wide (long format, told by the '+'
+blank, since terms count only then.  Fields are 20 characters wide (long format, marked by the '+'
 after the keyword): the 10 characters of the standard format would cut numbers to 5 or 6 digits.
 """
 
@@ -120,9 +120,9 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     else:
         raise InputError("the bulk modulus BULK and all KI are zero; one of them must be above zero.")
     spectrum, poisson, found = tensile(shear, bulk)
-    told = number_of(content, "poisson_ratio")
-    if told is not None and abs(told - poisson) <= 1e-9:
-        poisson = told
+    stated = number_of(content, "poisson_ratio")
+    if stated is not None and abs(stated - poisson) <= 1e-9:
+        poisson = stated
     return Solid(spectrum, poisson, _shift(reference, A, B, reading, content, notes), name, (*notes, *found))
 
 

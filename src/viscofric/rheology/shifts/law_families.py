@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 #: Kinds of law as `ShiftFactors.law` takes them.
 LAWS = ("wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
 TITLES = {law.kind: law.title for law in (WLF, Arrhenius, VFT, WLFArrhenius, InversePolynomial)}
-#: Beyond this the WLF law is straight over any measured range and C1 and C2 are not told apart.
+#: Beyond this the WLF law is straight over any measured range and C1 and C2 cannot be separated.
 LARGEST_C2 = 1e4  # K
 LARGEST_DEGREE = 4
 

@@ -180,7 +180,7 @@ def _with_misfit(family: Family, table: FactorTable, bare: Solution) -> tuple[So
 
     The scatter σ² solves χ²(σ²) = degrees of freedom (R. C. Paule, J. Mandel, J. Res. Natl. Bur. Stand. 87 (1982)
     377); it is zero where the uncertainties explain the misfit of the fit without it, and where nothing is left over
-    from which to tell it.
+    to find it from.
     """
     freedom = len(table) - family.size
     if freedom == 0 or bare.chi2 <= freedom:

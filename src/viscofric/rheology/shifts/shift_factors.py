@@ -263,7 +263,7 @@ class ShiftFactors(ShiftLaw):
 
         Every value counts by its uncertainty.  Where the table scatters about the law by more than that, the
         excess is taken for a misfit common to all temperatures and added to it, so that the law's standard
-        errors tell of both.
+        errors include both.
 
         Parameters
         ----------

@@ -162,8 +162,8 @@ def _about_rubber(
         notes.append(
             Note(
                 "plateau-doubtful",
-                f"At the lowest frequency E' falls as ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}: nothing measured "
-                "tells a soft rubber from a liquid (2 and 1), and whether there is an E0 above zero is not known.",
+                f"At the lowest frequency E' falls as ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}: the measurement "
+                "cannot separate a soft rubber from a liquid (2 and 1), and whether E0 is above zero is not known.",
             )
         )
     return notes
@@ -181,9 +181,8 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: floa
             Note(
                 "glass-doubtful",
                 f"E_inf = {shown_modulus(spectrum.E_inf)} is the largest that the fit allows, {STIFFEST:g} times the "
-                f"largest measured E' ({shown_modulus(stiffest)}), and no result: {end}, and the sweeps do not tell "
-                "how "
-                "stiff the glass is.",
+                f"largest measured E' ({shown_modulus(stiffest)}), and no result: {end}, and the sweeps do not "
+                "reach the glass.",
             )
         )
     elif fit.E_inf_missed:
@@ -198,9 +197,8 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: floa
     if spectrum.E_inf > STIFFEST_GLASS:
         notes.append(
             Note(
-                "glass-doubtful",
-                f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no rubber has "
-                "such a "
+                "glass-unphysical",
+                f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no material has such a "
                 "glass, and the spectrum is not physical above the measured frequencies.",
             )
         )

@@ -104,7 +104,7 @@ def _zeros(residues: Array, poles: Array) -> tuple[Indices, Array]:
     count = len(poles)
     left = np.arange(count)
     gap = np.append(np.diff(poles), np.inf)
-    # At the middle of its interval the function tells on which side of it the zero lies.
+    # At the middle of its interval the sign of the function shows on which side of it the zero lies.
     middle = np.where(np.isfinite(gap), 0.5 * gap, 1.0)
     inside = gap < np.inf
     beyond = _imbalance(residues, poles, left, np.ones(count), middle) > 0.0  # the zero is further right

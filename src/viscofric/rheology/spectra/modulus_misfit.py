@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, ComplexArray
 
 
-#: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out is not told from
+#: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out cannot be separated from
 #: a plateau, nor from the flow of a liquid: its compliance could grow without bound.
 EDGE = math.e
 #: The glass is at most so stiff.  Where the sweeps end in the middle of the transition nothing else bounds it: its

@@ -236,7 +236,7 @@ RATIOS = (2.0, 2.0**0.25, 2.0**0.0625)
 CLOSE = 1e-6
 #: Where a table takes its ends for plateaus, they are fitted over so many decades beyond, at so many points a decade.
 PLATEAU_DECADES, PLATEAU_POINTS = 2, 5
-#: A table tells of no temperature; what is said about a fit does not depend on it.
+#: A table has no temperature; the verdict on a fit does not depend on it.
 ANY_TEMPERATURE = 298.15
 
 

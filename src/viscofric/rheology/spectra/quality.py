@@ -9,7 +9,7 @@ from typing import Any
 from viscofric.rheology.spectra.response import shown_modulus
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
-_BEYOND_FRICTION = "extrapolated: beyond what friction tells"
+_BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
 #: Method of a spectrum that was found from friction.
 FROM_FRICTION = "friction"
 _REACHED = "reached by the sweeps"
@@ -46,7 +46,7 @@ class SpectrumFit:
     measured_storage : tuple of float or None
         Smallest and largest E' measured, Pa; None where they are not known.
     E_inf_at_limit : bool
-        Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the sweeps do not tell it,
+        Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the sweeps do not reach it,
         and it is no result.
     E0_missed, E_inf_missed : bool
         Whether E0 lies above the softest measured E', or E_inf below the stiffest, by more than 5 %: the fit does not
@@ -69,7 +69,7 @@ class SpectrumFit:
     E_inf_missed: bool = False
 
     def shifted(self, alpha: float, b: float) -> SpectrumFit:
-        """Return the same for the spectrum at another temperature; the notes tell of the fit as it was made."""
+        """Return the same for the spectrum at another temperature; the notes describe the original fit."""
         low, high = self.frequency_range
         measured = self.measured_storage
         return replace(
@@ -94,7 +94,7 @@ class SpectrumFit:
     def E_inf_remark(self) -> str:
         """What is to be said beside E_inf, in a few words."""
         if self.E_inf_at_limit:
-            return "not known: the sweeps do not tell it, and the fit stopped at 30 times the largest measured E'"
+            return "not known: the sweeps do not reach it, and the fit stopped at 30 times the largest measured E'"
         if self.E_inf_missed:
             return f"the fit lies below the stiffest measured E'{self._measured(1)}"
         return self._beyond if self.E_inf_extrapolated else _REACHED

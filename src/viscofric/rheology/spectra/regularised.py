@@ -131,7 +131,7 @@ def cross_validated(misfit: ModulusMisfit, tau: Array, isotherm: Array) -> int:
     tau : (n,) array
         Retardation times, s.
     isotherm : (N,) array
-        What tells the isotherms apart: the temperature of each point.
+        The temperature of each point, which identifies its isotherm.
     """
     names, number = np.unique(isotherm, return_inverse=True)
     fold = (number if len(names) >= FOLDS else np.arange(len(isotherm))) % FOLDS

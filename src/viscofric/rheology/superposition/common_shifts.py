@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.rheology.superposition.gauge import continued, continued_covariance, identified
 from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets, Offsets, estimated
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, parted
-from viscofric.rheology.superposition.plateau import continued, continued_covariance, told
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
 from viscofric.rheology.superposition.step_profiles import StepProfiles
 
@@ -57,7 +57,7 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
     """Bring all isotherms onto one curve of log E' and one of log E''.
 
     Plateaus at the cold and the hot end, where the slope of the curves is noise, are left out of the fit and put
-    where the trend of the others leads (`plateau`); not with vertical shifts, which plateaus do tell.
+    where the trend of the others leads (`gauge.continued`); not with vertical shifts, which plateaus do fix.
 
     Where neighbours disagree by many times what is typical, superposition itself fails, and one flexible
     curve would hide that by pulling them apart.  There each side gets its own curve, and the two are joined
@@ -81,7 +81,7 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
         E' and E'' count equally; the covariance is found from the scatter that is left in each.
     """
     search, apart = _torn_apart(sweeps, joins, gauge)
-    inside = told(search.signal, gauge)
+    inside = identified(search.signal, gauge)
     if inside is None:
         return replace(_with_offsets(search, sweeps), parted=tuple(sorted(apart)))
     first, last = inside

@@ -14,8 +14,7 @@ from viscofric.notes import Note
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
-from viscofric.rheology.superposition.overlap import LogSweep
-from viscofric.rheology.superposition.own_shifts import OwnShifts, own_shifts
+from viscofric.rheology.superposition.overlap import LogSweep, OwnShifts, own_shifts
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
 from viscofric.units import celsius
 
@@ -92,7 +91,7 @@ class SuperpositionCheck:
     overlap_misfit : float
         Joint rms misfit of the shifted isotherms where they overlap, decades; as `OverlapQuality.joint`.
     kramers_kronig : KramersKronig or None
-        Agreement of E' with E'' on the master curve; None where it is too short to tell.
+        Agreement of E' with E'' on the master curve; None where it is too short to test.
     van_gurp_palmen, booij_thoone_palmen, cole_cole, wicket : Diagram
         δ against |E*|; tan δ against |E*|; E'' against E'; tan δ against E'.  Moduli are divided by the vertical
         shift.
@@ -108,8 +107,8 @@ class SuperpositionCheck:
 
     Notes
     -----
-    `holds` tells of superposition alone, whatever the shift factors.  Wrong ones are told of in `sentences`.  A wrong
-    loss modulus, wrong alike at all temperatures, superposes well: that is for `kramers_kronig` to tell.
+    `holds` concerns superposition alone, whatever the shift factors; `sentences` mention wrong ones.  A loss modulus
+    that is wrong alike at all temperatures superposes well; `kramers_kronig` finds it.
     """
 
     neighbours: tuple[NeighbourDistance, ...]
@@ -144,7 +143,7 @@ class SuperpositionCheck:
 
     @property
     def consistent(self) -> bool:
-        """Whether E' and E'' belong to each other; True where that cannot be told."""
+        """Whether E' and E'' belong to each other; True where that was not tested."""
         return self.kramers_kronig is None or self.kramers_kronig.holds
 
     def to_dataset(self) -> xarray.Dataset:

@@ -1,4 +1,4 @@
-"""The gauge of a superposition: where shifts are zero, and which of them are held."""
+"""The gauge of a superposition: where shifts are zero, which are held, and which follow from the trend (plateaus)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from viscofric.arrays import Array
+    from viscofric.arrays import Array, Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,3 +70,98 @@ class Gauge:
         start, ways = self.free()  # what is left of the condition at a reference between isotherms
         parameters = np.concatenate([shifts, np.zeros(len(start) - len(shifts))])
         return np.asarray((start + ways @ (ways.T @ (parameters - start)))[: len(shifts)])
+
+
+#: An isotherm fixes its shift if the squared slope of the curves is so many times what noise makes of it.  Noise alone
+#: gives 0.3 to 9, sweeps that fix a step to 0.1 decades 20 and more.
+CLEAR = 15.0
+#: The trend is taken from so many of the last steps that are fixed.
+TREND_STEPS = 2
+#: Beyond, the rate of change with 1/T may change by so much from step to step; WLF laws change by less.
+BEND = 0.2  # decades per typical step
+
+
+def identified(signal: Array, gauge: Gauge) -> tuple[int, int] | None:
+    """Say which isotherms to fit: from the first to before the last.
+
+    Parameters
+    ----------
+    signal : (n,) array
+        Squared slope of the curves at each isotherm, in units of its noise.
+    gauge : Gauge
+        What is held.
+
+    Returns
+    -------
+    tuple of int, or None
+        None where all are to be fitted: none at the ends is a plateau, hardly any is not, vertical shifts are
+        sought, or a factor is fixed whose plateau, or whose reference, would be left out.
+    """
+    clear = np.flatnonzero(signal > CLEAR)
+    if gauge.free_vertical or len(clear) <= TREND_STEPS:
+        return None
+    first, last = int(clear[0]), int(clear[-1]) + 1
+    inside = set(range(first, last))
+    needed = {*gauge.held, *(int(place) for place in np.flatnonzero(gauge.weights))} if gauge.held else set()
+    if (first, last) == (0, len(signal)) or last - first <= TREND_STEPS or not needed <= inside:
+        return None
+    return first, last
+
+
+def continued(values: Array, gauge: Gauge, first: int, last: int) -> Array:
+    """Continue shifts over the plateaus at both ends, straight in 1/T.
+
+    Parameters
+    ----------
+    values : (m, …) array
+        log10 α from the first to before the last isotherm, or anything that is linear in them.
+    gauge : Gauge
+        Of all isotherms.
+    first, last : int
+        Which ones were fitted.
+
+    Returns
+    -------
+    (n, …) array
+        Of all isotherms, zero at the reference.
+    """
+    inverse = gauge.inverse_temperatures
+    size = len(inverse)
+    onto = np.zeros((size, last - first))
+    onto[first:last] = np.eye(last - first)
+    for end, before, places in _ends(size, first, last):
+        further = (inverse[places] - inverse[end]) / (inverse[end] - inverse[before])
+        onto[places, end - first] = 1.0 + further
+        onto[places, before - first] = -further
+    return np.asarray(np.tensordot(_change(gauge) @ onto, values, axes=1))
+
+
+def continued_covariance(covariance: Array, gauge: Gauge, first: int, last: int) -> Array:
+    """Return the covariance (n, n) of continued shifts from that of the fitted ones (m, m).
+
+    It grows: from step to step the rate of change with 1/T may change by `BEND`.
+    """
+    inverse = gauge.inverse_temperatures
+    size = len(inverse)
+    spread = np.zeros((size, size))
+    typical = float(np.median(np.abs(np.diff(inverse))))
+    for end, _, places in _ends(size, first, last):
+        reached = np.abs(inverse[places] - inverse[end]) / typical
+        start = np.concatenate([[0.0], reached[:-1]])
+        walk = BEND * np.maximum(reached[:, None] - start, 0.0)
+        spread[np.ix_(places, places)] = walk @ walk.T
+    change = _change(gauge)
+    fitted = continued(continued(covariance, gauge, first, last).T, gauge, first, last)
+    return np.asarray(fitted + change @ spread @ change.T)
+
+
+def _ends(size: int, first: int, last: int) -> list[tuple[int, int, Indices]]:
+    """Return for each end with a plateau: its last fitted isotherm, the one that the trend is from, and the plateau."""
+    hot = last - 1, last - 1 - TREND_STEPS, np.arange(last, size)
+    cold = first, first + TREND_STEPS, np.arange(first - 1, -1, -1)
+    return [end for end in (hot, cold) if len(end[2])]
+
+
+def _change(gauge: Gauge) -> Array:
+    """Return what brings shifts to zero at the reference."""
+    return np.asarray(np.eye(len(gauge.weights)) - gauge.weights)

@@ -1,4 +1,4 @@
-"""Shifts fitted, held or given: what `superpose` is told of α(T), turned into values at the isotherms."""
+"""Shifts fitted, held or given: the arguments of `superpose` for α(T), as values at the isotherms."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.superposition.plateau import continued
+from viscofric.rheology.superposition.gauge import continued
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

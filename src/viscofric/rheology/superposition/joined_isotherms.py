@@ -94,15 +94,21 @@ def usable(isotherms: tuple[Isotherm, ...]) -> None:
         If there are fewer.
     """
     if len(isotherms) < 2:
-        raise SuperpositionError(f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.")
+        raise SuperpositionError(
+            f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.", code="too-few-isotherms"
+        )
     for isotherm in isotherms:
         if len(isotherm) < 2:
             raise SuperpositionError(
-                f"the isotherm at {shown(isotherm.temperature)} has only one usable frequency; two or more are needed."
+                f"the isotherm at {shown(isotherm.temperature)} has only one usable frequency; two or more are needed.",
+                code="too-few-frequencies",
             )
     for colder, warmer in pairwise(isotherms):
         if not colder.temperature < warmer.temperature:
-            raise SuperpositionError(f"two isotherms are at {shown(colder.temperature)}; merge them or leave one out.")
+            raise SuperpositionError(
+                f"two isotherms are at {shown(colder.temperature)}; merge them or leave one out.",
+                code="same-temperature",
+            )
 
 
 def join_isotherms(isotherms: tuple[Isotherm, ...], logs: list[LogSweep]) -> JoinedIsotherms:
@@ -116,11 +122,11 @@ def join_isotherms(isotherms: tuple[Isotherm, ...], logs: list[LogSweep]) -> Joi
     joins = [join(colder, warmer) for colder, warmer in pairwise(logs)]
     joined = np.array([found.misfit <= LARGEST_MISFIT for found in joins])
     if not joined.any():
-        raise SuperpositionError(_gap(isotherms, 0))
+        raise SuperpositionError(_gap(isotherms, 0), code="no-overlap")
     first, last = int(np.argmax(joined)), len(joined) - int(np.argmax(joined[::-1]))
     broken = np.flatnonzero(~joined[first:last])
     if broken.size:
-        raise SuperpositionError(_gap(isotherms, first + int(broken[0])))
+        raise SuperpositionError(_gap(isotherms, first + int(broken[0])), code="no-overlap")
     notes = tuple(
         Note("left-out", f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}")
         for place, gap in [(p, p) for p in range(first)] + [(p, p - 1) for p in range(last + 1, len(isotherms))]

@@ -54,7 +54,7 @@ class KramersKronig:
         log10 of (π/2) dE'/d ln ω over the measured E''; zero where E' does not rise.  The relation is a local
         approximation, off by some 0.2 decades where a spectrum is steep: for the eye, not for the verdict.
     truncation : (n,) array
-        How much of log10 E' comes from relaxation beyond the measured frequencies, as far as E'' tells of it.
+        How much of log10 E' comes from relaxation beyond the measured frequencies, as far as E'' shows it.
     judged : (n,) array of bool
         Those at least half a decade from the ends, of which the rms are taken.
     rms_storage, rms_loss : float
@@ -145,7 +145,7 @@ def kramers_kronig(master_curve: MasterCurve) -> KramersKronig:
     Raises
     ------
     InputError
-        If the master curve spans less than one and a half decades, which tells nothing.
+        If the master curve spans less than one and a half decades, which tests nothing.
     """
     omega, storage, loss, count = _binned(master_curve)
     span = float(np.log10(omega[-1] / omega[0])) if len(omega) else 0.0

@@ -308,7 +308,7 @@ def _derivatives(
 
 
 def _inflation(residual: Array, same: Mask) -> float:
-    """Return how much less points tell whose residuals are alike."""
+    """Return the factor by which alike residuals reduce the information of points."""
     squares = float(residual @ residual)
     alike = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0
     return (1.0 + alike) / (1.0 - alike) if alike > 0.0 else 1.0

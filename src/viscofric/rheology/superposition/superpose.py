@@ -25,8 +25,13 @@ from viscofric.rheology.superposition.joined_isotherms import (
     shown,
     usable,
 )
-from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, LogSweep, OverlapQuality, overlap_quality
-from viscofric.rheology.superposition.own_shifts import own_shifts
+from viscofric.rheology.superposition.overlap import (
+    PAIR_UNCERTAINTY,
+    LogSweep,
+    OverlapQuality,
+    overlap_quality,
+    own_shifts,
+)
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
 from viscofric.threads import one_blas_thread
@@ -108,7 +113,7 @@ def superpose(
     A shift along a plateau cannot be seen.  There log10 α follows the trend of its neighbours in 1/T,
     has a standard error that grows from step to step, and a note names the temperatures.  With free
     vertical shifts any straight part of the curves hides a sum of both, so each log10 b is drawn to that of its
-    neighbours, with 0.03 decades, which is three times what ρT makes of 10 K.  A note tells where little more than
+    neighbours, with 0.03 decades, which is three times what ρT makes of 10 K.  A note says where little more than
     this is known of b.
 
     Standard errors hold the scatter of points about the common curves; offsets of whole isotherms, as from clamping
@@ -124,7 +129,7 @@ def superpose(
     that is left out moves α by more than its errors: what follows ρT, from −30 to 90 °C, by up to 0.13 decades; what it
     costs is the difference to a second superposition, with ``vertical="density"``.
 
-    Given or fixed factors that join the isotherms clearly worse than shifts of their own would are told of in a note.
+    Given or fixed factors that join the isotherms clearly worse than shifts of their own would are mentioned in a note.
 
     Values given with `shift` carry no uncertainty here, unless they are `ShiftFactors` with a covariance.  Where the
     reference lies between isotherms, α = 1 there by the interpolation that `ShiftFactors` makes: given values
@@ -297,13 +302,13 @@ def _unidentified_steps(steps: tuple[tuple[float, float], ...], error: float) ->
 
 
 def _unidentified_vertical(temperatures: Array, covariance: Array) -> list[str]:
-    """Name the temperatures between which the sweeps do not tell b, in one sentence."""
+    """Name the temperatures between which the sweeps do not fix b, in one sentence."""
     errors = _errors_of_steps(covariance)
     places = np.flatnonzero(errors > VERTICAL_UNIDENTIFIED)
     if not places.size:
         return []
     sentence = (
-        f"b is not identified from {ranges(_steps(temperatures, places))}: there the sweeps do not tell it from α "
+        f"b is not identified from {ranges(_steps(temperatures, places))}: there the sweeps do not separate it from α "
         f"(standard error of a step up to {100.0 * (10.0 ** errors[places].max() - 1.0):.0f} %)."
     )
     return [Note("vertical-not-identified", sentence)]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.data import Isotherm
 
 
-#: An isotherm of two or three decades has this much curvature, if it has points enough to tell it from noise.
+#: An isotherm of two or three decades has this much curvature, if it has points enough to separate it from noise.
 _DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)
 #: Segments of the curve that distances are taken to; their length leaves an error below 1e-4 decades.
 _SEGMENTS = 40
@@ -148,7 +148,7 @@ def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[
     Returns
     -------
     tuple of NeighbourDistance
-        Of those that come to lie beside each other; others tell nothing.
+        Of those that come to lie beside each other; others cannot be compared.
     """
     curves = [_Curve.of(isotherm, float(b)) for isotherm, b in zip(isotherms, log10_b, strict=True)]
     found = []

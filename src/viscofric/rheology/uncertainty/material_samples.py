@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.rheology.material import Material
-    from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit
+    from viscofric.rheology.uncertainty.residuals import SystematicMisfit
     from viscofric.units import Quantity
 
 
@@ -57,8 +57,8 @@ class MaterialSamples:
     tau : (samples, n) array
         Retardation times, s; the same in every row, unless the modes are sparse.
     frequency_range : tuple of float
-        Reduced angular frequencies that were measured, rad/s.  Beyond them the bands tell how the fit
-        extrapolates, not what the rubber does.
+        Reduced angular frequencies that were measured, rad/s.  Beyond them the bands show how the fit
+        extrapolates, not what the material does.
     misfit : SystematicMisfit or None
         What the fitted spectrum misses of the measured moduli beyond noise; None where that is not known.
     """
@@ -159,7 +159,7 @@ class MaterialSamples:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is to be told of the bands: one sentence each."""
+        """Notes on the bands, one sentence each."""
         return () if self.misfit is None else self.misfit.notes
 
     def _log10_alpha(self, temperature: Quantity | None) -> float:

@@ -1,7 +1,11 @@
-"""Noise of a master curve as its residuals show it: how large in each isotherm, and how alike along it."""
+"""Residuals of a fit: noise, how large in each isotherm and how alike along it, and the systematic misfit beyond it.
+
+A systematic misfit is alike over neighbouring points, and no bootstrap of noise shows it.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,9 +14,9 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
 
 
-#: Isotherms are told apart in scatter only with so many points; fewer say nothing of their own.
+#: The scatter of single isotherms is compared only with so many points.
 LEAST_POINTS = 3
-#: A point that the fit has followed further than this tells of no error.
+#: A point that the fit has followed further than this shows no error.
 LARGEST_LEVERAGE = 0.9
 #: Neighbours more alike than this would be an offset of the whole isotherm, which its own shift takes up.
 MOST_ALIKE = 0.95
@@ -80,12 +84,101 @@ def _moderated(squares: Array, counts: Integers) -> Array:
     from scipy.special import polygamma
 
     common = float(squares.sum() / counts.sum())
-    told = (counts >= LEAST_POINTS) & (squares > 0.0)
-    if common <= 0.0 or told.sum() < LEAST_POINTS:
+    known = (counts >= LEAST_POINTS) & (squares > 0.0)
+    if common <= 0.0 or known.sum() < LEAST_POINTS:
         return np.full(len(counts), common)
-    logarithms = np.log(squares[told] / counts[told])
-    rest = float(np.var(logarithms, ddof=1) - np.mean(polygamma(1, 0.5 * counts[told])))
+    logarithms = np.log(squares[known] / counts[known])
+    rest = float(np.var(logarithms, ddof=1) - np.mean(polygamma(1, 0.5 * counts[known])))
     if rest <= polygamma(1, 5e3):  # no more than chance
         return np.full(len(counts), common)
     freedom = 2.0 * brentq(lambda half: float(polygamma(1, half)) - rest, 1e-3, 1e4)
     return np.asarray((freedom * common + squares) / (freedom + counts))
+
+
+#: Residuals are averaged over so many neighbours along an isotherm: noise is averaged out, a misfit is not.
+NEIGHBOURS = 5
+#: Averages count as misfit by what they exceed so many times the variance that noise leaves in them.
+NOISE = 3.0
+#: The misfit at a frequency is that of all points so near to it, whatever their isotherm.
+WINDOW = 0.5  # decades
+#: A note mentions it from this size on: sweeps of one sample repeat no better.
+WORTH_A_NOTE = 0.02  # decades
+
+
+@dataclass(frozen=True, eq=False)
+class SystematicMisfit:
+    """Root mean square of what a fit misses beyond noise.
+
+    Parameters
+    ----------
+    log10_frequency : (n,) array
+        log10 of the reduced angular frequencies, ascending.
+    size : (n, 2) array
+        Of log10 E' and of log10 E'' there, decades; beyond the ends it keeps its value.
+    """
+
+    log10_frequency: Array
+    size: Array
+
+    def __repr__(self) -> str:
+        return f"SystematicMisfit(up to {float(self.size.max()):.2g} decades)"
+
+    def at(self, log10_frequency: Array) -> Array:
+        """Return the size at frequencies, in their shape and (2,), decades."""
+        return np.stack([np.interp(log10_frequency, self.log10_frequency, one) for one in self.size.T], axis=-1)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """One sentence where the misfit is worth a note."""
+        worst = np.unravel_index(int(np.argmax(self.size)), self.size.shape)
+        largest = float(self.size[worst])
+        if largest < WORTH_A_NOTE:
+            return ()
+        modulus = ("E'", "E''")[worst[1]]
+        sentence = (
+            f"The fit misses the measured moduli by more than noise, {modulus} by up to {largest:.2g} decades "
+            f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, alike "
+            "over neighbouring points: isotherms do not superpose, or the spectrum cannot follow them. The bands of "
+            "E' and E'' are widened by it; those of other quantities hold for noise alone."
+        )
+        return (sentence,)
+
+
+def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integers) -> SystematicMisfit:
+    """Find what residuals have in common with their neighbours.
+
+    Parameters
+    ----------
+    log10_frequency : (N,) array
+        log10 of the reduced angular frequency of the points.
+    residual : (N, 2) array
+        Measured less fitted, log10 E' and log10 E'', decades.
+    isotherm : (N,) array of int
+        Number of each point's isotherm.
+
+    Notes
+    -----
+    The variance of the noise follows from second differences along each isotherm, which a smooth misfit has none of
+    (J. von Neumann et al., Ann. Math. Stat. 12 (1941) 153, with first differences).
+    """
+    squares, noise = np.zeros_like(residual), np.zeros_like(residual)
+    for number in np.unique(isotherm):
+        rows = np.flatnonzero(isotherm == number)
+        rows = rows[np.argsort(log10_frequency[rows], kind="stable")]
+        values = residual[rows]
+        width = min(NEIGHBOURS, len(rows))
+        if len(rows) < 3:
+            squares[rows], noise[rows] = 0.0, 0.0
+            continue
+        ones = np.ones(width)
+        count = np.convolve(np.ones(len(rows)), ones, mode="same")
+        means = np.stack([np.convolve(column, ones, mode="same") for column in values.T], axis=1) / count[:, None]
+        squares[rows] = means**2
+        noise[rows] = np.mean(np.diff(values, 2, axis=0) ** 2, axis=0) / 6.0 / count[:, None]
+    grid = np.arange(log10_frequency.min(), log10_frequency.max() + 0.5 * WINDOW, 0.5 * WINDOW)
+    size = np.zeros((len(grid), 2))
+    for place, centre in enumerate(grid):
+        near = np.abs(log10_frequency - centre) <= WINDOW
+        if np.any(near):
+            size[place] = np.sqrt(np.maximum(np.mean(squares[near] - NOISE * noise[near], axis=0), 0.0))
+    return SystematicMisfit(grid, size)

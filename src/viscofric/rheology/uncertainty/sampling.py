@@ -18,8 +18,7 @@ from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.refit import Refit
-from viscofric.rheology.uncertainty.residuals import Residuals
-from viscofric.rheology.uncertainty.systematic_misfit import SystematicMisfit, systematic_misfit
+from viscofric.rheology.uncertainty.residuals import Residuals, SystematicMisfit, systematic_misfit
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius
 
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
 
 
 FEWEST_SAMPLES = 20
-#: What a spectrum tells of its master curve agrees with it to this, relative; files round.
+#: Ranges that a spectrum states of its master curve agree with it to this, relative; files round.
 SAME = 1e-3
 #: Scatter of shift factors about a law that makes no difference, and that which explains anything; decades.
 SCATTER = 1e-7, 10.0
@@ -150,16 +149,16 @@ def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> 
     frequencies, moduli = spectrum.fit.frequency_range, spectrum.fit.measured_storage
     omega, storage = curve.angular_frequency, curve.storage_modulus
     if not np.allclose(frequencies, (omega[0], omega[-1]), rtol=SAME, atol=0.0):
-        told = (
+        ranges = (
             f"from {frequencies[0]:.3g} to {frequencies[1]:.3g} rad/s, the curve from {omega[0]:.3g} to {omega[-1]:.3g}"
         )
     elif moduli is not None and not np.allclose(moduli, (storage.min(), storage.max()), rtol=SAME, atol=0.0):
         ends = f"the curve from {storage.min():.3g} to {storage.max():.3g}"
-        told = f"with E' from {moduli[0]:.3g} to {moduli[1]:.3g} Pa, {ends}"
+        ranges = f"with E' from {moduli[0]:.3g} to {moduli[1]:.3g} Pa, {ends}"
     else:
         return
     raise InputError(
-        f"the spectrum was not fitted to this master curve: it was fitted {told}; fit it to the superposition's own "
+        f"the spectrum was not fitted to this master curve: it was fitted {ranges}; fit it to the superposition's own "
         f"master curve, at its reference, {celsius(curve.reference):z.1f} °C."
     )
 
@@ -293,7 +292,7 @@ def _tables(
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
     """Return the law of every sample: its constants follow linearly from the errors of the shift factors.
 
-    The law's own covariance tells how much the table scatters about it beyond its uncertainty
+    The law's own covariance shows how much the table scatters about it beyond its uncertainty
     (`ShiftFactors.law`); so much scatter is drawn too.
     """
     differences = np.diff(np.eye(len(shifts.temperatures)), axis=0)
