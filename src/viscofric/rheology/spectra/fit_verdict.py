@@ -198,8 +198,8 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: floa
         notes.append(
             Note(
                 "glass-unphysical",
-                f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no material has such a "
-                "glass, and the spectrum is not physical above the measured frequencies.",
+                f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no material has "
+                "such a glass, and the spectrum is not physical above the measured frequencies.",
             )
         )
     return notes
