@@ -31,7 +31,7 @@ from viscofric.friction.identification.setting_up import problem_of, shifts_of
 from viscofric.friction.identification.solving import Contacts, spectrum_of
 
 if TYPE_CHECKING:
-    from viscofric.friction.identification.shifts import Shifts
+    from viscofric.friction.identification.problem import Shifts
 
 ACCURACY = 3e-3
 MODES = 30

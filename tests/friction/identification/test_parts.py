@@ -15,8 +15,7 @@ from viscofric.friction.identification.forward import FirstOrder
 from viscofric.friction.identification.moduli import compliance, known_part, log_modulus
 from viscofric.friction.identification.points import moderated_variances, usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
-from viscofric.friction.identification.shifts import Shifts
-from viscofric.friction.identification.smoothness import Smoothness
+from viscofric.friction.identification.problem import Shifts, Smoothness
 from viscofric.notes import codes
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.friction.identification.posterior import Minimum, descend, log_evidence
-from viscofric.friction.identification.smoothness import ROUGHNESS
+from viscofric.friction.identification.problem import ROUGHNESS
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

@@ -1,4 +1,4 @@
-"""Materials that friction alone cannot tell apart: for each level of the modulus the one that fits best."""
+"""Materials of nearly the same friction: for each level of the modulus the one that fits best."""
 
 from __future__ import annotations
 

@@ -171,7 +171,7 @@ def _observations(log_frequency: Array, temperature: float, moduli: Array) -> tu
 def _checked(band: tuple[Quantity, Quantity] | None) -> tuple[float, float]:
     if band is None:
         raise InputError(
-            "prior_band is missing: a material that was not fitted does not tell which frequencies were measured; give "
+            "prior_band is missing: the measured frequencies of a material that was not fitted are unknown; give "
             "(lowest, highest) in rad/s at its reference temperature."
         )
     if np.shape(band) != (2,):

@@ -1,4 +1,4 @@
-"""The least-squares problem of an identification: friction, moduli and contacts measured, and what was expected."""
+"""The least-squares problem of an identification: what was measured, and the prior of spectrum and shift factors."""
 
 from __future__ import annotations
 
@@ -8,25 +8,195 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.errors import InputError
+from viscofric.rheology.shifts.parametric_law import ParametricLaw
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import LN10
+from viscofric.units import celsius
+
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.identification.anchors import SolvedContact
     from viscofric.friction.identification.forward import CorrectedFriction
     from viscofric.friction.identification.moduli import ModulusObservation
     from viscofric.friction.identification.points import Points
-    from viscofric.friction.identification.shifts import Shifts
-    from viscofric.friction.identification.smoothness import Smoothness
+    from viscofric.rheology.shifts.laws import ShiftLaw
+
+
+#: Prior of found shifts, about those from the overlap of the curves alone: so many of their standard errors, and so
+#: much in ln α.  A free spectrum fits curves without overlap as well.  The prior adds to the information of the data one
+#: part in the square of that number.
+OVERLAPPING, OVERLAPPING_LEAST = 5.0, 0.05
+#: Standard deviation of ln α known without an error, for rounding.
+EXACT = 1e-7
+_SAME = 1e-6  # K
+#: Standard deviation of the mean of ln C about the first guess, and of ln(1/E_inf) about the compliance that is seen: a
+#: rubber of little loss has most of it, one amidst its transition a hundredth.
+LEVEL = 3.0
+GLASS = 2.0
+#: Standard deviation of the mean slope d ln C/d ln τ: it lies between the −1 and 1 of power-law moduli, as a rule.
+SLOPE = 0.7
+#: Roughnesses averaged by their evidence, standard deviation of d ln C/d ln τ over an e-fold of τ.
+ROUGHNESS = np.geomspace(0.02, 1.3, 10)
+#: Middle and logarithmic standard deviation of their prior.
+EXPECTED, EXPECTED_SPREAD = 0.15, 1.0
+#: Roughness near the ends of the contact's frequencies and beyond, where no data determine it: a spectrum may end, or
+#: rise to the glass transition, within a third of a decade.
+OUTSIDE = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Shifts:
+    """ln α at the temperatures of friction, anchors and reference, with a normal prior.
+
+    Attributes
+    ----------
+    temperatures : (t,) array
+        Ascending, K.
+    reference : float
+        One of them, where α = 1, unless `found` is false; K.
+    middle : (t,) array
+        Prior mean of ln α.
+    whitening : (r, t) array
+        Its product with (ln α − middle) has standard deviation one.
+    found : bool
+        Whether the friction is to find them.
+    exact : bool
+        Whether they were given without an error.
+    """
+
+    temperatures: Array
+    reference: float
+    middle: Array
+    whitening: Array
+    found: bool
+    exact: bool = False
+
+    @classmethod
+    def unknown(cls, temperatures: Array, reference: float, overlap: ShiftFactors | None = None) -> Shifts:
+        """Return unknown shifts at temperatures (t,), one of which is the reference.
+
+        `overlap` are those from the overlap of the curves; None for one temperature.
+        """
+        if overlap is None:
+            return cls(temperatures, reference, np.zeros(1), np.eye(1) / EXACT, True)
+        about = overlap.at_reference(reference)
+        away = np.abs(temperatures - reference) >= _SAME
+        covariance = (OVERLAPPING * LN10) ** 2 * _covariance(about, temperatures) * np.outer(away, away)
+        covariance += np.diag(np.where(away, OVERLAPPING_LEAST**2, 0.0))
+        return cls(temperatures, reference, LN10 * np.asarray(about.log10(temperatures)), _whitening(covariance), True)
+
+    @classmethod
+    def known(cls, temperatures: Array, shift: ShiftLaw) -> Shifts:
+        """Return those of a law or table at temperatures (t,), with its covariance where it has one."""
+        middle = LN10 * np.asarray(shift.log10(temperatures))
+        covariance = LN10**2 * _covariance(shift, temperatures)
+        return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())
+
+    def row(self, temperature: float) -> Array:
+        """Return the weights (t,) of the temperatures in ln α at one of them, or between them, linear in 1/T.
+
+        Raises
+        ------
+        InputError
+            If it lies outside.
+        """
+        low, high = self.temperatures[0], self.temperatures[-1]
+        if not low - _SAME <= temperature <= high + _SAME:
+            raise InputError(
+                f"temperature = {celsius(temperature):.1f} °C of an anchor or prior lies outside those of the friction "
+                f"curves, {celsius(float(low)):.1f} to {celsius(float(high)):.1f} °C, so that its shift factor is not "
+                "found; give shift=, or one measured among them."
+            )
+        inverse = 1.0 / self.temperatures[::-1]
+        return np.array([np.interp(1.0 / temperature, inverse, unit) for unit in np.eye(len(inverse))])[::-1]
+
+    def table(self, log_alpha: Array, covariance: Array) -> ShiftFactors:
+        """Return the factors found, of ln α (t,) with its covariance (t, t), about the reference."""
+        return ShiftFactors(self.temperatures, log_alpha / LN10, self.reference, covariance / LN10**2)
+
+
+def _whitening(covariance: Array) -> Array:
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray(vectors.T / np.sqrt(np.maximum(values, 0.0) + EXACT**2)[:, None])
+
+
+def _covariance(shift: ShiftLaw, temperatures: Array) -> Array:
+    """Return the covariance of log10 α at temperatures (t,), zero where the law has none."""
+    if isinstance(shift, ShiftFactors):
+        inverse = 1.0 / shift.temperatures[::-1]
+        rows = np.array([np.interp(1.0 / temperatures, inverse, unit) for unit in np.eye(len(inverse))[::-1]]).T
+        return np.asarray(rows @ shift.covariance @ rows.T)
+    if isinstance(shift, ParametricLaw) and shift.covariance is not None:
+        gradient = shift.gradient(temperatures)
+        return np.asarray(gradient @ np.asarray(shift.covariance) @ gradient.T)
+    return np.zeros((len(temperatures), len(temperatures)))
+
+
+@dataclass(frozen=True, eq=False)
+class Smoothness:
+    """Normal prior of x = (ln(1/E_inf), ln C_1 … ln C_m): a random walk of second order with a broad level and slope.
+
+    Its density is exp(−|A (x − middle)|²/2) |A|, with A square.
+
+    Parameters
+    ----------
+    tau : (m,) array
+        In geometric progression, s.
+    compliance : float
+        First guess of 1/|E|, 1/Pa.
+    inside : (shortest, longest)
+        Retardation times whose modes the friction sees from both sides, s.
+    roughness : float
+        Standard deviation of the change of d ln C/d ln τ over an e-fold of τ, inside.
+    """
+
+    tau: Array
+    compliance: float
+    inside: tuple[float, float]
+    roughness: float
+
+    @cached_property
+    def middle(self) -> Array:
+        """Prior mean, (1 + m,)."""
+        spacing = float(np.log(self.tau[-1] / self.tau[0])) / (len(self.tau) - 1)
+        level = np.log(self.compliance) + np.log(0.1 * spacing)
+        return np.concatenate([[np.log(self.compliance)], np.full(len(self.tau), level)])
+
+    @cached_property
+    def matrix(self) -> Array:
+        """A, (1 + m, 1 + m)."""
+        m = len(self.tau)
+        places = np.log(self.tau)
+        spacing = float(places[-1] - places[0]) / (m - 1)
+        within = (self.tau[1:-1] >= self.inside[0]) & (self.tau[1:-1] <= self.inside[1])
+        rough = np.where(within, self.roughness, max(OUTSIDE, self.roughness))
+        curvature = np.diff(np.eye(m), 2, axis=0) / (rough * spacing**1.5)[:, None]
+        away = places - places.mean()
+        level = np.full((1, m), 1.0 / (m * LEVEL))
+        slope = (away / (away @ away) / SLOPE)[None, :]
+        rows = np.concatenate([level, slope, curvature])
+        matrix = np.zeros((m + 1, m + 1))
+        matrix[0, 0] = 1.0 / GLASS
+        matrix[1:, 1:] = rows
+        return matrix
+
+    @property
+    def log_volume(self) -> float:
+        """Logarithm of |A| and of the prior of the roughness."""
+        expected = -0.5 * float(np.log(self.roughness / EXPECTED) / EXPECTED_SPREAD) ** 2
+        return float(np.linalg.slogdet(self.matrix)[1]) + expected
 
 
 @dataclass(frozen=True, eq=False)
 class Observations:
-    """What was measured.
+    """Measured friction and moduli.
 
     Attributes
     ----------
     points : Points
     moduli : tuple of (tuple of ModulusObservation, (n, n) array)
-        Observations that err together, and what whitens their errors.
+        Observations with correlated errors, and the matrix that whitens these.
     """
 
     points: Points
@@ -60,7 +230,7 @@ class Problem:
 
     @cached_property
     def metric(self) -> Array:
-        """What was expected of the unknowns as a matrix of normal equations (p, p): it damps steps (`descend`)."""
+        """Normal matrix of the prior of the unknowns (p, p); it damps steps (`descend`)."""
         A, W = self.smoothness.matrix, self.shifts.whitening
         size = self.modes + len(self.shifts.middle)
         result = np.zeros((size, size))
@@ -68,7 +238,7 @@ class Problem:
         return result
 
     def blurred(self, error: float) -> Problem:
-        """Return the problem with so large an error of ln μ at every point besides its own."""
+        """Return the problem with an additional error of ln μ at every point."""
         points = replace(self.observations.points, error=np.hypot(self.observations.points.error, error))
         return replace(self, observations=replace(self.observations, points=points))
 
@@ -86,7 +256,7 @@ class Problem:
         return value, np.concatenate([change, moved], axis=1)
 
     def measured(self, unknowns: Array) -> tuple[Array, Array]:
-        """Return the residuals of what was measured (r,), friction first, and their derivatives (r, p)."""
+        """Return the residuals of the measurements (r,), friction first, and their derivatives (r, p)."""
         compliances, log_alpha = self.split(unknowns)
         points = self.observations.points
         value, change = self.log_friction(unknowns)

@@ -1,4 +1,4 @@
-"""An identification set up: which shifts and moduli are unknown, which retardation times there are, where to begin."""
+"""Set-up of an identification: unknown shifts and moduli, the grid of retardation times, the first guess."""
 
 from __future__ import annotations
 
@@ -12,9 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.moduli import ModulusObservation
-from viscofric.friction.identification.problem import Observations, Problem
-from viscofric.friction.identification.shifts import Shifts
-from viscofric.friction.identification.smoothness import EXPECTED, Smoothness
+from viscofric.friction.identification.problem import EXPECTED, Observations, Problem, Shifts, Smoothness
 from viscofric.friction.shifting.refusals import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE
@@ -116,7 +114,7 @@ def shifts_of(
 
 
 def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputError:
-    """Say that there is no α at the reference, because it was not measured or its curve tells none."""
+    """Return an error on a reference without α, because it was not measured or its curve does not overlap."""
     shown = ", ".join(f"{celsius(float(one)):.1f}" for one in found.temperatures)
     asked = f"{celsius(reference):.1f} °C"
     if np.abs(points.temperatures - reference).min() > SAME_TEMPERATURE:

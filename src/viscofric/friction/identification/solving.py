@@ -83,7 +83,7 @@ def friction_response(
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[ContactOptions],
 ) -> FrictionResponse:
-    """Solve a contact at each of the speeds, and tell how friction changes with every mode, glass, speed and load.
+    """Solve a contact at each of the speeds, with the derivatives of friction by every mode, E_inf, speed and load.
 
     Parameters
     ----------
@@ -99,8 +99,8 @@ def friction_response(
     accuracy : float
         Relative error of each friction coefficient that is aimed at; see `solve_steady`.
     workers : int or Workers
-        Processes that share the contacts out among them, or `viscofric.processes.Workers` that are kept for more; the
-        result is the same to the last digit.
+        Processes that solve contacts, or `viscofric.processes.Workers` that are kept for more; the result does not
+        depend on them.
     progress : callable, optional
         Called as ``progress(done, total)`` after every contact.
     **settings
