@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 
 #: Prior of found shifts, about those from the overlap of the curves alone: so many of their standard errors, and so
-#: much in ln α.  A free spectrum fits curves without overlap as well.  The prior adds to the information of the data one
-#: part in the square of that number.
+#: much in ln α.  A free spectrum fits curves without overlap as well.  The prior adds to the information of the data
+#: one part in the square of that number.
 OVERLAPPING, OVERLAPPING_LEAST = 5.0, 0.05
 #: Standard deviation of ln α known without an error, for rounding.
 EXACT = 1e-7
