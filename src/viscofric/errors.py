@@ -15,24 +15,24 @@ if TYPE_CHECKING:
     from viscofric.notes import Reader, Remedy
 
 _LONGEST = 80
-#: Of the message of an error, or of a note; what is longer quotes a file or lists many mistakes.
+#: Limit of the message of an error, or of a note; longer ones quote a file or list many mistakes.
 LONGEST_SENTENCE = 500
-_LONGEST_LINE = 160  # of a list, where there are too many for longer ones
-#: Of a list that is printed with a line for each.
+_LONGEST_LINE = 160  # of a long list
+#: Limit of a list that is printed with a line for each.
 _MOST_SENTENCES = 20
 
 
 def brief(value: object) -> str:
-    """Return how Python writes a value, on one line and cut where it is too long for a sentence."""
+    """Return the representation of a value, on one line and cut if too long for a sentence."""
     text = " ".join(repr(value).split())
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
 
 
 def shortened(text: str) -> str:
-    """Return a text of bearable length.
+    """Return a text of limited length.
 
-    A long sentence is cut in its middle, as it says at its end what to do.  Of a list with a sentence on each line, the
-    first ones are kept, and the others counted.
+    A long sentence is cut in its middle, since its end contains the remedy.  Of a list with a sentence on each line,
+    the first ones are kept, and the others counted.
     """
     if len(text) <= LONGEST_SENTENCE:
         return text
@@ -61,25 +61,25 @@ def _and_more(count: int) -> str:
 
 
 def short_notes(notes: Iterable[str]) -> tuple[Note, ...]:
-    """Return notes, each of bearable length."""
+    """Return notes, each of limited length."""
     return tuple(note_of(note).reworded(shortened) for note in notes)
 
 
 def not_imported(package: str, error: Exception, install: str = "") -> str:
-    """Return a clause on a package that is not there, or that cannot be imported, which is another matter.
+    """Return a clause on a package that is not installed, or that is installed but cannot be imported.
 
     Parameters
     ----------
     package : str
     error : Exception
-        That importing it raised.
+        Raised by the import.
     install : str
-        What installs it.
+        Command that installs it.
     """
     if isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] == package:
         return f"{package} is not installed" + (f": {install}" if install else "")
     why = f"{type(error).__name__}: {error}"
-    hint = "a file of yours may have the name of a package, such as dask.py, and stand in for it"
+    hint = "a file of yours may have the name of a package, such as dask.py, and replace it"
     return f"{package} is installed, but cannot be imported ({why}); {hint}"
 
 
@@ -119,7 +119,7 @@ class ViscofricError(Exception):
 
     @property
     def code(self) -> str:
-        """What went wrong, for programs; empty where nothing needs to know it."""
+        """The kind of the error, for programs; may be empty."""
         return self.note.code
 
     @property
@@ -129,7 +129,7 @@ class ViscofricError(Exception):
 
     @property
     def field(self) -> str | None:
-        """Path of the run file's key that it is about, or in which the remedy belongs, such as ``conditions.load``."""
+        """Path of the run file's key that it concerns, or that the remedy changes, such as ``conditions.load``."""
         return self._field or (None if self.remedy is None else self.remedy.field)
 
     def words(self, reader: Reader) -> str:
@@ -137,7 +137,7 @@ class ViscofricError(Exception):
         return shortened(self.note.words(reader))
 
     def listing(self, reader: Reader = "python") -> str:
-        """Return the message; where it lists mistakes, with more of them than a message holds, one to a line."""
+        """Return the message; a list of mistakes is longer than in the message, one to a line."""
         return self.words(reader)
 
     def reworded(self, change: Callable[[str], str]) -> Self:
@@ -160,16 +160,16 @@ class InputError(ViscofricError, ValueError):
 
 
 class DataFileError(InputError):
-    """A data file cannot be read as what it should be.
+    """A data file cannot be read.
 
     Parameters
     ----------
     path : str
         The file, as the user named it.
     problem : str or Note
-        What is wrong and what would be right, without the file's name.
+        The problem and the remedy, without the file's name.
     row : int, optional
-        Line of the file, counted from 1, where the trouble sits.
+        Line of the file, counted from 1.
     code, remedy : optional
         As for `ViscofricError`.
     """
@@ -189,7 +189,7 @@ class DataFileError(InputError):
 
     @property
     def problem(self) -> str:
-        """What is wrong, without the file's name."""
+        """The problem, without the file's name."""
         return str(Note(self.code, self.note.text, remedy=self.remedy))
 
     def reworded(self, change: Callable[[str], str]) -> Self:
@@ -204,21 +204,21 @@ class DataFileError(InputError):
 
 def not_written(path: object, error: Exception) -> DataFileError:
     """Return the error of a file that cannot be written: the disk is full, the folder read-only, or removed."""
-    number = getattr(error, "errno", None)  # h5py buries the reason in a long text of its own
+    number = getattr(error, "errno", None)  # h5py puts the reason into a long text
     why = os.strerror(number) if number else error
     return DataFileError(path, f"cannot be written ({why}).", code="not-written")
 
 
 class StudyError(InputError):
-    """A run file asks for something that cannot be done; names the file and the field.
+    """A run file is wrong or cannot be run; the message names the file and the field.
 
     Parameters
     ----------
     problem : str or Note
         One sentence; of several mistakes, the file and their number.
     mistakes : sequence of str
-        One sentence each; of notes, the place is the path of a key.  All are kept here; the message has as many lines
-        as it has room for.
+        One sentence each; of notes, the place is the path of a key.  All are kept here; the message contains as many as
+        fit.
     code, remedy, field : optional
         As for `ViscofricError`; the field is by default the place of the first mistake, or that of the sentence.
     """

@@ -24,7 +24,7 @@ class Remedy:
     Parameters
     ----------
     python : str
-        For users of the library, and for all others whose words are not given.
+        For users of the library, and for all readers without words of their own.
     shell : str, optional
         For users of the commands.
     run_file : str, optional
@@ -32,7 +32,7 @@ class Remedy:
     page : str, optional
         For users of the local page.
     field : str, optional
-        Path of the run file's key, also that of the page's field, in which the answer belongs.
+        Path of the run file's key, and of the page's field, to change.
     """
 
     python: str
@@ -62,12 +62,12 @@ class Remedy:
 
 
 def by_reader(words: Callable[[Reader], str], field: str | None = None) -> Remedy:
-    """Return what a function says to each reader."""
+    """Return a remedy from a function of the reader."""
     return Remedy(words("python"), words("shell"), words("run_file"), words("page"), field)
 
 
 def setting(field: str, label: str, value: str = "") -> Remedy:
-    """Return what a setting is called: argument, option, key of a run file, or field of the page.
+    """Return the name of a setting for each reader: argument, option, key of a run file, or field of the page.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def setting(field: str, label: str, value: str = "") -> Remedy:
     label : str
         Of the page's field.
     value : str
-        What to give, where one is proposed; text in quotes.
+        A proposed value, text in quotes.
     """
     table, _, key = field.partition(".")
     typed = f"'{value}'" if " " in value and "'" not in value else value
@@ -93,8 +93,7 @@ def setting(field: str, label: str, value: str = "") -> Remedy:
 class Note(str):
     """One sentence for people, with a code for programs.
 
-    A note is text, so it prints, joins and is stored as its sentence in the words of Python; nothing needs to read the
-    sentence to know what it is about.
+    A note is text: it prints, joins and is stored as its sentence in the words of Python.  Programs use the code.
 
     Parameters
     ----------
@@ -102,9 +101,9 @@ class Note(str):
         What the note is about, in lower case with hyphens, such as ``"few-replicates"``. Codes stay the same when a
         sentence is reworded.
     text : str
-        The sentence, without what is to be done where there is a remedy.
+        The sentence, without the remedy.
     where : str, optional
-        The place that it is about, such as a file, a key of a run file or a condition; it stands before the text.
+        Its place, such as a file, a key of a run file or a condition; it precedes the text.
     remedy : Remedy, optional
         Follows the text.
 
@@ -136,11 +135,11 @@ class Note(str):
         return str(Note(self.code, self.text, self.where)) + self.remedy.words(reader)
 
     def at(self, where: str) -> Note:
-        """Return the note of a wider place, which is named first; an empty one changes nothing."""
+        """Return the note with a wider place in front; an empty one changes nothing."""
         return Note(self.code, self.text, ": ".join(filter(None, (where, self.where))), self.remedy)
 
     def coded(self, code: str) -> Note:
-        """Return the note with a code of who uses it, such as that of an error which ends nothing."""
+        """Return the note with another code."""
         return Note(code, self.text, self.where, self.remedy)
 
     def reworded(self, change: Callable[[str], str]) -> Note:
@@ -149,7 +148,7 @@ class Note(str):
         return Note(self.code, change(self.text), change(self.where), remedy)
 
     def record(self) -> dict[str, Any]:
-        """Return the note as JSON holds it: code and text, and place and remedy where there are any."""
+        """Return the note as JSON: code and text, and place and remedy if there are any."""
         found: dict[str, Any] = {"code": self.code, "text": self.text}
         if self.where:
             found["where"] = self.where
@@ -159,7 +158,7 @@ class Note(str):
 
 
 def note_of(record: Mapping[str, Any] | str) -> Note:
-    """Return the note that a record holds; a sentence alone has no code.
+    """Return the note of a record; a sentence alone has no code.
 
     Parameters
     ----------
@@ -175,24 +174,18 @@ def note_of(record: Mapping[str, Any] | str) -> Note:
 
 
 def records(notes: Iterable[str]) -> list[dict[str, Any]]:
-    """Return notes as JSON holds them."""
+    """Return notes as JSON."""
     return [note_of(note).record() for note in notes]
 
 
 def codes(notes: Iterable[str]) -> set[str]:
-    """Return the codes of those notes that have one.
-
-    Parameters
-    ----------
-    notes : iterable of str
-        Notes, and sentences without a code, which are passed over.
-    """
+    """Return the codes of those notes that have one."""
     return {note.code for note in notes if isinstance(note, Note) and note.code}
 
 
 @contextmanager
 def warned() -> Iterator[list[Note]]:
-    """Collect the notes that are warned of inside, for those who show them in their own way; other warnings go on."""
+    """Collect the notes issued as warnings inside, for another way of display; other warnings stay warnings."""
     found: list[Note] = []
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

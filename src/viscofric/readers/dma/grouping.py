@@ -45,7 +45,7 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
     Points of one file and step are separated at gaps in temperature.  Without a gap over more than
     `WIDEST_ISOTHERM`, the sample was heated between its isotherms during recording: points at a held temperature are
     kept.  Groups of equal temperature, of one file or several, are one isotherm; groups of hardly any frequency,
-    beside isotherms with several, are left out.
+    next to isotherms with several, are left out.
 
     Raises
     ------
@@ -210,12 +210,12 @@ def _printed_frequencies(points: Points, group: Indices) -> Array:
 
 
 def _insist_on_several(points: Points, groups: list[Indices], source: str) -> list[Indices]:
-    """Leave out groups of one or two frequencies beside isotherms with several; refuse a temperature sweep."""
+    """Leave out groups of one or two frequencies next to isotherms with several; refuse a temperature sweep."""
     counts = [len(_printed_frequencies(points, group)) for group in groups]
     if len(groups) >= TEMPERATURE_SWEEP and max(counts) == 1:
         problem = f"each of the {len(groups)} temperatures has one frequency; frequency sweeps are needed, not a "
         raise DataFileError(source, problem + "temperature sweep.", code="temperature-sweep")
-    # one frequency beside three, two beside six
+    # one frequency next to three, two next to six
     needed = min(3, 1 + max(counts) // 3)
     return [group for group, count in zip(groups, counts, strict=True) if count >= needed]
 

@@ -63,8 +63,8 @@ def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
         said = f"The temperature ranges over up to {furthest:.1f} K within the {_isotherm(wide)} {at(wide)}."
         notes.append(Note("temperature-range", said))
     if drifting:
-        told = f"drifts steadily, by up to {fastest:.1f} K, within the {_isotherm(drifting)} {at(drifting)}"
-        notes.append(Note("temperature-drifts", f"The temperature {told}."))
+        said = f"drifts steadily, by up to {fastest:.1f} K, within the {_isotherm(drifting)} {at(drifting)}"
+        notes.append(Note("temperature-drifts", f"The temperature {said}."))
     return notes
 
 
@@ -94,11 +94,11 @@ def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
         hertz = isotherm.angular_frequency[place] / (2 * math.pi)
         where = f"{celsius(isotherm.temperature):z.1f} °C, {hertz:.4g} Hz"
         if len(found) == 1:
-            told = f"The {name} modulus at {where} ({points.named(rows)}) is far from its neighbours; it was kept."
+            said = f"The {name} modulus at {where} ({points.named(rows)}) is far from its neighbours; it was kept."
         else:
-            told = f"{len(found)} {name} moduli are far from their neighbours, the first at {where}; they were kept "
-            told += f"({points.named(rows)})."
-        notes.append(Note("outlying-modulus", told))
+            said = f"{len(found)} {name} moduli are far from their neighbours, the first at {where}; they were kept "
+            said += f"({points.named(rows)})."
+        notes.append(Note("outlying-modulus", said))
     return notes
 
 
@@ -224,13 +224,13 @@ def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:
     notes = []
     (least, at_least), (most, at_most) = (f((float(np.median(one)), T) for one, T in known) for f in (min, max))
     if most > AMPLITUDES_DIFFER * least:
-        told = f"The strain amplitudes of the isotherms differ, from {100 * least:.3g} % {at([at_least])} to "
-        notes.append(Note("amplitudes-differ", f"{told}{100 * most:.3g} % {at([at_most])}; {falls}temperature."))
+        said = f"The strain amplitudes of the isotherms differ, from {100 * least:.3g} % {at([at_least])} to "
+        notes.append(Note("amplitudes-differ", f"{said}{100 * most:.3g} % {at([at_most])}; {falls}temperature."))
     within = [(one, T) for one, T in known if one.max() > AMPLITUDES_DIFFER * one.min()]
     if within:
         widest, where = max(within, key=lambda each: float(each[0].max() / each[0].min()))
         isotherms = "an isotherm" if len(within) == 1 else f"{len(within)} isotherms"
-        told = f"The strain amplitude is not one within {isotherms}"
+        said = f"The strain amplitude varies within {isotherms}"
         span = f"{100 * widest.min():.3g} to {100 * widest.max():.3g} % {at([where])}"
-        notes.append(Note("amplitudes-differ", f"{told}, at most from {span}; {falls}frequency."))
+        notes.append(Note("amplitudes-differ", f"{said}, at most from {span}; {falls}frequency."))
     return notes

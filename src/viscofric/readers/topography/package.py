@@ -31,7 +31,7 @@ LONGEST_READ = 120.0  # s; 190 MB take 10 s
 LARGEST_MEMORY = 6_000_000_000  # bytes
 _APART = LimitedProcess(LONGEST_READ, LARGEST_MEMORY, needed=__name__)
 _BY_PACKAGE = (
-    "is neither a table of numbers nor a NumPy array; the formats of instruments are read by the package "
+    "is neither a table of numbers nor a NumPy array; formats of instruments are read by the package "
     "SurfaceTopography, but {why}."
 )
 #: Elevations of the globe without a header: any file of a square's size would be recognised as such.
@@ -87,7 +87,7 @@ def read_here(source: Source, asked: Asked) -> Scan:
         try:
             from SurfaceTopography import open_topography  # type: ignore[import-untyped]
             from SurfaceTopography.Exceptions import CannotDetectFileFormat  # type: ignore[import-untyped]
-        except Exception as error:  # noqa: BLE001 - of whatever it imports itself
+        except Exception as error:  # noqa: BLE001 - of its own imports
             why = not_imported("SurfaceTopography", error)
             raise DataFileError(source.path, _BY_PACKAGE.format(why=why), code="package-missing") from None
         try:
@@ -101,7 +101,7 @@ def read_here(source: Source, asked: Asked) -> Scan:
                 "has no known format for heights of a surface.",
                 code="unknown-format",
             ) from None
-        except Exception as error:  # noqa: BLE001 - a damaged file makes the package raise whatever it meets
+        except Exception as error:  # noqa: BLE001 - a damaged file makes the package raise anything
             reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
             raise DataFileError(
                 source.path, f"cannot be read as heights of a surface ({reason[:200]}).", code="damaged"
@@ -115,7 +115,7 @@ def _insist_on_small_workbook(source: Source) -> None:
     try:
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive, archive.open(_CONTENTS) as contents:
             listed = contents.read(_LONGEST_CONTENTS)
-    except Exception:  # noqa: BLE001 - a torn archive raises whatever it meets
+    except Exception:  # noqa: BLE001 - a damaged archive raises anything
         raise DataFileError(source.path, "is a damaged workbook.", code="damaged") from None
     if not all(f'name="{name}"'.encode() in listed for name in _TESTER_SHEETS):  # before it takes time to parse
         raise DataFileError(

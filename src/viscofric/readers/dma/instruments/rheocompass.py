@@ -1,8 +1,8 @@
 """Anton Paar RheoCompass text exports: the frequency sweeps among their intervals.
 
-No genuine file of this format was at hand when this was written.  The layout (see `rheocompass_intervals`) and the
-English, German, French and Portuguese names are those that published programs for such files expect; the names in
-other languages are the usual words of the field.
+No genuine file of this format was available.  The layout (see `rheocompass_intervals`) and the English, German,
+French and Portuguese names are those of published programs for such files; the names in other languages are the usual
+words of the field.
 """
 
 from __future__ import annotations
@@ -152,7 +152,7 @@ def _doubts(interval: Interval) -> list[Note]:
     complete = {line for line, _ in _complete(interval)}
     empty = [line for line, _ in interval.rows if line not in complete]
     notes = []
-    marked = (list(interval.invalid), "marked beside the number, as invalid ones are")
+    marked = (list(interval.invalid), "marked next to the number as invalid")
     for lines, why in (marked, (empty, "a cell being empty")):
         if lines:
             shown = ", ".join(str(line) for line in lines[:3]) + (" and more" if len(lines) > 3 else "")

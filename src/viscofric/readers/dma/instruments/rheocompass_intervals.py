@@ -1,4 +1,4 @@
-"""The layout of an Anton Paar RheoCompass text export: intervals of numbered points, whatever the user's language.
+"""The layout of an Anton Paar RheoCompass text export: intervals of numbered points, in any language.
 
 An interval begins with its number and count of points; then come the names of the columns, a row of qualifiers,
 units in brackets, and one row for each point, its first cell empty::

@@ -5,7 +5,7 @@ Both begin with the same header: ``CLOSED``, the version, lines of tag and value
 tab-separated rows follow, of which those with a negative time mark events.  The binary file holds its header as
 UTF-16, then little-endian float32 records of one number per signal, up to the first record with a negative time.
 
-No genuine DMA file was at hand for either: the readers were written from descriptions of the layout and tried on
+No genuine DMA file of either was available: the readers were written from descriptions of the layout and tested on
 files written from them.
 """
 
