@@ -350,7 +350,6 @@ FOREIGN_TEXT = (
     "viscofric.report.figures.saving",
     "viscofric.report.html",
     "viscofric.report.texts.numbers",  # true minus signs
-    "viscofric.report.texts.study",  # no line breaks before units
     "viscofric.web.access",
     "viscofric.web.study_text",
     "viscofric.web.workspace",

@@ -95,9 +95,26 @@ def megapascals(pascals: float, digits: int = 3) -> str:
 
 def speed(metres_per_second: float, digits: int = 3) -> str:
     """Return a speed with its unit: mm/s, or m/s from 1 m/s on."""
+    return " ".join(_speed(metres_per_second, digits))
+
+
+def speeds(lowest: float, highest: float) -> str:
+    """Return a range of speeds (m/s): 20 to 200 mm/s, 0.1 mm/s to 10 m/s."""
+    (low, unit), (high, last) = _speed(lowest), _speed(highest)
+    if (low, unit) == (high, last):
+        return f"{low} {unit}"
+    return f"{low} to {high} {unit}" if unit == last else f"{low} {unit} to {high} {last}"
+
+
+def _speed(metres_per_second: float, digits: int = 3) -> tuple[str, str]:
     if metres_per_second >= 0.99995:
-        return f"{short(metres_per_second, digits)} m/s"
-    return f"{short(1e3 * metres_per_second, digits)} mm/s"
+        return short(metres_per_second, digits), "m/s"
+    return short(1e3 * metres_per_second, digits), "mm/s"
+
+
+def unbroken(text: str) -> str:
+    """Return a number with its unit so that no line breaks between them."""
+    return text.replace(" ", _SPACE)
 
 
 def several(texts: list[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -32,8 +31,9 @@ from viscofric.report.texts.numbers import (
     several,
     short,
     signed_percent,
-    speed,
+    speeds,
     typeset,
+    unbroken,
     with_error,
 )
 
@@ -47,9 +47,6 @@ if TYPE_CHECKING:
 
 
 _FEW = 6  # points that are listed one by one
-
-# Space between a number and its unit, where a line should not break
-_BEFORE_UNIT = re.compile(r"(?<=\d) (?=°C|N\b|mm|m/s|rad/s|%)")
 
 
 class Input(NamedTuple):
@@ -66,25 +63,29 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
     found, sweeps = group(tree, "prediction"), group(tree, "isotherms")
     if found is not None:
         prediction = cases_of(found)
-        steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(prediction, "temperature"))]
+        steps = _temperatures(prediction)
         at = several(steps) if len(steps) <= 6 else f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}"
         accuracy = number(attrs, "accuracy")
         said.append(
             f"Viscoelastic friction of a material against a {attrs.get('indenter', 'rigid indenter')}"
             f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} "
             f"and {at}"
-            + (f", to a relative accuracy of {short(100 * accuracy)} %." if math.isfinite(accuracy) else ".")
+            + (
+                f", to a relative accuracy of {unbroken(f'{short(100 * accuracy)} %')}."
+                if math.isfinite(accuracy)
+                else "."
+            )
         )
         also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
         if also:
             said.append(f"Varied as well: {'; '.join(f'{axis.title} ({_points(axis)})' for axis in also)}.")
     if sweeps is not None:
-        steps = [degrees(float(kelvin)) for kelvin in nominal_temperatures(values(sweeps, "temperature"))]
+        steps = _temperatures(sweeps)
         at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
-        file = f" ({str(attrs['dma_format']).split(' (')[0]})" if attrs.get("dma_format") else ""
+        file = f" ({attrs['dma_format']})" if attrs.get("dma_format") else ""
         said.append(
             f"The material is fitted to dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
-            f"frequency sweeps at {at}, {_range(values(sweeps, 'angular_frequency'))} rad/s"
+            f"frequency sweeps at {at}, {unbroken(_range(values(sweeps, 'angular_frequency')) + ' rad/s')}"
             f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
         )
     elif attrs.get("material"):
@@ -105,7 +106,7 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
         )
         points = f"{measurement.sizes['point']} {kind} points of friction"
         said.append(f"The prediction is compared with {points}{separated}. {enters}")
-    return [_BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", sentence) for sentence in said]
+    return said
 
 
 def inputs(tree: xr.DataTree) -> list[Input]:
@@ -145,14 +146,22 @@ def _points(axis: SweepAxis) -> str:
     return f"{axis.labels[0]} to {axis.labels[-1]} ({len(axis)} in all)"
 
 
+def _temperatures(data: xr.Dataset) -> list[str]:
+    return [unbroken(degrees(float(kelvin))) for kelvin in nominal_temperatures(values(data, "temperature"))]
+
+
+def _speeds(metres_per_second: Array) -> str:
+    return unbroken(speeds(float(np.nanmin(metres_per_second)), float(np.nanmax(metres_per_second))))
+
+
 def _under(prediction: xr.Dataset, load: float) -> str:
     """Say the load, or the range of loads."""
     loads = values(prediction, "load")
     loads = loads[np.isfinite(loads)] if np.isfinite(loads).any() else np.array([load])
     unit = str(prediction["load"].attrs.get("units", "N")) if "load" in prediction else "N"
     if "pressure" in prediction:
-        return f" under a mean pressure of {_range(values(prediction, 'pressure') / 1e3, 4)} kPa"
-    return f" under {_range(loads, 4)} {unit}" if np.isfinite(loads).all() else ""
+        return f" under a mean pressure of {unbroken(_range(values(prediction, 'pressure') / 1e3, 4) + ' kPa')}"
+    return f" under {unbroken(f'{_range(loads, 4)} {unit}')}" if np.isfinite(loads).all() else ""
 
 
 def _isotherms_used(tree: xr.DataTree) -> str:
@@ -166,15 +175,6 @@ def _isotherms_used(tree: xr.DataTree) -> str:
 def _range(numbers: Array, digits: int = 3) -> str:
     low, high = short(float(np.nanmin(numbers)), digits), short(float(np.nanmax(numbers)), digits)
     return low if low == high else f"{low} to {high}"
-
-
-def _speeds(metres_per_second: Array) -> str:
-    """Say a range of speeds: 20 to 200 mm/s, 0.1 mm/s to 10 m/s."""
-    low, high = speed(float(np.nanmin(metres_per_second))), speed(float(np.nanmax(metres_per_second)))
-    if low == high:
-        return low
-    same_unit = low.split()[1] == high.split()[1]
-    return f"{low.split()[0] if same_unit else low} to {high}"
 
 
 #: Name of the key number that compares prediction and measurement.
