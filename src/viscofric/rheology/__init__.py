@@ -1,4 +1,4 @@
-"""From sweeps to a rubber: shift factors, master curve, retardation spectrum, material; and to other programs."""
+"""From sweeps to a material: shift factors, master curve, retardation spectrum; material cards of other programs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all material cards share: what is asked of them, what is read from them, and the physics between."""
+"""The common part of all material cards: settings, contents, and conversion between shear, bulk and tension."""
 
 from __future__ import annotations
 

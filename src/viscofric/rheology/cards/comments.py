@@ -1,4 +1,4 @@
-"""Comments of a material card: for people, and what the program cannot hold, for `read_card` to read back."""
+"""Comments of a material card: for people, and for `read_card` the properties that the program cannot hold."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which shift law measured factors support: every law that can be fitted, the one to take, and how sure that is."""
+"""Comparison of the shift laws that describe measured factors: all fits, the chosen law, and how sure the choice is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a fit needs to know of each kind of shift law: its constants, where to start, values and gradients."""
+"""The kinds of shift law as a fit uses them: constants, starting values, values and gradients."""
 
 from __future__ import annotations
 

@@ -210,7 +210,7 @@ class ParametricLaw(ShiftLaw):
 
     @property
     def extrapolation_limits(self) -> tuple[float, float]:
-        """Lowest and highest temperature at which the law answers, K.
+        """Lowest and highest temperature at which the law is valid, K.
 
         A fitted law goes beyond the temperatures of its fit as far as it is known to half a decade (95 %,
         relative to the nearest of them), but no more than 50 K above them and 20 K below, and not closer than

@@ -1,4 +1,4 @@
-"""What every shift law is: α(T), 1 at a reference, asked with units and checked."""
+"""The base of all shift laws: α(T), 1 at a reference, with units and checks."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ GAS_CONSTANT = 8.31446261815324  # J/(mol K)
 LN10 = math.log(10.0)
 #: As floats go.
 _MOST_DECADES = 300
-#: A temperature is asked by its nominal value and measured to a few tenths of a kelvin: what was measured at 59.98 °C
-#: answers at 60 °C too.
+#: Temperatures are nominal, and measured to a few tenths of a kelvin: factors measured at 59.98 °C are valid at 60 °C
+#: too.
 NOMINAL = 0.5  # K
 
 
 class ShiftLaw(ABC):
     """Shift factor α(T), 1 at the reference, such that E(ω, T) = E(α(T) ω, reference); it falls as T rises.
 
-    Subclasses say what log10 α is; units, shapes and checks are dealt with here.
+    Subclasses define log10 α, and `has_standard_error` where its uncertainty is known; the base has units and checks.
     """
 
     reference: float  # K
@@ -147,7 +147,7 @@ class ShiftLaw(ABC):
         -------
         bool or array of bool
             In the shape of `temperature`; True outside the temperatures that the law was fitted on.  A law that
-            was not fitted, or one that answers at measured temperatures only, extrapolates nowhere.
+            was not fitted, or one that is valid at measured temperatures only, extrapolates nowhere.
         """
         outside = self._outside(in_kelvin(temperature))
         return bool(outside) if np.ndim(outside) == 0 else outside

@@ -30,7 +30,7 @@ NATURAL_RUBBER_EXPANSION = 6.6e-4
 class VerticalShift(ABC):
     """Vertical shift b(T), 1 at the reference, such that E(ω, T) = b(T) E(α(T) ω, reference).
 
-    Subclasses say what log10 b is; units, shapes and checks are dealt with here.
+    Subclasses define log10 b; units, shapes and checks are here.
     """
 
     reference: float  # K

@@ -1,4 +1,4 @@
-"""What a fitted spectrum may claim: its misfit, plateaus that were not measured, and liquids, which have none."""
+"""Assessment of a fitted spectrum: its misfit, plateaus that were not measured, and liquids, which have none."""
 
 from __future__ import annotations
 

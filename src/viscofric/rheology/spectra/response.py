@@ -1,4 +1,4 @@
-"""What every description of a rubber answers from its complex modulus: E', E'', tan δ, and the densities H and L."""
+"""The base of all descriptions of a material by its complex modulus: E', E'', tan δ, and the densities H and L."""
 
 from __future__ import annotations
 

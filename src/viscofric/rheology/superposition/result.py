@@ -1,4 +1,4 @@
-"""What a superposition of isotherms finds, and whether it holds."""
+"""The result of a superposition of isotherms, and whether superposition holds."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Superposition:
-    """What `superpose` finds.
+    """The result of `superpose`.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ class Residuals:
     Errors are drawn from a normal distribution, of each isotherm's own scatter, correlated between E' and E''
     as the residuals are, and between neighbouring points of an isotherm by an autoregression of first order.
     Residuals themselves are not drawn, in blocks or otherwise: the fit has taken from them all that is smooth,
-    which is the part of the errors that it answers to.
+    which is the part of the errors that it follows.
 
     Parameters
     ----------
