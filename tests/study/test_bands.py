@@ -98,7 +98,7 @@ def test_modulus_has_its_band_too(results: StudyResults) -> None:
 def test_a_rubber_that_was_ready_has_no_bands_and_says_so(tmp_path: Path) -> None:
     ready = run_study(write(tmp_path, 'catalogue = "synthetic fluoroelastomer"', samples=20))
     assert "friction_lower" not in ready.tree["prediction"]
-    assert any("no 95 % bands" in note for note in ready.notes)
+    assert "no-bands" in {note.code for note in ready.notes}
 
 
 @pytest.mark.slow
@@ -121,5 +121,6 @@ def test_friction_is_kept_where_only_its_band_fails(tmp_path: Path, monkeypatch:
 
 
 def test_too_few_samples_are_told(tmp_path: Path) -> None:
-    with pytest.raises(vf.StudyError, match=r"uncertainty.draws: 5 is too few; give 20 or more, or 0 for no bands"):
+    with pytest.raises(vf.StudyError) as caught:
         load_study(write(tmp_path, samples=5))
+    assert (caught.value.field, caught.value.mistakes[0].code) == ("uncertainty.draws", "value")
