@@ -57,6 +57,7 @@ def solved(material: vf.Material, temperature: float, speed: float, load: float 
     return vf.solve_steady(material, BALL, speed=speed, load=load, temperature=temperature).friction_coefficient
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("temperature", "speed"), CONDITIONS)
 def test_each_drawn_material_has_the_friction_of_its_own_contact(measured, temperature: float, speed: float) -> None:
     """They lie up to 1 % off, and so does what is left out, ½ (1 %)² = 5e-5 of μ, as a rule.

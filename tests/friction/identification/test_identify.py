@@ -83,6 +83,7 @@ def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.Identified
     assert np.all((band.lower.real < planted.real) & (planted.real < band.upper.real))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 def test_what_was_found_lies_amidst_the_draws() -> None:
     curves = closed_form_curves(*WARM)
@@ -96,6 +97,7 @@ def test_what_was_found_lies_amidst_the_draws() -> None:
     assert np.all(np.abs(away) < 0.8 * drawn.std(axis=0))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 def test_a_spectrum_that_ends_near_the_lowest_frequency_is_met_within_its_errors() -> None:
     """Friction without noise: the prior alone moves E'' by 2.7 standard errors if the ends count as smooth."""
