@@ -66,15 +66,11 @@ def what_was_asked(tree: xr.DataTree) -> list[str]:
         steps = _temperatures(prediction)
         at = several(steps) if len(steps) <= 6 else f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}"
         accuracy = number(attrs, "accuracy")
+        known = math.isfinite(accuracy)
+        to = f", to a relative accuracy of {unbroken(f'{short(100 * accuracy)} %')}" if known else ""
         said.append(
             f"Viscoelastic friction of a material against a {attrs.get('indenter', 'rigid indenter')}"
-            f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} "
-            f"and {at}"
-            + (
-                f", to a relative accuracy of {unbroken(f'{short(100 * accuracy)} %')}."
-                if math.isfinite(accuracy)
-                else "."
-            )
+            f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} and {at}{to}."
         )
         also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
         if also:
