@@ -71,6 +71,7 @@ def test_bands_are_those_of_the_python_interface(results: StudyResults) -> None:
         np.testing.assert_allclose(found[f"friction_{name}"].values, expected, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_stored_cases_give_the_same_bands_again(results: StudyResults, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")

@@ -153,6 +153,7 @@ def carried_out(cases: Sequence[Case], material: vf.Material, each: bool) -> lis
     return found  # type: ignore[return-value]
 
 
+@pytest.mark.slow
 def test_interpolated_contacts_lie_within_their_claims() -> None:
     cases = [
         SurfaceCase(0, SURFACE, kelvin, speed, 5e4)

@@ -62,6 +62,7 @@ def test_worker_killed_amid_a_study_changes_no_bit(tmp_path: Path) -> None:
     assert sorted(store.stored()) == sorted(shared.known)
 
 
+@pytest.mark.slow
 def test_study_waits_for_workers_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr("viscofric.study.running.cluster._PATIENCE", 0.1)
