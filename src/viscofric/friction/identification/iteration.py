@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 STEPS = 20
 #: Root mean square change of the friction in a step, in standard errors of the points, with which it ends.
 SETTLED = 0.1
+#: Solved contacts are known to this part of their accuracy, as a rule: no step can settle the friction any better.
+KNOWN_TO = 0.25
 #: Errors of ln μ with which the first fits are made.
 TEMPERED = (1.0, 0.3, 0.1, 0.05)
 #: … and standard deviation about the first guess that ln α has in them.
@@ -105,7 +107,8 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
         fits = weighed(here.problem.blurred(floor), here.place)
         best = most_evident(fits)
         change = here.problem.log_friction(best.minimum.place)[0] - here.problem.log_friction(here.place)[0]
-        settled = floor == 0.0 and float(np.sqrt(np.mean((change / observations.points.error) ** 2))) < SETTLED
+        small = np.hypot(SETTLED * observations.points.error, KNOWN_TO * here.accuracy)
+        settled = floor == 0.0 and float(np.sqrt(np.mean((change / small) ** 2))) < 1.0
         if settled and here.accuracy == contacts.accuracy:
             return fits, number
         if settled or number >= len(FIRST_STEPS):
@@ -158,8 +161,7 @@ def _allowance(problem: Problem, place: Array, accuracy: float) -> float:
     """Return by how much the misfit may err because contacts are solved no better than this."""
     error = problem.observations.points.error
     away = problem.measured(place)[0][: len(error)]
-    # Solved contacts are known to a quarter of their accuracy, as a rule.
-    return 0.5 * accuracy * float(np.linalg.norm(away) * np.linalg.norm(1.0 / error))
+    return 2.0 * KNOWN_TO * accuracy * float(np.linalg.norm(away) * np.linalg.norm(1.0 / error))
 
 
 def _damped(problem: Problem, near: Array, damping: float) -> Residuals:
