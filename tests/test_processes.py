@@ -77,6 +77,7 @@ def test_process_that_ends_too_early_is_told() -> None:
         call_all(os._exit, [{"status": 1}] * 2, workers=2)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_handed_over_is_told() -> None:
     with pytest.raises(InputError, match=r"workers = 2: the calls cannot be sent .* use one worker"):
         call_all(statistics.fmean, [{"data": lambda: 1.0}] * 2, workers=2)

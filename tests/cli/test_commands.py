@@ -85,6 +85,7 @@ def told(result: Result) -> str:
     return line
 
 
+@pytest.mark.slow
 def test_run_names_the_files_it_wrote(run: tuple[Result, Path]) -> None:
     result, _ = run
     assert result.exit_code == 0, result.output
@@ -170,6 +171,7 @@ def test_shuffled_and_repeated_rows_are_accepted_with_a_note(tmp_path: Path) -> 
     assert "averaged" in notes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("notes", "lines"), [(3, 4), (5, 6), (6, 1)])
 def test_few_notes_are_printed_and_many_are_counted(
     finished: Path, capsys: pytest.CaptureFixture[str], notes: int, lines: int

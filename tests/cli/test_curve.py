@@ -26,6 +26,7 @@ def call(*words: object) -> Result:
     return CliRunner().invoke(main, ["curve", *map(str, words)])
 
 
+@pytest.mark.slow
 def test_table_file_and_json_hold_what_python_predicts(tmp_path: Path) -> None:
     words = (*RUBBER, *BALL, "--speed", "20 mm/s to 200 mm/s", "--points", 3, "--temperature", "60 degC, 90 degC")
     expected = vf.predict_friction(

@@ -45,6 +45,7 @@ def test_several_formats_are_written_at_once(pair: tuple[Path, Path]) -> None:
     assert all(path.stat().st_size > 0 for path in written)
 
 
+@pytest.mark.slow
 def test_table_goes_into_a_pipe(pair: tuple[Path, Path], tmp_path: Path) -> None:
     printed = call("export", pair[0], "--to", "csv", "-o", "-").stdout
     call("export", pair[0], "--to", "csv", "-o", tmp_path / "a.csv")
@@ -78,6 +79,7 @@ def test_damaged_results_are_told(tmp_path: Path) -> None:
         assert "Traceback" not in done.output
 
 
+@pytest.mark.slow
 def test_the_same_results_compare_as_the_same(pair: tuple[Path, Path]) -> None:
     done = call("compare", pair[0], pair[0] / "results.nc", "--tolerance", 0)
     assert done.exit_code == 0

@@ -178,7 +178,7 @@ def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
         (["fit", "nothing.csv", "--reference", "30 degC"], "nothing.csv: no such file"),
         (["fit", EXAMPLE, "--reference", "30"], "reference_temperature"),
         (["fit", EXAMPLE, "--reference", "500 degC"], "outside the joined isotherms"),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--modes", "3"], 'modes is for spectrum = "sparse"'),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--modes", "3"], 'modes needs spectrum = "sparse"'),
         (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "cold"], "--fix"),
         (["show", "no such rubber"], "no such rubber"),
         (["show", "rubber.json"], "rubber.json: no such file"),

@@ -170,6 +170,7 @@ def test_equal_moduli_make_hertz_at_any_speed() -> None:
         assert contact.max_pressure == pytest.approx(contact.hertz.max_pressure, rel=1e-12)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=8)
 @given(ratio=st.floats(1.01, 1e4), log_memory=st.floats(-6.0, 6.0))
 def test_hunter_contact_leans_forward_between_its_two_elastic_limits(ratio: float, log_memory: float) -> None:

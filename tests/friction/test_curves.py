@@ -39,6 +39,7 @@ def predicted(rubber: vf.Material) -> FrictionCurves:
     )
 
 
+@pytest.mark.slow
 def test_friction_is_shifted_like_the_modulus(rubber: vf.Material, predicted: FrictionCurves) -> None:
     """Eq. 10: μ(v, T) at the load equals μ(α(T) v, T0); only rounding of the memory lengths v τ α differs."""
     assert rubber.shift is not None

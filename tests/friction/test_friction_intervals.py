@@ -95,6 +95,7 @@ def _without(runs: TractionRuns, rows: np.ndarray) -> TractionRuns:
     return replace(runs, **{name: np.delete(getattr(runs, name), rows) for name in names})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1, 30])
 def test_sound_tests_are_seldom_doubted_however_many_conditions_they_have(size: int) -> None:
     told = 0

@@ -63,6 +63,7 @@ def test_an_elastic_indenter_does_not_follow_the_vertical_shift() -> None:
     assert abs(same.friction_coefficient / asked.friction_coefficient - 1.0) > 0.02
 
 
+@pytest.mark.slow
 def test_loads_and_vertical_shifts_make_one_curve() -> None:
     """Against direct solutions at two loads and b(T) from 0.85 to 1.1, all solved to 1e-3."""
     rubber = replace(synthetic_fluoroelastomer(), vertical_shift=VERTICAL)

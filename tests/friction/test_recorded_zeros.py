@@ -115,6 +115,7 @@ def test_errors_of_the_recorded_zeros_are_in_the_standard_errors(own: bool) -> N
         assert low_count <= count <= high_count, (name, count)
 
 
+@pytest.mark.slow
 def test_the_error_of_a_zero_that_all_replicates_share_is_told_by_the_other_recordings() -> None:
     """Each speed in one step: no scatter shows what is wrong with its zero, of which viscoelastic friction is made."""
     held = {"viscoelastic": 0, "coulomb": 0}
@@ -462,6 +463,7 @@ def test_drift_is_told_with_its_size_in_friction() -> None:
     assert np.mean(curves.coulomb) == pytest.approx(0.05, abs=2e-4)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_the_error_of_a_drift_is_in_the_standard_errors() -> None:
     """All repetitions of a configuration before the next: the drift between them is small beside what it changes."""
     held = 0

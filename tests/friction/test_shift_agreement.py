@@ -38,12 +38,14 @@ def drawn(stretch: float) -> list[ShiftAgreement]:
     return [compare_shift_factors(factors(0.02, random, stretch=stretch), factors(0.03, random)) for _ in range(200)]
 
 
+@pytest.mark.slow
 def test_p_is_uniform_where_both_are_the_same() -> None:
     """200 pairs: each fifth holds 40 ± 5.7; three and a half standard deviations."""
     counts, _ = np.histogram([one.p_value for one in drawn(1.0)], 5, (0.0, 1.0))
     assert np.all(np.abs(counts - 40) < 20)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stretch", [1.0, 1.1])
 def test_the_slope_holds_what_its_error_says(stretch: float) -> None:
     """Errors of both counted, k neither leans to zero nor misses its interval more than in one of twenty."""

@@ -331,6 +331,7 @@ def points_or_error(one, found):
         return str(error)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data(), layout=st.sampled_from(list(WRITERS)))
 def test_cut_or_altered_files_give_points_or_a_clear_error(tmp_path, data, layout):

@@ -91,6 +91,7 @@ def test_figures_of_synthetic_data_say_so(
     assert all(("synthetic data" in texts) == said for texts in seen)
 
 
+@pytest.mark.slow
 def test_legends_of_synthetic_data_call_nothing_measured(tree: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
     words: list[str] = []
 

@@ -78,6 +78,7 @@ def write(tree: xr.DataTree, folder: Path) -> tuple[str, Page]:
     return source, Page(source)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
 def test_page_has_every_part(tree: xr.DataTree, tmp_path: Path) -> None:
     _, page = write(tree, tmp_path)

@@ -62,6 +62,7 @@ def unread(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drawing, "RUBBER_FIGURES", {})
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unread")
 @pytest.mark.parametrize("name", STUDIES)
 def test_every_study_has_a_report(make_study: Callable[..., xr.DataTree], tmp_path: Path, name: str) -> None:

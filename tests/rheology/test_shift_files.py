@@ -190,6 +190,7 @@ def test_file_that_cannot_be_written_is_told(tmp_path):
         factors.save(tmp_path / "nowhere" / "saved.csv")
 
 
+@pytest.mark.slow
 def test_list_of_a_workbook_is_read(tmp_path):
     path = eplexor.SAMPLES["eplexor master"](tmp_path)
     found = read_shift_factors(path)

@@ -22,6 +22,7 @@ def table(spectrum: RetardationSpectrum, low: float, high: float, per_decade: in
     return ModulusTable(omega, spectrum.storage_modulus(omega), spectrum.loss_modulus(omega), **options)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("spectrum", "low", "high"),
     [(SHARP, -1, 7), (THREE, -2, 9), (vf.synthetic_fluoroelastomer().spectrum, -11, 12)],

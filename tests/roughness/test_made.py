@@ -221,7 +221,7 @@ def test_spectra_that_are_none_are_refused():
         vf.surface_from_spectrum(line, shape=16, spacing=1e-3, seed=0)
     with pytest.raises(vf.InputError, match="not below zero"):
         vf.surface_from_spectrum(lambda q: -q, shape=16, spacing=1.0, seed=0)
-    for wrong, words in ((lambda q: q[:3], "one density for each"), (lambda q: "none", "density = .*holds text")):
+    for wrong, words in ((lambda q: q[:3], "one density for each"), (lambda q: "none", "density = .*contains text")):
         with pytest.raises(vf.InputError, match=words):
             vf.surface_from_spectrum(wrong, shape=16, spacing=1.0, seed=0)
     for measure in (vf.power_spectrum, vf.line_spectrum):

@@ -70,6 +70,7 @@ def over_directions():
     return q, *(np.array([integral(one, kind) for one in q]) for kind in ("square", "loss"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gamma", [1.0, 0.5, 0.0])
 def test_another_quadrature_finds_the_same(over_directions, gamma):
     q, square, loss = over_directions

@@ -96,6 +96,7 @@ def test_modulus_has_its_band_too(results: StudyResults) -> None:
     assert "storage_modulus_lower" in results.tree["spectrum_curve"]
 
 
+@pytest.mark.slow
 def test_a_rubber_that_was_ready_has_no_bands_and_says_so(tmp_path: Path) -> None:
     ready = run_study(write(tmp_path, 'catalogue = "synthetic fluoroelastomer"', samples=20))
     assert "friction_lower" not in ready.tree["prediction"]

@@ -34,6 +34,7 @@ def difference(found: vf.ResultsComparison, name: str) -> Any:
     return next(one for one in found.differences if one.name == name)
 
 
+@pytest.mark.slow
 def test_results_are_the_same_as_themselves(tmp_path: Path) -> None:
     results = made_results(tmp_path, failed=[3])
     found = vf.compare_results(results, tmp_path, tolerance=0.0)

@@ -109,6 +109,7 @@ def test_more_cases_than_a_sheet_has_rows_are_told(tmp_path: Path, monkeypatch: 
         made(tmp_path).to_excel(tmp_path / "all.xlsx")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["netcdf", "zarr"])
 def test_labelled_cases_come_back_from_other_formats(tmp_path: Path, form: Any) -> None:
     if form == "zarr":

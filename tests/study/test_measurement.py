@@ -58,6 +58,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> StudyResults:
     return run_study(folder / "study.toml")
 
 
+@pytest.mark.slow
 def test_friction_curves_that_are_ready_are_the_measurement(results: StudyResults) -> None:
     measured, given = results.tree["measurement"], curves()
     np.testing.assert_array_equal(measured["viscoelastic"].values, given.viscoelastic)

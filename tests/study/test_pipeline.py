@@ -50,6 +50,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> StudyResults:
     return run_study(folder / "study.toml")
 
 
+@pytest.mark.slow
 def test_planted_shift_factors_come_back_within_their_errors(results: StudyResults) -> None:
     found = results.tree["shift_factors"]
     planted = vf.synthetic_fluoroelastomer().shift
@@ -132,6 +133,7 @@ def test_one_load_is_one_load_in_every_table(results: StudyResults) -> None:
         assert set(results.tree[name]["load"].values.ravel().tolist()) == {25.0}
 
 
+@pytest.mark.slow
 def test_results_are_labelled_with_units_and_provenance(results: StudyResults) -> None:
     stored = open_results(results.folder)
     assert stored.tree.attrs["data_origin"] == "synthetic"

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+@pytest.mark.slow
 def test_what_is_stored_is_what_is_read(tmp_path: Path) -> None:
     made = made_results(tmp_path, made_sweep(materials=("NBR", "EPDM / carbon black")), failed=[3])
     for path in (tmp_path, tmp_path / "results.nc", str(tmp_path)):

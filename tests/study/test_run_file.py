@@ -87,6 +87,7 @@ def test_what_is_no_toml_has_a_code(text: str, code: str) -> None:
     assert caught.value.code == code
 
 
+@pytest.mark.slow
 def test_ranges_end_exactly_where_they_are_said_to() -> None:
     text = GOOD.replace("points = 3", "points = 1000").replace('"200 mm/s"', '"0.3 m/s"')
     speeds = parse_study(text, Path("study.toml")).conditions.speed

@@ -112,6 +112,7 @@ def test_results_tell_of_the_surface(results: StudyResults) -> None:
         assert group["seed"].item() == 1
 
 
+@pytest.mark.slow
 def test_stored_results_are_taken_up_and_exported(results: StudyResults) -> None:
     folder = results.folder
     assert folder is not None

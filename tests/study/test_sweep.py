@@ -174,6 +174,7 @@ cases = "{cases}"
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("speed", "cases", "contacts"),
     [
@@ -193,6 +194,7 @@ def test_no_more_contacts_are_solved_than_cases_asked_for(
     assert "prediction_master" not in results.tree.children
 
 
+@pytest.mark.slow
 def test_a_master_curve_is_solved_where_it_is_asked_for(tmp_path: Path) -> None:
     path, solved = tmp_path / "study.toml", []
     path.write_text(MATERIAL + FEW.format(speed='["0.1 m/s", "0.2 m/s"]', cases="each") + "master_curve_points = 3\n")

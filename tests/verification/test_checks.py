@@ -176,6 +176,7 @@ SEEN_BY: dict[str, Callable[[pytest.MonkeyPatch], None]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_check_fails_where_the_engine_is_wrong(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     SEEN_BY[name](monkeypatch)

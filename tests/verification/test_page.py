@@ -51,6 +51,7 @@ def test_every_table_and_figure_has_its_place(pages: ModuleType) -> None:
     assert len(included) == len(set(included))
 
 
+@pytest.mark.slow
 def test_every_check_is_told_with_its_source_reason_and_worst_comparison(pages: ModuleType) -> None:
     rows = [cells(line) for line in pages.summary(outcomes()).splitlines()[2:]]
     assert [row[0] for row in rows] == [f"`{name}`" for name in CHEAP]

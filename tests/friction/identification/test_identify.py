@@ -72,6 +72,7 @@ def test_modulus_and_shifts_come_back(solved: vf.IdentifiedMaterial) -> None:
     assert found.anchored
 
 
+@pytest.mark.slow
 def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.IdentifiedMaterial) -> None:
     low, high = found.frequency_range
     inside = found.standard_error(np.sqrt(low * high))
@@ -148,6 +149,7 @@ def test_data_sets_hold_modulus_friction_and_shift_factors(found: vf.IdentifiedM
     np.testing.assert_array_equal(shift["standard_error"], found.shift_factors.standard_errors)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 def test_without_an_anchor_there_is_a_family() -> None:
     """Levels 40 % apart are fitted nearly as well, and the result says that the level is not identified."""
@@ -178,6 +180,7 @@ def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
     assert error_of(found, np.array([found.middle])) == pytest.approx(0.0, abs=0.015)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 def test_a_part_of_the_modulus_known_beforehand_fixes_the_level() -> None:
     omega = np.geomspace(0.1, 1.0, 15)
@@ -191,6 +194,7 @@ def test_a_part_of_the_modulus_known_beforehand_fixes_the_level() -> None:
         vf.identify_material(closed_form_curves(REFERENCE), prior=RUBBER, **FEW)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 def test_errors_that_are_too_small_are_enlarged_and_told() -> None:
     curves = closed_form_curves(*WARM)
@@ -226,6 +230,7 @@ def test_nothing_is_identified_from_friction_that_no_rubber_makes(friction, expe
     assert told == expected & {"too-steep", "constant-friction"}  # on one curve, but not of a rubber
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 @pytest.mark.parametrize(("poisson_ratio", "expected"), [(0.5, set()), (0.4, {"tangential-coupling"})])
 def test_coulomb_friction_on_compressible_rubber_is_noted(poisson_ratio: float, expected: set[str]) -> None:
@@ -239,6 +244,7 @@ def test_coulomb_friction_on_compressible_rubber_is_noted(poisson_ratio: float, 
     assert found.identified.decades > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 def test_residuals_that_follow_each_other_are_told() -> None:
     """A cold curve that lies 5 % above the warm ones, as after a change of sample: missed, but not by scatter."""
@@ -250,6 +256,7 @@ def test_residuals_that_follow_each_other_are_told() -> None:
     assert found.identified.decades > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
 def test_anchors_that_contradict_or_fix_nothing_are_told() -> None:
     curves = closed_form_curves(REFERENCE)

@@ -34,6 +34,7 @@ def response() -> FrictionResponse:
     return friction_response(rubber(), 0.5, BALL, [0.1, 1.0, 3.0], [1.0, 1.0, 2.0], accuracy=ACCURACY)
 
 
+@pytest.mark.slow
 def test_numbers_are_those_of_the_contacts(response: FrictionResponse) -> None:
     material = vf.Material(rubber(), poisson_ratio=0.5)
     solution = vf.solve_steady(material, BALL, speed=3.0, load=2.0, derivatives=True)

@@ -54,6 +54,7 @@ def test_interrupt_of_all_processes_ends_them_with_one_sentence(tmp_path: Path) 
     assert said == (f"Interrupted. {folder} keeps the {contacts} solved; the same command with --resume continues.\n")
 
 
+@pytest.mark.slow
 def test_finished_cases_of_an_interrupted_study_are_put_together(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     study.write_text(STUDY.format(points=2, cases="each"))
@@ -86,6 +87,7 @@ def test_finished_cases_of_an_interrupted_study_are_put_together(tmp_path: Path)
         run_study(study, finished_only=True, workers=2)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps open files")
 @pytest.mark.parametrize("what", [pytest.param("folder", marks=SLOW), pytest.param("cases", marks=SLOW), "one case"])
 def test_what_is_removed_in_mid_run_is_an_error(tmp_path: Path, what: str) -> None:
@@ -105,6 +107,7 @@ def test_what_is_removed_in_mid_run_is_an_error(tmp_path: Path, what: str) -> No
     assert run_study(study, resume=True).failures == ()
 
 
+@pytest.mark.slow
 def test_a_changed_case_is_solved_again_and_said(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     study.write_text(STUDY.format(points=2, cases="each"))

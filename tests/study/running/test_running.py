@@ -104,6 +104,7 @@ def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processe
     assert len(list(store.stored())) == 7
 
 
+@pytest.mark.slow
 def test_interrupt_loses_no_more_than_what_is_worked_on(tmp_path: Path) -> None:
     store, solved = CaseStore(tmp_path), []
 
