@@ -70,7 +70,7 @@ def test_abaqus_units_that_are_not_told_are_noted(tmp_path):
     card = opened(tmp_path, ABAQUS)
     assert card.material.spectrum.E_inf == pytest.approx(60.0)
     assert card.notes[0].startswith("The card does not state its units; Pa and s were assumed")
-    assert card.notes[1] == "The reference temperature 20 has no unit; it was taken for °C."
+    assert card.notes[1] == "The reference temperature 20 has no unit; °C was assumed."
     with pytest.warns(UserWarning, match="card: The ") as told:
         read_card(tmp_path / "card")
     assert [str(one.message) for one in told] == [f"{tmp_path / 'card'}: {note}" for note in card.notes]
@@ -206,10 +206,10 @@ def test_ansys_arithmetic_in_fields(tmp_path):
     [
         ("MP,PRXY,1,0.45\n", "", "holds no MP,EX or no MP,PRXY"),
         ("0.45", "0.5", "below 0.5"),
-        ("0.3,1.0", "0.3", "wants pairs"),
+        ("0.3,1.0", "0.3", "needs pairs"),
         ("TBDATA,1,0.4,5.0", "TBDATA,2,0.4", "lacks constant 1"),
         ("TBDATA,1,0.4,5.0", "TBDATA,1e30,0.4,5.0", "begins at constant 1e"),
-        ("303.15,15000", "303.15", "TN wants 2 constants"),
+        ("303.15,15000", "303.15", "TN needs 2 constants"),
         ("60.0e6", "__import__('os')", "neither a number nor simple arithmetic"),
         ("60.0e6", "9**9**9", "neither a number nor simple arithmetic"),
         (",2,SHEAR", ",2,INTEGRAL", "other options of TB,PRONY"),
@@ -229,7 +229,7 @@ def test_published_ansys_card_with_wlf(real_data):
     assert len(card.material.spectrum.to_relaxation()) == 30
     assert (card.material.shift.C1, card.material.shift.C2) == (199.73, 933.5)
     assert card.material.shift.reference == 268.0  # written 273-5
-    assert "The reference temperature 268 has no unit; it was taken for K." in card.notes
+    assert "The reference temperature 268 has no unit; K was assumed." in card.notes
     assert any("Poisson ratio runs from 0.35 (glass)" in note for note in card.notes)
     assert any("Commands that were not read: MP,ALPX, MP,REFT, MPAMOD, MPTEMP, MPTGEN." in note for note in card.notes)
     # The first and last of its shear terms by hand: G_i = g_i G, G = E/(2 · 1.35).

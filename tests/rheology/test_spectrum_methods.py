@@ -161,7 +161,7 @@ def test_an_error_that_few_modes_cannot_meet_is_told():
     fitted = fit_retardation_spectrum(master_of(rubber()), method="sparse", modes=4, largest_error=0.005)
     assert len(fitted) == 4
     assert "4 modes leave a joint rms error of" in fitted.fit.notes[-1]
-    assert "above the 0.005 that was asked for" in fitted.fit.notes[-1]
+    assert "above the requested 0.005" in fitted.fit.notes[-1]
 
 
 def test_vanishing_modes_are_left_out():

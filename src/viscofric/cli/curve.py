@@ -154,7 +154,7 @@ def _kelvins(material: Material, texts: tuple[str, ...]) -> list[float]:
     if material.reference is None:
         if len(given) > 1:
             raise click.UsageError(
-                "this rubber has no shift factors, so that it serves at one temperature; give one --temperature."
+                "this rubber has no shift factors and is valid at one temperature only; give one --temperature."
             )
         return given or [positive(_ROOM, "K", "--temperature")]
     return given or [material.reference]

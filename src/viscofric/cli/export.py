@@ -44,7 +44,7 @@ def command(results: Path, forms: tuple[str, ...], output: Path | None) -> None:
     forms = tuple(dict.fromkeys(forms))
     if output is not None and len(forms) > 1:
         raise click.BadParameter(
-            "names one file, but several formats are asked for; leave it out.", param_hint="--output"
+            "names one file, but several formats are requested; leave it out.", param_hint="--output"
         )
     if output == DASH and forms != ("csv",):
         raise click.BadParameter(f"{forms[0]} cannot be printed; name a file.", param_hint="--output")

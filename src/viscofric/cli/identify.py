@@ -162,7 +162,7 @@ def command(
         if target is not None:
             refuse_to_overwrite(target, sources)
     if beside is not None and picture is None:
-        raise click.UsageError("--beside is drawn into the --picture, which is not asked for.")
+        raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
     settings, anchor = settings_of(asked), check_anchor(asked)
     with reported_errors():
         from viscofric.cli.friction_sources import friction_curves, shifts

@@ -24,7 +24,7 @@ _WORDS = {
     "material": "Material: shift factors, master curve, spectrum",
     "measurement": "Measurement: Coulomb and viscoelastic friction",
     "shift": "Measurement: one friction curve of all temperatures",
-    "contacts": "Contacts: asked for, measured, along the master curve",
+    "contacts": "Contacts: requested, measured, along the master curve",
     "report": "Figures and report",
 }
 #: What is not watched gets a line so often.

@@ -50,7 +50,7 @@ _LABELS = {
     "coulomb": ("1", "Coulomb friction coefficient"),
     "coulomb_error": ("1", "standard error of the Coulomb friction coefficient"),
     "coulomb_scatter": ("1", "standard deviation of the Coulomb friction coefficient"),
-    "consistency": ("1", "what the sign configurations leave over, relative to the load"),
+    "consistency": ("1", "residual of the sign configurations, relative to the load"),
     "consistency_error": ("1", "standard error of the consistency"),
     "offset": ("N", "zero reading of the force cell"),
     "material_error": ("1", "standard error of the friction coefficient that the rubber's uncertainty leaves"),

@@ -214,7 +214,7 @@ _ENTRIES = (
     CatalogueEntry(
         "VHB 4910",
         "published",
-        "Prony series, 3 modes; no shift with temperature: it serves at one temperature only.",
+        "Prony series, 3 modes; no shift with temperature: valid at one temperature only.",
         "S. Wang, M. Decker, D. L. Henann, S. A. Chester, Modeling of dielectric viscoelastomers with application to "
         "electromechanical instabilities, J. Mech. Phys. Solids (2016); numbers as quoted in the example codes of "
         "SolidMechanicsCoupledTheories (finite viscoelasticity, VE05).",

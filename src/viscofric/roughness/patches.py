@@ -181,7 +181,7 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
 
 def _insist(solution: object) -> None:
     if not isinstance(solution, PeriodicSolution):
-        raise InputError(f"solution = {brief(solution)}: must be what solve_periodic gave.")
+        raise InputError(f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().")
 
 
 def _patches(loaded: Mask) -> int:

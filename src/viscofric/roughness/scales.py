@@ -104,7 +104,7 @@ def friction_by_wavelength(
     True
     """
     if not isinstance(solution, PeriodicSolution):
-        raise InputError(f"solution = {brief(solution)}: must be what solve_periodic gave.")
+        raise InputError(f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().")
     whole_number(per_decade, "per_decade", 1, MOST_PER_DECADE)
     shape = solution.pressure.shape[0], solution.pressure.shape[1]
     spacing = tuple(float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (solution.x, solution.y))

@@ -115,7 +115,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     chosen, name = _material(blocks, notes)
     viscoelastic = _only(chosen, "VISCOELASTIC")
     if viscoelastic is None:
-        raise InputError("holds no *VISCOELASTIC; right would be *VISCOELASTIC, TIME=PRONY with lines g, k, tau.")
+        raise InputError("holds no *VISCOELASTIC; expected *VISCOELASTIC, TIME=PRONY with lines g, k, tau.")
     if "PRONY" not in (viscoelastic.options.get("TIME", "").upper(), viscoelastic.options.get("FREQUENCY", "").upper()):
         raise InputError(
             f"line {viscoelastic.row}: *VISCOELASTIC must have TIME=PRONY or FREQUENCY=PRONY; other ways of giving it "
@@ -123,7 +123,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
         )
     rows = [(*row, 0.0, 0.0, 0.0)[:3] for row in viscoelastic.data if row]
     if not rows or any(row[2] <= 0.0 for row in rows):
-        raise InputError(f"line {viscoelastic.row}: *VISCOELASTIC wants lines of g, k, tau with tau above zero.")
+        raise InputError(f"line {viscoelastic.row}: *VISCOELASTIC needs lines of g, k, tau with tau above zero.")
     shares = [row[0] for row in rows], [row[1] for row in rows]
     times = [row[2] * reading.second for row in rows]
     shear, bulk, instantaneous = _elasticity(chosen, reading, notes)
@@ -239,7 +239,7 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
             raise InputError(f"line {block.row}: *ELASTIC must be isotropic.")
         modulus, ratio = (*values, 0.0)[:2]
         if not (modulus > 0.0 and 0.0 <= ratio <= 0.5):
-            raise InputError(f"line {block.row}: *ELASTIC wants a modulus above zero, a Poisson ratio from 0 to 0.5.")
+            raise InputError(f"line {block.row}: *ELASTIC needs a modulus above zero, a Poisson ratio from 0 to 0.5.")
         shear = modulus * reading.pascal / (2.0 * (1.0 + ratio))
         return shear, None if ratio == 0.5 else modulus * reading.pascal / (3.0 * (1.0 - 2.0 * ratio)), instantaneous
     notes.append(Note("hyperelastic", "The card is hyperelastic; the material is its small-strain limit."))

@@ -115,7 +115,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     series = {table.option: _pairs(table, reading) for table in tables if table.name == "PRONY"}
     unknown = sorted(set(series) - {"SHEAR", "BULK"})
     if unknown or "SHEAR" not in series:
-        raise InputError("wants TB,PRONY,…,SHEAR (and BULK); other options of TB,PRONY are not read.")
+        raise InputError("needs TB,PRONY,…,SHEAR (and BULK); other options of TB,PRONY are not read.")
     stated = number_of(content, "E0")
     shear = modulus / (2.0 * (1.0 + ratio))
     bulk = modulus / (3.0 * (1.0 - 2.0 * ratio))
@@ -146,7 +146,7 @@ def _commands(text: str) -> tuple[dict[str, float], list[_Table], set[str]]:
             elif head == "TBDATA" and tables and fields:
                 first = _number(fields[0], row) if fields[0] else 1.0
                 if not 1 <= first <= _MOST_CONSTANTS:
-                    raise InputError(f"line {row}: TBDATA begins at constant {first:g}; right would be 1 or above.")
+                    raise InputError(f"line {row}: TBDATA begins at constant {first:g}; expected 1 or above.")
                 for place, value in enumerate(fields[1:], start=int(first)):
                     if value:
                         tables[-1].values[place] = _number(value, row)
@@ -184,7 +184,7 @@ def _pairs(table: _Table, reading: Reading) -> tuple[list[float], list[float]]:
     values = table.constants()
     if not values or len(values) % 2 or any(time <= 0.0 for time in values[1::2]):
         raise InputError(
-            f"line {table.row}: TB,PRONY,…,{table.option} wants pairs of relative modulus and relaxation time > 0."
+            f"line {table.row}: TB,PRONY,…,{table.option} needs pairs of relative modulus and relaxation time > 0."
         )
     return values[0::2], [time * reading.second for time in values[1::2]]
 
@@ -198,12 +198,12 @@ def _shift(
     if table.option == "WLF" and len(values) >= 3:
         return WLF(values[1], values[2], reading.kelvin(values[0], notes, number_of(content, "absolute_zero")))
     if table.option == "TN" and len(values) >= 2:
-        # The law itself wants K.
+        # The law itself needs K.
         reference = values[0] if content else reading.kelvin(values[0], notes)
         return Arrhenius(values[1] * GAS_CONSTANT, reference)
     if table.option in ("WLF", "TN"):
         raise InputError(
-            f"line {table.row}: TB,SHIFT,…,{table.option} wants {3 if table.option == 'WLF' else 2} constants."
+            f"line {table.row}: TB,SHIFT,…,{table.option} needs {3 if table.option == 'WLF' else 2} constants."
         )
     notes.append(
         Note(

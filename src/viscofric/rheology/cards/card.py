@@ -116,13 +116,9 @@ class Reading:
         if zero is not None:
             return temperature - zero
         if temperature >= _KELVIN_FROM:
-            notes.append(
-                Note("unit-assumed", f"The reference temperature {temperature:g} has no unit; it was taken for K.")
-            )
+            notes.append(Note("unit-assumed", f"The reference temperature {temperature:g} has no unit; K was assumed."))
             return temperature
-        notes.append(
-            Note("unit-assumed", f"The reference temperature {temperature:g} has no unit; it was taken for °C.")
-        )
+        notes.append(Note("unit-assumed", f"The reference temperature {temperature:g} has no unit; °C was assumed."))
         return temperature + CELSIUS_ZERO
 
     def unit_note(self) -> list[str]:

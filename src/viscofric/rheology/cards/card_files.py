@@ -229,7 +229,7 @@ def _no_shift(about: str, shift: Any, form: str, domain: str) -> Note:
     elif form == "abaqus" and domain == "frequency":
         why = "in the frequency domain Abaqus takes no shift."
     elif not isinstance(shift, ShiftFactors):
-        why = f"the program knows a WLF or an Arrhenius law, but no {shift.title} law; give the material one of them."
+        why = f"the program takes a WLF or an Arrhenius law, but no {shift.title} law; give the material one of them."
     else:
         try:
             law = _best_law(shift)

@@ -83,7 +83,7 @@ def write(material: Material, writing: Writing) -> str:
     elif law is not None:
         reference, A = law.reference, law.activation_energy / GAS_CONSTANT
     if law is not None and reference <= 0.0:
-        raise InputError(f"TREF = {reference:g}: {NAME} wants it above zero; leave temperature_unit out, for K.")
+        raise InputError(f"TREF = {reference:g}: {NAME} needs it above zero; leave temperature_unit out, for K.")
     content = stored(material, writing, ratio, relaxation, law is not None)
     lines = ["*KEYWORD", *comment_lines("$", sentences, content), "*MAT_GENERAL_VISCOELASTIC_TITLE +"]
     title = material.name.encode("ascii", "replace").decode() or "rubber"
@@ -147,7 +147,7 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
     title = body.pop(0)[1].strip() if match[2] and body else ""
     rows = [_values(line, row, 20 if wide else 10) for row, line in body]
     if len(rows) < 2:
-        raise InputError("*MAT_GENERAL_VISCOELASTIC is cut short; it wants two cards and terms G, BETA, K, BETAK.")
+        raise InputError("*MAT_GENERAL_VISCOELASTIC is cut short; it needs two cards and terms G, BETA, K, BETAK.")
     head, curves = rows[:2]
     if curves[0] != 0.0 or curves[4] != 0.0:
         raise InputError("the terms come from load curves (LCID, LCIDK), which are not read; give GI and BETAI.")

@@ -168,9 +168,7 @@ def from_plain(content: Any) -> Material:
     known = {"format", "version", "name", "citation", "poisson_ratio", "shift", "vertical_shift", "fit", "spectrum"}
     unknown = sorted(set(content) - known)
     if unknown:
-        raise InputError(
-            f"{', '.join(unknown)}: no such field in a material; right would be {', '.join(sorted(known))}."
-        )
+        raise InputError(f"{', '.join(unknown)}: no such field in a material; expected {', '.join(sorted(known))}.")
     spectrum = content.get("spectrum")
     spectrum = spectrum if isinstance(spectrum, dict) else {}
     kind = spectrum.get("kind")
@@ -275,7 +273,7 @@ def read_csv(text: str) -> Material:
             raise
         except ValueError:
             raise InputError(
-                f"line {number}: the value of {name} is damaged; text wants quotation marks.", code="damaged"
+                f"line {number}: the value of {name} is damaged; text needs quotation marks.", code="damaged"
             ) from None
     columns = _COLUMNS.get(str(spectrum.get("kind")))
     if columns is None:

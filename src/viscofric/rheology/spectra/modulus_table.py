@@ -191,7 +191,7 @@ class ModulusTable(FrequencyResponse):
             wanted = float(np.ravel(omega[outside])[0])
             raise InputError(
                 f"angular frequency = {wanted:.4g} rad/s lies outside the table's {low:.4g} to {high:.4g} rad/s; "
-                "extrapolate='plateau' takes its ends for plateaus, and a fitted spectrum goes beyond.",
+                "extrapolate='plateau' treats its ends as plateaus, and a fitted spectrum goes beyond.",
                 code="outside-table",
             )
         inside = np.clip(omega, low, high)
@@ -234,7 +234,7 @@ LARGEST_ERROR = 0.05
 RATIOS = (2.0, 2.0**0.25, 2.0**0.0625)
 #: A joint error that no finer lattice has to improve.
 CLOSE = 1e-6
-#: Where a table takes its ends for plateaus, they are fitted over so many decades beyond, at so many points a decade.
+#: Where a table treats its ends as plateaus, they are fitted over so many decades beyond, at so many points a decade.
 PLATEAU_DECADES, PLATEAU_POINTS = 2, 5
 #: A table has no temperature; the verdict on a fit does not depend on it.
 ANY_TEMPERATURE = 298.15
@@ -247,7 +247,7 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
     Parameters
     ----------
     table : ModulusTable
-        At least four frequencies.  Where it takes its ends for plateaus, so do the modes.
+        At least four frequencies.  Where it treats its ends as plateaus, so do the modes.
 
     Returns
     -------

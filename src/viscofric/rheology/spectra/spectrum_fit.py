@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Method: TypeAlias = Literal["non-negative", "regularised", "sparse"]
 METHODS = ("non-negative", "regularised", "sparse")
-#: A sparse spectrum may err by so much more than one of many modes, unless another error is asked for.
+#: A sparse spectrum may err by so much more than one of many modes, unless another error is requested.
 ALLOWANCE = 1.05
 #: Curvature takes three neighbours; fewer than four are a straight line or nearly so.
 LEAST_SMOOTH = 4
@@ -139,8 +139,8 @@ def _sparse(
     if error <= limit:
         return fitted, ()
     note = (
-        f"{len(fitted.C)} modes leave a joint rms error of {error:.3g} decades, above the {limit:.3g} that was asked "
-        f"for; the non-negative spectrum leaves {sparse.joint_error(misfit, dense):.3g}."
+        f"{len(fitted.C)} modes leave a joint rms error of {error:.3g} decades, above the requested {limit:.3g}; "
+        f"the non-negative spectrum leaves {sparse.joint_error(misfit, dense):.3g}."
     )
     return fitted, (note,)
 

@@ -267,20 +267,19 @@ def _words(
     wrong = (f"The shift factors do not join the isotherms: {own.clause}.",) if own.wrong else ()
     if verdict == "untested":
         sentence = (
-            "Superposition was not tested: no two neighbouring isotherms come to lie beside each other in tan δ "
-            "against |E*|."
+            "Superposition was not tested: no two neighbouring isotherms overlap in a plot of tan δ against |E*|."
         )
         return sentence, *wrong
     distance = np.array([pair.distance for pair in neighbours])
     between, noise = _rms(distance), _median(np.array([pair.standard_error for pair in neighbours]))
     apart = f"neighbouring isotherms lie {_decades(between)} apart (rms) in tan δ against |E*|"
-    merit = f"figure of merit {figure:.2g}, up to {LARGEST_FIGURE:g} counts as sound"
+    merit = f"figure of merit {figure:.2g}, good if ≤ {LARGEST_FIGURE:g}"
     free = isinstance(vertical_shift, VerticalShiftFactors)
     drifts = () if drifting is None else (f"{_drift(drifting)}.",)
     if verdict in ("roughly", "fails"):
         worst = [neighbours[place] for place in np.argsort(-ratio)[:_NAMED] if ratio[place] > LARGEST_FIGURE]
         where = ", ".join(f"{celsius(pair.colder):z.0f} and {celsius(pair.warmer):z.0f} °C" for pair in worst)
-        cure = "" if vertical_shift else "; a free vertical shift may mend what is a change of modulus alone"
+        cure = "" if vertical_shift else "; a free vertical shift may correct this if only the modulus changes"
         how = "does not hold" if verdict == "fails" else "holds only roughly"
         sentence = (
             f"Superposition {how}: {apart} ({merit}, above {ROUGH_FIGURE:g} as failed), whatever the shift factors, "

@@ -24,7 +24,7 @@ MODES = 3
 BEYOND = 1.0
 #: Frequencies nearer than this to an end are not judged: what lies beyond it counts there.
 EDGE = 0.5  # decades
-#: Largest rms difference of log10 E' from what E'' demands.  Planted rubbers with 0.3, 1 and 3 % noise have
+#: Largest rms difference of log10 E' from what E'' requires.  Planted rubbers with 0.3, 1 and 3 % noise have
 #: 0.001, 0.003 and 0.009; an acrylic and an NBR/PVC foam that superpose 0.018 and 0.03; an EVA that does not 0.1;
 #: a glass transition whose E'' is multiplied by 1.3 has 0.06 to 0.11, one with E' and E'' swapped more than 0.6.
 LARGEST_RMS = 0.05
@@ -60,7 +60,7 @@ class KramersKronig:
     rms_storage, rms_loss : float
         Root mean square of the first two deviations, decades.
     loss_scale : float
-        Factor by which the measured E'' as a whole exceeds what the rise of E' demands; 1 if they agree.
+        Factor by which the measured E'' as a whole exceeds what the rise of E' requires; 1 if they agree.
     loss_scale_error : float
         Its standard error.
 
@@ -130,12 +130,12 @@ class KramersKronig:
         if self.scale_differs and self.rms_storage < SWAPPED:
             scale = f"{self.loss_scale:.2f} ± {self.loss_scale_error:.2f}"
             return (
-                f"{verdict}: E'' is {scale} times what the rise of E' demands; look for a wrong loss modulus, for "
+                f"{verdict}: E'' is {scale} times what the rise of E' requires; look for a wrong loss modulus, for "
                 "a vertical shift that was left out, or for wrong shift factors."
             )
         return (
-            f"{verdict}: E' differs by {rms} from what E'' demands, {LARGEST_RMS:g} allowed; look for swapped columns, "
-            "wrong moduli, or shifts that do not make one master curve."
+            f"{verdict}: E' differs by {rms} from what E'' requires, {LARGEST_RMS:g} allowed; look for swapped "
+            "columns, wrong moduli, or shifts that do not make one master curve."
         )
 
 
