@@ -136,8 +136,8 @@ SAID = [
         lambda: TABLE.complex_modulus(100.0),
         "outside-table",
         (
-            "angular frequency = 100 rad/s lies outside the table's 1 to 10 rad/s; extrapolate='plateau' takes "
-            "its ends for plateaus, and a fitted spectrum goes beyond."
+            "angular frequency = 100 rad/s lies outside the table's 1 to 10 rad/s; extrapolate='plateau' treats "
+            "its ends as plateaus, and a fitted spectrum goes beyond."
         ),
     ),
     (
