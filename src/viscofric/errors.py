@@ -141,7 +141,7 @@ class ViscofricError(Exception):
         return self.words(reader)
 
     def reworded(self, change: Callable[[str], str]) -> Self:
-        """Return the error with its text changed, such as with files named as the user knows them."""
+        """Return the error with its text changed, such as with the user's own file names."""
         return self._with(self.note.reworded(change))
 
     def at(self, where: str) -> Self:

@@ -143,7 +143,7 @@ class Note(str):
         return Note(code, self.text, self.where, self.remedy)
 
     def reworded(self, change: Callable[[str], str]) -> Note:
-        """Return the note with its words changed, such as with files named as the user knows them."""
+        """Return the note with its words changed, such as with the user's own file names."""
         remedy = None if self.remedy is None else self.remedy.reworded(change)
         return Note(self.code, change(self.text), change(self.where), remedy)
 

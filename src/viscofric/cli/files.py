@@ -84,7 +84,7 @@ def to_be_written(path: Path) -> Iterator[Path]:
 def write_curves(
     curves: FrictionCurves, out: Path | None, picture: Path | None, *, predicted: bool, synthetic: bool
 ) -> list[str]:
-    """Write the table and the picture of friction curves that were asked for, and return what to say of them."""
+    """Write the table and the picture of friction curves, if requested, and return the messages about them."""
     said = []
     if out is not None:
         from viscofric.friction.curve_files import write_friction_curves

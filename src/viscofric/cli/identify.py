@@ -238,7 +238,7 @@ def _print(found: IdentifiedMaterial) -> None:
 def _write(
     found: IdentifiedMaterial, known: Material | None, out: Path | None, picture: Path | None, synthetic: bool
 ) -> list[str]:
-    """Write the files that were asked for, and return what to say of them."""
+    """Write the requested files, and return the messages about them."""
     said = []
     if out is not None:
         from viscofric.rheology.cards import write_card

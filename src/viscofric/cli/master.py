@@ -164,7 +164,7 @@ def _print(
 def _write(
     master: FrictionMasterCurve, known: ShiftLaw | None, out: Path | None, picture: Path | None, synthetic: bool
 ) -> list[str]:
-    """Write the files that were asked for, and return what to say of them."""
+    """Write the requested files, and return the messages about them."""
     said = []
     if out is not None:
         master.shift_factors.save(out)

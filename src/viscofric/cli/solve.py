@@ -201,7 +201,7 @@ def _write(
     picture: Path | None,
     output: Path | None,
 ) -> list[str]:
-    """Write the files that were asked for, and return what to say of them."""
+    """Write the requested files, and return the messages about them."""
     said = []
     if picture is not None:
         from viscofric.report.figures.contact import contact_figure

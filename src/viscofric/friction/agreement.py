@@ -42,7 +42,7 @@ class Agreement:
     temperature : (k,) array
         Different temperatures, K, ascending.
     bias_at, rms_at, share_within_error_at : (k,) array
-        The same for the points of each temperature; a share is NaN where no point counts.
+        The same for the points of each temperature; a share is NaN where there is no such point.
     points_at : (k,) array of int
     relative_difference : (n,) array
         d in the order of the measured points.

@@ -128,7 +128,7 @@ def check_assumptions(
     try:
         warming = Warming.of(material, indenter, curves, [size.smallest for size in sizes], rubber, counterbody)
         isothermal = _one_temperature(curves, [size.where for size in sizes], warming, rubber, counterbody)
-    except InputError as error:  # the shift factors end where their slope is asked for
+    except InputError as error:  # the shift factors end where their slope is needed
         sentence = f"The effect of warming on friction is unknown: {error}"
         isothermal = AssumptionCheck("one temperature", None, CHANGE, None, sentence)
     coupled = check_coupling(curves, material.poisson_ratio, thick, sizes)

@@ -15,7 +15,7 @@ modes, each moved by 3 % by itself and all in time by 3 %, did to 0.1 %; moved b
 to 0.3 % as a rule and 1.3 % at most.
 
 Of 60 planted measurements of one rubber with 2 % noise the bands held its true friction at 97 % of 360 points, and the
-standard errors told were 0 to 17 % above the scatter of the predictions (``benchmarks/friction/bands.py``).
+estimated standard errors were 0 to 17 % above the scatter of the predictions (``benchmarks/friction/bands.py``).
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 
 LEVEL = 0.95
-#: From here on the first order alone is told to be rough, relative to the friction.
+#: From here on a note says that the first order alone is rough, relative to the friction.
 LARGE_CHANGE = 0.3
 
 

@@ -194,12 +194,12 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
 
 
 def holds_friction_curves(path: str | PathLike[str]) -> bool:
-    """Whether a file is a table of friction curves, and not one of a tribometer's runs; told by its headings.
+    """Whether a file is a table of friction curves, and not one of a tribometer's runs, by its headings.
 
     Parameters
     ----------
     path : str or path
-        What cannot be read at all counts as none: its reader tells why.
+        An unreadable file gives False; its reader raises the error.
     """
     try:
         lines = [line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#")]

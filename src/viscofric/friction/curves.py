@@ -195,7 +195,7 @@ class FrictionCurves:
         Parameters
         ----------
         solutions : iterable of ContactSolution
-            Each with a temperature and a finite speed other than zero; a negative one counts as its mirror
+            Each with a temperature and a finite speed other than zero; a negative one is treated as its mirror
             image.
         source : str
 
@@ -303,7 +303,7 @@ class FrictionCurves:
         Parameters
         ----------
         temperature : float, str or pint.Quantity
-            K if a plain number.  The nearest temperature there is counts, if it is within 1 K.
+            K if a plain number.  The nearest available temperature is used, if within 1 K.
 
         Raises
         ------

@@ -123,13 +123,13 @@ def predict_friction(
         for velocity in velocities
     ]
 
-    def tell(done: int) -> None:
+    def report(done: int) -> None:
         if progress is not None:
             progress(done, len(contacts))
 
-    tell(0)
+    report(0)
     if drawn is None:
-        return FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=tell))
-    pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=tell)
+        return FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
+    pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
     curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
     return with_material_band(curves, [sensitivity for _, sensitivity in pairs], drawn)

@@ -1,4 +1,4 @@
-"""How the friction of one contact answers to the rubber's compliance at every retardation time, from one adjoint solve.
+"""Sensitivity of one contact's friction to the compliance at every retardation time, from one adjoint solve.
 
 With the derivatives ∂μ/∂C of modes that have no compliance, put where the material has none, g(τ) = ∂μ/∂C is known for
 all τ.  It is smooth, goes to its value in the glass for vτ far below the contact's length and to zero far above it.
@@ -35,7 +35,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class ComplianceSensitivity:
-    """How the friction coefficient of one contact answers to the rubber's compliance.
+    """Sensitivity of one contact's friction coefficient to the material's compliance.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class ComplianceSensitivity:
 def solve_with_sensitivity(
     material: Material, indenter: Indenter, *, speed: float, load: float, temperature: float | None, **settings: Any
 ) -> tuple[ContactSolution, ComplianceSensitivity]:
-    """Solve a contact, and find how its friction answers to compliance at any retardation time.
+    """Solve a contact and find the sensitivity of its friction to compliance at any retardation time.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def solve_with_sensitivity(
 
 
 def log_times(spectrum: RetardationSpectrum, time: float) -> Array:
-    """Return ln τ at which the sensitivity of a contact is told.
+    """Return ln τ at which the sensitivity of a contact is given.
 
     Parameters
     ----------

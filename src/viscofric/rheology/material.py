@@ -35,7 +35,7 @@ class Material:
         At the shift's reference temperature.  A table has no modes: it has a modulus, a compliance and shifts, but no
         creep.  A free contact, which needs modes, fits them to it (`modes_at`).
     shift : ShiftLaw or ShiftFactors, optional
-        α(T).  Without it the material is what it is, and cannot be asked for a temperature.
+        α(T).  Without it the material is valid at one temperature only.
     poisson_ratio : float
         0 to 0.5.
     name : str
@@ -125,7 +125,7 @@ class Material:
 
     @property
     def reference(self) -> float | None:
-        """Temperature at which `spectrum` holds, K; None where no shift says it."""
+        """Temperature of `spectrum`, K; None without a shift."""
         return None if self.shift is None else float(self.shift.reference)
 
     def at(self, temperature: Quantity | None = None) -> RetardationSpectrum | ModulusTable:
@@ -134,7 +134,7 @@ class Material:
         Parameters
         ----------
         temperature : float or quantity, optional
-            K, or text such as ``"60 degC"``; None stands for the reference.
+            K, or text such as ``"60 degC"``; None means the reference.
 
         Raises
         ------

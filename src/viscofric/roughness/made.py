@@ -71,7 +71,7 @@ def self_affine(
     angle : float, str or pint.Quantity
         Direction of the lay, from x towards y, rad.
     exact : bool
-        Whether each surface has just the rms value that was asked for (random phases), or only all of them in the
+        Whether each surface has exactly the requested rms value (random phases), or only all of them in the
         mean, as pieces of an endless surface with Gaussian heights (random amplitudes too).
 
     Returns

@@ -1,7 +1,7 @@
 """Persson's theory of rubber on rough surfaces: real contact area and friction from a power spectrum and E(ω, T).
 
 The rubber is followed from the longest wave of the surface to ever shorter ones.  Under a nominal pressure σ0 the share
-of the surface that is in contact, as far as it shows when nothing shorter than 2π/q is seen, is [1]_ ::
+of the surface that is in contact, when no wavelength below 2π/q is resolved, is [1]_ ::
 
     P(q) = erf(1/(2 √G)),    G(q) = 1/8 ∫_{q0}^{q} dq q³ C(q) ∫_0^{2π} dφ |E(q v cos φ, T_q) / ((1−ν²) σ0)|²
 
@@ -67,7 +67,7 @@ class PerssonTheory:
     contact_area_fraction : (m, n) array
         Real contact area over nominal, all waves seen.
     flash_temperature : (m, n) array
-        Largest rise of temperature over all scales, K; zero where none was asked for.
+        Largest rise of temperature over all scales, K; zero without `thermal`.
     wave_number : (k,) array
         q of the scales below, rad/m.
     area_by_scale : (m, n, k) array
@@ -132,9 +132,9 @@ def persson_theory(
     ----------
     material : Material
     spectrum : PowerSpectrum
-        Of the surface, between the cut-offs that count.
+        Of the surface, between its cut-offs.
     speeds : float, str, pint.Quantity, or an array or list of them
-        Of sliding, not below zero, m/s; at rest E0 counts.
+        Of sliding, not below zero, m/s; at rest E0 applies.
     pressure : float, str or pint.Quantity
         Nominal pressure σ0, Pa.
     temperatures : float, str, pint.Quantity, or an array or list of them, optional

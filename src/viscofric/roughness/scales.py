@@ -72,7 +72,7 @@ def friction_by_wavelength(
     ----------
     solution : PeriodicSolution
     edges : list of float, str or pint.Quantity, optional
-        Wavelengths between which to sum, m, in any order; a wave just at an edge counts with the longer ones.  If left
+        Wavelengths between which to sum, m, in any order; a wave at an edge is summed with the longer ones.  If left
         out, from the longest to the shortest wave of the grid.
     per_decade : int
         Edges for each decade, where they are left out.

@@ -200,7 +200,7 @@ def hurst_exponent(hurst: float) -> float:
 
 
 def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[float, float]:
-    """Return the rms asked for and the order of its moment: 0 for heights (m), 2 for slopes."""
+    """Return the requested rms and the order of its moment: 0 for heights (m), 2 for slopes."""
     if (rms_height is None) == (rms_slope is None):
         both = "neither" if rms_height is None else "both"
         raise InputError(f"rms_height and rms_slope: {both} given; give exactly one of them.", code="give-one")

@@ -179,7 +179,7 @@ class Topography:
         Parameters
         ----------
         what : {"mean", "tilt", "curvature"}
-            Missing heights stay missing and do not count.  But for the mean, what is left does not repeat itself.
+            Missing heights stay missing and are ignored.  But for the mean, what is left does not repeat itself.
 
         Raises
         ------

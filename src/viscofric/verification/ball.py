@@ -157,7 +157,7 @@ CHECKS = (
         "Ball: one retardation time, 25 and 37 modes over twelve decades",
         _GROUP,
         "an independent dense solver with its own kernel and algorithm, extrapolated over several grids",
-        "Friction: the accuracy asked for; the others converge with the same grids, the area to a quarter of a cell "
+        "Friction: the requested accuracy; the others converge with the same grids, the area to a quarter of a cell "
         "all along its rim. The reference's own error is added.",
         _references,
     ),
@@ -166,7 +166,7 @@ CHECKS = (
         "Friction at very low speed",
         _GROUP,
         "μ = (v/R) E0 Σ C_k τ_k: work of the lagging curvature on Hertz's pressure",
-        "The accuracy asked for, and the law's next term, of the order (vτ/a0) ln(vτ/a0) = 1e-3.",
+        "The requested accuracy, and the law's next term, of the order (vτ/a0) ln(vτ/a0) = 1e-3.",
         _low_speed,
     ),
     Check(
@@ -174,7 +174,7 @@ CHECKS = (
         "Friction at very high speed",
         _GROUP,
         "μ = (4/5)(a∞²/R) E∞ Σ C_k/(v τ_k), and Hunter's limit for the cylinder",
-        "The accuracy asked for, and the law's next term, of the order (k a∞/vτ) ln(vτ/k a∞), below 7e-3.",
+        "The requested accuracy, and the law's next term, of the order (k a∞/vτ) ln(vτ/k a∞), below 7e-3.",
         _high_speed,
     ),
     Check(
@@ -182,7 +182,7 @@ CHECKS = (
         "The pressure's lean against the dissipated energy, ball and cylinder",
         _GROUP,
         "F_t v = dissipated power: another way to the same force, through −Im S",
-        "Both settle with the grid, the slower one to three times the accuracy asked for; the solver itself refuses an "
+        "Both settle with the grid, the slower one to three times the requested accuracy; the solver itself refuses an "
         "answer where they differ by more.",
         _energy,
     ),

@@ -60,7 +60,7 @@ CHECKS = (
         "Cylinder, one retardation time: k = 2 to 1000, six decades of speed",
         "viscoelastic line contact",
         "S. C. Hunter, J. Appl. Mech. 28 (1961) 611; closed form, exact",
-        "Friction: the accuracy asked for. Edges: four tenths of a cell, of which there are 128 at least.",
+        "Friction: the requested accuracy. Edges: four tenths of a cell, of which there are 128 at least.",
         _hunter,
     ),
 )

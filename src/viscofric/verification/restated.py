@@ -121,7 +121,7 @@ CHECKS = (
         _GROUP,
         "symmetry: other axes, the mirror image; at low speed a symmetric tensor",
         "Symmetry: round-off and the solver's tolerance, of which the lateral force, a small difference, keeps more. "
-        "Tensor: the accuracy asked for, on both sides.",
+        "Tensor: the requested accuracy, on both sides.",
         _direction,
     ),
     Check(

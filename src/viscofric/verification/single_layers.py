@@ -56,7 +56,7 @@ CHECKS = (
         "Cylinder and ball alone on thin layers and a deep one, at rest and in motion",
         "waves and layers",
         "D. G. Flom, A. M. Bueche, J. Appl. Phys. 30 (1959) 1725; W. D. May and others, the same, 1713; the half-space",
-        "Thin: the accuracy asked for, and terms of the order (H/a)², with H/a = 0.025. Deep: the base bends the "
+        "Thin: the requested accuracy, and terms of the order (H/a)², with H/a = 0.025. Deep: the base bends the "
         "surface of a contact by the order of (a/H)³.",
         _layers,
     ),

@@ -214,7 +214,7 @@ def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
 
 
 def _without_folder(words: str, files: Path) -> str:
-    """Name files as the user knows them."""
+    """Name files as the user named them."""
     for folder in (files, files.parent):
         words = words.replace(f"{folder}{os.sep}", "")
     return words

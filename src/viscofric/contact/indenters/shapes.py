@@ -230,9 +230,10 @@ class Cone(Indenter):
 class FlatPunch(Indenter):
     """A flat circular face with a sharp edge, for the elastic limits: a speed of zero or infinity.
 
-    Its pressure is infinite at the edge, so that all that a grid gives of it settles slowly.  Its friction in motion is
-    refused: waves of all lengths reach a sharp edge, so that the glass answers there at any speed, and friction does
-    not vanish with the speed.  What it is, the radius of the real edge decides: give the rounded face as a `HeightMap`.
+    Its pressure is infinite at the edge, so that results converge slowly with the grid.  Its friction in motion is
+    refused: a sharp edge contains waves of all lengths, so that the material is glassy there at any speed, and friction
+    does not vanish with the speed.  Friction depends on the radius of the real edge: give the rounded face as a
+    `HeightMap`.
 
     Parameters
     ----------

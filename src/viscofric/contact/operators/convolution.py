@@ -143,7 +143,7 @@ class ConvolutionOperator(ABC):
             scipy.fft.next_fast_len(2 * nx - 1, real=False),
             scipy.fft.next_fast_len(2 * ny - 1, real=True),
         )
-        # The dissipation is asked for once, after the solve: its spectra are not kept.
+        # The dissipation is evaluated once, after the solve: its spectra are not kept.
         displacement, self._dissipation, self._bent_dissipation = self._influence()
         self._transfer = self._spectrum(displacement)
         self._inverse_symbol = self.backend.asarray(_optimal_circulant_inverse(displacement))

@@ -146,8 +146,8 @@ def incompressible_ball(load: Quantity, radius: Quantity, thickness: Quantity, m
 
     Notes
     -----
-    The limit a ≫ H.  Squeezed sideways like a viscous film, the layer answers with u = −(H³/E) ∇²p (in Fourier space
-    û = q²H³ p̂/E); p and its slope vanish at the edge, since the layer's volume is kept.
+    The limit a ≫ H.  Squeezed sideways like a viscous film, the layer's displacement is u = −(H³/E) ∇²p (in Fourier
+    space û = q²H³ p̂/E); p and its slope vanish at the edge, since the layer's volume is kept.
 
     References
     ----------

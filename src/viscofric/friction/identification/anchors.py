@@ -45,7 +45,7 @@ class ModulusAnchor:
     modulus : float, str or pint.Quantity
         Pa.
     angular_frequency : float, str or pint.Quantity
-        rad/s if a plain number; text in hertz counts 2π each.
+        rad/s if a plain number; text in hertz is multiplied by 2π.
     temperature : float, str or pint.Quantity
         K if a plain number.
     part : {"magnitude", "storage", "loss"}

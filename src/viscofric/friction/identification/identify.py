@@ -89,7 +89,7 @@ def identify_material(
     levels : sequence of float
         Without anchor and prior: factors of the modulus for which the best material is sought.
     limit : float
-        Relative standard error of a modulus up to which it counts as identified.
+        Largest relative standard error of an identified modulus.
     samples : int
         Materials drawn from the posterior density.
     seed : int

@@ -28,8 +28,8 @@ KNOWN_TO = 0.25
 TEMPERED = (1.0, 0.3, 0.1, 0.05)
 #: … and standard deviation about the first guess that ln α has in them.
 HELD = 0.2
-#: Errors of ln μ with which the first steps from solved contacts are made at the least: small ones would ask the
-#: neighbourhood of those contacts for more than it tells.
+#: Errors of ln μ with which the first steps from solved contacts are made at the least: with smaller ones the
+#: steps would leave the neighbourhood in which those contacts describe friction.
 FIRST_STEPS = (0.01, 0.003, 0.001)
 #: Contacts of the first rubbers, which are only passed through, are solved with this relative error.
 FIRST_ACCURACY = 1e-2

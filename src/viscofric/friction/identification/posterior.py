@@ -38,7 +38,7 @@ def descend(residuals: Residuals, start: Array, converged: float = CONVERGED, me
     """Minimise a sum of squares by the method of Levenberg and Marquardt, in 100 steps at most.
 
     Steps are damped in a metric (p, p), positive definite; that of the prior takes few steps along directions that the
-    measurement does not tell.  The damping follows H. B. Nielsen, Report IMM-REP-1999-05, DTU 1999.
+    measurement does not determine.  The damping follows H. B. Nielsen, Report IMM-REP-1999-05, DTU 1999.
     """
     place, damping, growth = np.array(start), 1.0, 2.0
     metric = np.eye(len(place)) if metric is None else metric

@@ -74,7 +74,7 @@ def shifts_of(
     shift : ShiftLaw or None
         As given.
     reference : float or None
-        As asked for, K.
+        As requested, K.
     others : sequence of float
         Temperatures of anchors, K.
 

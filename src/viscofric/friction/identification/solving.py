@@ -144,11 +144,11 @@ def friction_response(
         for velocity, force in zip(velocities, forces, strict=True)
     ]
 
-    def tell(done: int) -> None:
+    def report(done: int) -> None:
         if progress is not None:
             progress(done, len(calls))
 
-    rows = np.array(call_all(respond, calls, workers=workers, progress=tell))
+    rows = np.array(call_all(respond, calls, workers=workers, progress=report))
     C = rows[:, 5:]
     return FrictionResponse(
         speed=velocities,

@@ -89,7 +89,7 @@ def read_master_curve(
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
     source = Source(str(path), read_bytes(path), modulus_unit=modulus_unit or "")
     if reptate.recognises(source):
-        said: Deformation | None = "shear"  # RepTate knows G' and G'' only
+        said: Deformation | None = "shear"  # RepTate has G' and G'' only
         frequency, storage, loss, temperature = _of_reptate(source, kelvin)
     else:
         table = _table(source)

@@ -142,7 +142,7 @@ class Card:
     material : Material
         What it holds, in tension and SI units.
     format : str
-        What the file was taken for.
+        Format as which the file was read.
     notes : tuple of str
         What was assumed, left out or approximated, one sentence each.
     """

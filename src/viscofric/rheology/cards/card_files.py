@@ -107,7 +107,7 @@ def write_card(
         Number of the material in ANSYS and LS-DYNA.
     unit_system : {"Pa", "MPa"}
         Of cards for Abaqus, ANSYS and LS-DYNA: SI, or mm, s, tonne and N, with moduli in MPa and density in t/mm³.
-        The card's comments say which; `read_card` knows it from them.
+        The card's comments name it, and `read_card` reads it there.
     law : {"best", "wlf", "vft", "arrhenius"}, optional
         Fitted to the material's table of shift factors and written in its place: programs take a law and no table.
         "best" is that of these which the table supports best (`ShiftFactors.compare_laws`).
@@ -271,7 +271,7 @@ def open_card(
     Returns
     -------
     Card
-        `material`, `format` (what the file was taken for) and `notes`.
+        `material`, `format` (as which the file was read) and `notes`.
 
     Raises
     ------

@@ -104,7 +104,7 @@ class ShiftFactors(ShiftLaw):
 
     @property
     def has_standard_error(self) -> bool:
-        """True: a table without a covariance is taken for exact."""
+        """True: a table without a covariance is treated as exact."""
         return True
 
     def to_dataset(self, temperatures: Any = None) -> xarray.Dataset:

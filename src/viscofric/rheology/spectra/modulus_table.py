@@ -157,12 +157,12 @@ class ModulusTable(FrequencyResponse):
 
     @property
     def E0(self) -> float:
-        """Rubber modulus E(0), Pa; only where the ends are taken for plateaus."""
+        """Rubber modulus E(0), Pa; only where the ends are treated as plateaus."""
         return float(self.complex_modulus(0.0).real)
 
     @property
     def E_inf(self) -> float:
-        """Glass modulus E(∞), Pa; only where the ends are taken for plateaus."""
+        """Glass modulus E(∞), Pa; only where the ends are treated as plateaus."""
         return float(self.complex_modulus(np.inf).real)
 
     @cached_property

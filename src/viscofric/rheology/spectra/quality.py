@@ -85,14 +85,14 @@ class SpectrumFit:
 
     @property
     def E0_remark(self) -> str:
-        """What is to be said beside E0, in a few words."""
+        """Short remark on how well E0 is known."""
         if self.E0_missed:
             return f"the fit lies above the softest measured E'{self._measured(0)}"
         return self._beyond if self.E0_extrapolated else _REACHED
 
     @property
     def E_inf_remark(self) -> str:
-        """What is to be said beside E_inf, in a few words."""
+        """Short remark on how well E_inf is known."""
         if self.E_inf_at_limit:
             return "not known: the sweeps do not reach it, and the fit stopped at 30 times the largest measured E'"
         if self.E_inf_missed:

@@ -147,7 +147,7 @@ class RetardationSpectrum(FrequencyResponse):
         -------
         xarray.Dataset
             ``retardation_time`` (s) and ``creep_coefficient`` (1/Pa) along ``mode``.  Attributes: ``E0`` and ``E_inf``
-            (Pa), and what is to be said of them where the spectrum was fitted.
+            (Pa), and remarks on them where the spectrum was fitted.
         """
         return dataset(
             "mode",
@@ -279,7 +279,7 @@ class RelaxationSpectrum(FrequencyResponse):
         Raises
         ------
         InputError
-            If a liquid is asked for its compliance at rest, which has no bound.
+            If the compliance of a liquid at ω = 0 is requested, which has no bound.
         """
         modulus = self.complex_modulus(angular_frequency)
         if np.any(modulus == 0.0):

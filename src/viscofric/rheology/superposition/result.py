@@ -41,7 +41,7 @@ class Superposition:
         Those that were joined, tensile and as measured (no vertical shift taken off), in ascending temperature:
         one for each entry of `shift_factors.temperatures`.
     vertical_shift : VerticalShift or None
-        b(T), where one was asked for.
+        b(T), where one was requested.
     cross_covariance : (n, n) array or None
         Of log10 α (rows) with log10 b (columns), where b was fitted.
     offsets : IsothermOffsets or None
@@ -95,7 +95,7 @@ class Superposition:
     @cached_property
     @one_blas_thread
     def check(self) -> SuperpositionCheck:
-        """Whether superposition holds, found when first asked for; see `check_superposition`."""
+        """Whether superposition holds, evaluated at first use; see `check_superposition`."""
         return consistency.check(
             self.isotherms,
             self.shift_factors,

@@ -46,7 +46,7 @@ class StandardErrors(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class MaterialSamples:
-    """Materials that other measurements of the same rubber might have given; their spread is the uncertainty.
+    """Uncertainty samples of a material, bootstrap or posterior; their spread is the uncertainty.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ class MaterialSamples:
         angular_frequency : array_like
             rad/s.
         temperature : float or quantity, optional
-            K, or text such as ``"60 degC"``; None stands for the reference.
+            K, or text such as ``"60 degC"``; None means the reference.
         level : float
             Above 0 and below 1.
 
@@ -119,7 +119,7 @@ class MaterialSamples:
 
         Notes
         -----
-        Where the spectrum misses what was measured by more than noise (`misfit`), that counts as another error of the
+        Where the spectrum misses what was measured by more than noise (`misfit`), this is added as another error of the
         logarithms of E' and E'', independent of those that were drawn.
         """
         omega = numbers(angular_frequency, "angular_frequency")

@@ -48,7 +48,7 @@ def sample_materials(
     poisson_ratio: float = 0.5,
     name: str = "",
 ) -> MaterialSamples:
-    """Draw whole materials as other measurements of the same rubber might have given them.
+    """Draw bootstrap samples of a material: those that repeated measurements of the same rubber might give.
 
     Parameters
     ----------

@@ -140,7 +140,7 @@ def _kinds(paths: Sequence[Path]) -> str:
 
 
 def _named(curves: FrictionCurves, folders: Folders) -> FrictionCurves:
-    """Return curves that name uploaded files as the user knows them."""
+    """Return curves that name uploaded files as the user named them."""
     notes = _named_notes(curves.notes, folders)
     return replace(curves, source=without_folder(curves.source, folders), notes=notes)
 

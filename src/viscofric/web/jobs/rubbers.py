@@ -169,12 +169,12 @@ def kept(
 
 
 def without_folder(text: str, folders: Folders) -> str:
-    """Return a sentence that names uploaded files as the user knows them."""
+    """Return a sentence that names uploaded files as the user named them."""
     return text.replace(f"{folders.files}/", "").replace(f"{folders.files.resolve()}/", "")
 
 
 def named_without_folder(error: InputError, folders: Folders) -> InputError:
-    """Return an error of the same kind that names uploaded files as the user knows them."""
+    """Return an error of the same kind that names uploaded files as the user named them."""
     return error.reworded(lambda text: without_folder(text, folders))
 
 
