@@ -23,4 +23,4 @@ def refused(about: str, error: type[ViscofricError] = InputError) -> Iterator[py
     argument = re.match(r"\w*", message)
     assert about in (caught.value.code, argument and argument[0]), message
     assert "\n" not in message
-    assert message.endswith(".")
+    assert message.endswith((".", "?"))

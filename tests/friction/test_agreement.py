@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
-from friction.refused import refused
+from refusals import refused
 from viscofric.friction.agreement import compare
 
 SPEED = np.tile([0.05, 0.1], 2)

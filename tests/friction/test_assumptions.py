@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from friction.made_runs import friction_curves
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction import warming
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, assumptions_dataset

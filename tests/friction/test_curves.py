@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.tribometry import separate

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction.warming import (
     bulk_temperature,

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from friction.refused import refused
 from friction.synthetic_curves import curves_of, noisy, planted_law, synthetic_curves
+from refusals import refused
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import SuperpositionError
 from viscofric.friction.prediction import predict_friction

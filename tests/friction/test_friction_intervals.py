@@ -12,7 +12,7 @@ from scipy.stats import binom, kstest
 from scipy.stats import t as student
 
 from friction.made_runs import FOUR, friction_curves, timed_sweeps, traction_runs
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction.identification.points import relative_errors
 from viscofric.friction.measurement.errors import Pool, Scatter

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from friction.refused import refused
 from friction.synthetic_curves import curves_of
+from refusals import refused
 from viscofric.contact.indenters.height_map import HeightMap
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder
 from viscofric.contact.steady import solve_steady

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from friction.made_runs import friction_curves
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.notes import codes

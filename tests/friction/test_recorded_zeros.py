@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.stats import binom
 
 from friction.made_runs import FOUR, exported_runs, rows_of, runs_from, traction_runs
-from friction.refused import refused
+from refusals import refused
 from viscofric.friction.measurement.conditions import Condition
 from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.tribometry import separate

@@ -9,8 +9,8 @@ from importlib.resources import as_file, files
 import numpy as np
 import pytest
 
-from friction.refused import refused
 from friction.synthetic_curves import planted_law, synthetic_curves
+from refusals import refused
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import ShiftAgreement, compare_shift_factors
 from viscofric.readers import read_dma

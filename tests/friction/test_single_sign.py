@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
-from friction.refused import refused
+from refusals import refused
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
 

@@ -15,7 +15,7 @@ from scipy.special import stdtrit
 from scipy.stats import binom
 
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction.measurement.conditions import conditions
 from viscofric.friction.measurement.course import of_the_disc

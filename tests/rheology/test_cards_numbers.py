@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import DataFileError, InputError
 from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.cards.card import number_text

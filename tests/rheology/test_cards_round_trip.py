@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import codes, warned
 from viscofric.rheology.cards import open_card, read_card, write_card

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.rheology.catalogue import catalogue, catalogue_material, synthetic_fluoroelastomer
 
 

@@ -7,7 +7,7 @@ import pickle
 import numpy as np
 import pytest
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.rheology import ShiftFactors
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.notes import codes
 from viscofric.rheology import ShiftFactors

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.vertical_shift import DensityShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from friction.refused import refused
 from readers.samples import eplexor
+from refusals import refused
 from viscofric.errors import DataFileError
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_files import read_shift_factors, read_vendor_law

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.rheology import WLF, Arrhenius, ShiftFactors, WLFArrhenius
 from viscofric.rheology.shifts.laws import VFT, InversePolynomial

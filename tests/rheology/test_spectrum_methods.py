@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
-from friction.refused import refused
+from refusals import refused
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, LiquidError
 from viscofric.notes import codes

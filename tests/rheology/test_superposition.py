@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.optimize import curve_fit
 
 import viscofric as vf
-from friction.refused import refused
+from refusals import refused
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.notes import codes

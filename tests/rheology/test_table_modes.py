@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from friction.refused import refused
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.modulus_table import CLOSE, ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from friction.refused import refused
+from refusals import refused
 from rheology.planted import planted_sweeps, synthetic_polymer
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError

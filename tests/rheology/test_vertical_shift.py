@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
-from friction.refused import refused
+from refusals import refused
 from rheology.planted import PROGRAMME, planted_sweeps, synthetic_polymer
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import InputError

@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 
 import viscofric as vf
 from contact.dense_reference import dense_friction
-from study.refusals import refused
+from refusals import refused
 from viscofric.study import StudyResults, load_study, open_results, run_study
 from viscofric.study.checking import check_study
 
@@ -227,7 +227,7 @@ def test_contacts_wider_than_the_ball_are_told_and_the_others_kept(real_data: Pa
 
 def test_a_study_of_which_no_case_can_be_solved_is_an_error(real_data: Path, tmp_path: Path) -> None:
     path = _real_study(real_data, tmp_path, "25 N", 2, "1 um/s", "2 um/s")
-    with refused(vf.StudyError, "nothing-solved"):
+    with refused("nothing-solved", vf.StudyError):
         run_study(path)
 
 
@@ -323,5 +323,5 @@ def test_temperatures_without_shift_factor_are_told_before_anything_is_solved(tm
 
 def test_unwritable_output_is_told_before_anything_is_solved(tmp_path: Path) -> None:
     (tmp_path / "taken").write_text("a file")
-    with refused(vf.DataFileError, "is-file"):
+    with refused("is-file", vf.DataFileError):
         run_study(_small_study(tmp_path), output=tmp_path / "taken")

@@ -15,7 +15,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import viscofric as vf
-from study.refusals import refused
+from refusals import refused
 from study.sweeps import made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError, InputError
 from viscofric.report.texts.study import grouped_failures
@@ -54,7 +54,7 @@ def test_results_of_a_rubber_alone_have_no_data_set(tmp_path: Path) -> None:
     made = made_results(tmp_path)
     del made.tree["prediction"]
     save_results(made.tree, tmp_path)
-    with refused(InputError, "no-prediction"):
+    with refused("no-prediction"):
         _ = vf.open_results(tmp_path).dataset
 
 
@@ -69,13 +69,13 @@ def test_results_of_a_rubber_alone_have_no_data_set(tmp_path: Path) -> None:
 )
 def test_what_is_no_results_file_is_told(tmp_path: Path, content: bytes, code: str) -> None:
     (tmp_path / "results.nc").write_bytes(content)
-    with refused(DataFileError, code):
+    with refused(code, DataFileError):
         vf.open_results(tmp_path)
 
 
 def test_a_netcdf_file_of_others_is_told(tmp_path: Path) -> None:
     xarray.Dataset({"a": 1.0}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    with refused(DataFileError, "not-results"):
+    with refused("not-results", DataFileError):
         vf.open_results(tmp_path / "other.nc")
 
 
@@ -83,9 +83,9 @@ def test_exported_cases_and_the_folder_above_are_not_taken_for_results(tmp_path:
     folder = tmp_path / "größe.results"
     made = made_results(folder)
     exported = made.export("netcdf")
-    with refused(DataFileError, "exported"):
+    with refused("exported", DataFileError):
         vf.open_results(exported)
-    with refused(DataFileError, "no-results"):
+    with refused("no-results", DataFileError):
         vf.open_results(tmp_path)
 
 
@@ -126,11 +126,11 @@ def test_what_is_no_name_of_a_file_is_told(tmp_path: Path, wrong: Any) -> None:
 
 
 def test_missing_results_are_told_and_what_helps(tmp_path: Path) -> None:
-    with refused(DataFileError, "no-results"):
+    with refused("no-results", DataFileError):
         vf.open_results(tmp_path)
     (tmp_path / "cases").mkdir()
     (tmp_path / "cases" / "a.json").touch()
-    with refused(DataFileError, "unfinished"):
+    with refused("unfinished", DataFileError):
         vf.open_results(tmp_path)
 
 
@@ -145,7 +145,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 @given(share=st.floats(0.0, 1.0, exclude_max=True))
 def test_a_file_cut_short_anywhere_is_one_sentence(whole: bytes, tmp_path: Path, share: float) -> None:
     (tmp_path / "results.nc").write_bytes(whole[: int(share * len(whole))])
-    with refused(DataFileError, "damaged"):
+    with refused("damaged", DataFileError):
         vf.open_results(tmp_path)
 
 
@@ -170,7 +170,7 @@ def test_a_changed_number_is_noticed(whole: bytes, tmp_path: Path) -> None:
     place = whole.find(np.float64(friction).tobytes())
     assert place > 0
     (tmp_path / "results.nc").write_bytes(whole[:place] + number.tobytes() + whole[place + 8 :])
-    with refused(DataFileError, "damaged"):
+    with refused("damaged", DataFileError):
         vf.open_results(tmp_path)
 
 
@@ -179,7 +179,7 @@ def test_results_that_cannot_be_written_are_told(tmp_path: Path) -> None:
     made = made_results(tmp_path / "made")
     (tmp_path / "made").chmod(0o500)
     try:
-        with refused(DataFileError, "not-written"):
+        with refused("not-written", DataFileError):
             save_results(made.tree, tmp_path / "made")
     finally:
         (tmp_path / "made").chmod(0o700)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from refusals import refused
 from study import sweeps
-from study.refusals import refused
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
 from viscofric.study.cases.record import Failure
@@ -100,7 +100,7 @@ def test_every_file_of_the_solver_counts_however_deep_it_lies(tmp_path: Path) ->
 
 def test_unwritable_folder_is_told_in_a_sentence(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("not a folder")
-    with refused(DataFileError, "not-written"):
+    with refused("not-written", DataFileError):
         write_atomically(tmp_path / "file" / "a.json", b"{}")
 
 
@@ -109,6 +109,6 @@ def test_nothing_is_left_behind_by_a_failed_write(tmp_path: Path, monkeypatch: p
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("viscofric.files.os.fsync", full_disk)
-    with refused(DataFileError, "not-written"):
+    with refused("not-written", DataFileError):
         write_atomically(tmp_path / "a.json", b"{}")
     assert list(tmp_path.iterdir()) == []

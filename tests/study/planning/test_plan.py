@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from refusals import refused
 from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
-from study.refusals import refused
-from viscofric.errors import InputError
 from viscofric.study.cases.record import Failure, Record
 from viscofric.study.cases.solving import solve
 from viscofric.study.planning.plan import plan_cases
@@ -32,7 +31,7 @@ def test_nothing_is_found_before_everything_is_known() -> None:
     assert (plan.done, plan.total) == (0, 2)
     plan.receive(plan.wanted()[0].key, made_up(plan.wanted()[0]))
     assert (plan.done, plan.total) == (1, 2)
-    with refused(InputError, "unfinished"):
+    with refused("unfinished"):
         plan.found()
 
 

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from study.refusals import refused
+from refusals import refused
 from study.running.tasks import TwoWaves
-from viscofric.errors import InputError
 from viscofric.study.run_file.settings import ClusterTable
 from viscofric.study.running.cluster import BatchJobs, Dask
 from viscofric.study.running.executors import Serial
@@ -134,20 +133,20 @@ def test_jobs_are_those_of_the_run_file() -> None:
 def test_jobs_where_none_can_be_sent_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("dask_jobqueue")
     monkeypatch.setenv("PATH", "")
-    with refused(InputError, "no-batch-system"):
+    with refused("no-batch-system"):
         Dask(BatchJobs.of(TABLE)).__enter__()
 
 
 def test_scheduler_that_does_not_answer_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
     monkeypatch.setattr("viscofric.study.running.cluster._PATIENCE", 0.3)
-    with refused(InputError, "no-scheduler"):
+    with refused("no-scheduler"):
         Dask("tcp://127.0.0.1:9").__enter__()
 
 
 def test_what_is_missing_is_named_with_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with refused(InputError, "not-installed"):
+    with refused("not-installed"):
         choose_executor(None, "tcp://10.0.0.1:8786", None)
-    with refused(InputError, "two-executors"):
+    with refused("two-executors"):
         choose_executor(2, "tcp://10.0.0.1:8786", None)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from study.refusals import refused
+from refusals import refused
 from viscofric.errors import DataFileError, StudyError
 from viscofric.study.cases.record import Failure
 from viscofric.study.running.folder import _holder_is_alive, study_folder
@@ -80,10 +80,10 @@ def test_folder_with_results_is_refused_unless_it_is_resumed(tmp_path: Path) -> 
     with study_folder(tmp_path / "new", resume=False):
         pass  # nothing was solved
     (tmp_path / "new" / "cases" / "abc.json").write_text("{}")
-    with refused(StudyError, "not-empty"), study_folder(tmp_path / "new", False):
+    with refused("not-empty", StudyError), study_folder(tmp_path / "new", False):
         pass
     (tmp_path / "new" / "results.nc").write_text("")
-    with refused(StudyError, "not-empty"), study_folder(tmp_path / "new", False):
+    with refused("not-empty", StudyError), study_folder(tmp_path / "new", False):
         pass
     with study_folder(tmp_path / "new", resume=True):
         pass
@@ -94,7 +94,7 @@ def test_folder_that_cannot_be_written_is_one_sentence(tmp_path: Path, monkeypat
         raise OSError(30, "Read-only file system")
 
     monkeypatch.setattr("viscofric.files.tempfile.mkstemp", read_only)
-    with refused(DataFileError, "not-written"), study_folder(tmp_path / "new", resume=False):
+    with refused("not-written", DataFileError), study_folder(tmp_path / "new", resume=False):
         pass
 
 
@@ -116,7 +116,7 @@ def test_the_lock_is_never_a_link_to_another_file(tmp_path: Path, link: Callable
     precious.write_text("years of work")
     (tmp_path / "results").mkdir()
     link(precious, tmp_path / "results" / ".lock")
-    with refused(DataFileError, "link"), study_folder(tmp_path / "results", resume=True):
+    with refused("link", DataFileError), study_folder(tmp_path / "results", resume=True):
         pass
     assert precious.read_text() == "years of work"
 
@@ -129,7 +129,7 @@ def test_parts_that_lie_elsewhere_are_refused_and_left_alone(tmp_path: Path, par
     (elsewhere / ".profile").write_text("mine")
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / part).symlink_to(elsewhere)
-    with refused(DataFileError, "link"), study_folder(tmp_path / "results", resume=True):
+    with refused("link", DataFileError), study_folder(tmp_path / "results", resume=True):
         pass
     assert [path.name for path in elsewhere.iterdir()] == [".profile"]
 
@@ -157,10 +157,10 @@ def test_a_folder_that_is_removed_meanwhile_is_an_error(tmp_path: Path, again: b
     def work() -> None:
         with study_folder(tmp_path / "new", resume=False) as store:
             shutil.rmtree(tmp_path / "new")
-            with refused(DataFileError, "not-written"):
+            with refused("not-written", DataFileError):
                 store.put("abc", Failure("no.", "30 °C"))
             if again:
                 store.folder.mkdir(parents=True)
 
-    with refused(DataFileError, "removed"):
+    with refused("removed", DataFileError):
         work()

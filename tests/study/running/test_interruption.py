@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 import xarray
 
-from study.refusals import refused
+from refusals import refused
 from study.running.kills import STUDY
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError
 from viscofric.study import open_results, run_study
 from viscofric.study.running.folder import check_results
 
@@ -69,7 +69,7 @@ def test_finished_cases_of_an_interrupted_study_are_put_together(tmp_path: Path)
     with pytest.raises(KeyboardInterrupt):
         run_study(study, progress=interrupt)
     folder = tmp_path / "study.results"
-    with refused(DataFileError, "unfinished"):
+    with refused("unfinished", DataFileError):
         open_results(folder)
     run_study(study, finished_only=True)
     part = open_results(folder)
@@ -83,7 +83,7 @@ def test_finished_cases_of_an_interrupted_study_are_put_together(tmp_path: Path)
     xarray.testing.assert_identical(
         part.dataset["friction_coefficient"].where(known), whole.dataset["friction_coefficient"].where(known)
     )
-    with refused(InputError, "two-executors"):
+    with refused("two-executors"):
         run_study(study, finished_only=True, workers=2)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from study.refusals import refused
+from refusals import refused
 from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
 from viscofric.study.cases.record import Failure, Record
@@ -136,7 +136,7 @@ def test_full_disk_ends_a_run_and_leaves_the_finished_cases(tmp_path: Path, monk
 
     monkeypatch.setattr("viscofric.files.os.fsync", fill_up)
     store = CaseStore(tmp_path)
-    with refused(DataFileError, "not-written"):
+    with refused("not-written", DataFileError):
         run_plan(TwoWaves(), store, Serial())
     assert len(list(tmp_path.iterdir())) == 2
     assert all(isinstance(store.get(key), Record) for key in store.stored())
@@ -170,9 +170,9 @@ def test_fields_are_kept_beside_the_numbers(tmp_path: Path) -> None:
 def test_worker_with_another_solver_is_refused(
     pair: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with refused(ViscofricError, "other-solver"):
+    with refused("other-solver", ViscofricError):
         take(solve, task(1.0), "another")
     monkeypatch.setattr("viscofric.study.running.executors.solver_fingerprint", lambda: "another")
-    with refused(ViscofricError, "other-solver"):
+    with refused("other-solver", ViscofricError):
         run_plan(TwoWaves(), CaseStore(tmp_path), pair)
     assert not list(tmp_path.iterdir())

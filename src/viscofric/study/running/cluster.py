@@ -89,7 +89,7 @@ class Dask(Executor):
                 client = self._distributed.Client(address, timeout=_PATIENCE, set_as_default=False)
             except (OSError, ValueError) as error:
                 raise InputError(
-                    f"scheduler {self._where!r} cannot be reached: {error}", code="no-scheduler"
+                    f"scheduler {self._where!r} cannot be reached: {error}.", code="no-scheduler"
                 ) from error
             self._client = opened.enter_context(client)
             self._open = opened.pop_all()
