@@ -19,7 +19,7 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 from viscofric.rheology.superposition.overlap import OverlapQuality
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.uncertainty.residuals import Residuals
-from viscofric.rheology.uncertainty.sampling import sample_materials
+from viscofric.rheology.uncertainty.sampling import normal_deviates, sample_materials
 
 REFERENCE = 303.15
 KELVIN = np.arange(263.15, 364.0, 20.0)
@@ -365,3 +365,14 @@ def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent():
     assert 0.905 < 0.5 * (storage + loss) < 0.99
     # Of the twelve of each rubber the scatter is 2.0 %.
     assert np.all(np.mean(np.reshape(shares, (2, 24)), axis=1) > 0.885)
+
+
+def test_draws_change_by_rounding_only_where_the_covariance_does():
+    """Offsets of isotherms are alike: any rotation of their equal eigenvalues' vectors is as good as another."""
+    covariance = np.kron([[1.0, 0.3], [0.3, 2.0]], np.eye(6))
+    rounding = 1e-13 * np.random.default_rng(2).standard_normal(covariance.shape)
+    one, other = (normal_deviates(np.random.default_rng(1), each, 50) for each in (covariance, covariance + rounding))
+    np.testing.assert_allclose(one, other, atol=1e-9)
+    np.testing.assert_allclose(
+        normal_deviates(np.random.default_rng(1), covariance, 20_000).var(axis=0)[[0, 6]], [1, 2], rtol=0.05
+    )

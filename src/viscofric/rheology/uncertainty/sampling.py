@@ -251,11 +251,14 @@ def _isotherm_of_points(curve: MasterCurve, shifts: ShiftFactors) -> Integers:
     return np.asarray(place, dtype=np.int64)
 
 
-def _drawn(random: np.random.Generator, covariance: Array, samples: int) -> Array:
-    """Draw rows of normal deviates with a covariance, which may be singular."""
+def normal_deviates(random: np.random.Generator, covariance: Array, samples: int) -> Array:
+    """Draw rows of normal deviates with a covariance, which may be singular.
+
+    By its symmetric root: eigenvectors of equal eigenvalues differ from one machine to another, and draws with them.
+    """
     values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
-    spread = vectors * np.sqrt(np.maximum(values, 0.0))
-    return np.asarray(random.standard_normal((samples, len(values))) @ spread.T)
+    root = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
+    return np.asarray(random.standard_normal((samples, len(values))) @ root)
 
 
 def _tables(
@@ -276,7 +279,7 @@ def _tables(
     if fit.offsets is not None:
         shared = fit.offsets.with_shifts[:count]
         covariance = np.block([[covariance, shared], [shared.T, np.kron(fit.offsets.covariance, np.eye(size))]])
-    errors = _drawn(random, covariance, samples)
+    errors = normal_deviates(random, covariance, samples)
     offsets = np.zeros((samples, size, 2))
     if fit.offsets is not None:
         errors = fit.offsets.resized(random.spawn(1)[0], errors)
