@@ -52,6 +52,15 @@ def test_every_public_name_is_in_the_reference_once() -> None:
     assert set(listed) == set(vf.__all__) - {"__version__"}
 
 
+def test_modules_that_pages_name_exist() -> None:
+    source = ROOT / "src" / "viscofric"
+    rooms = {path.name for path in source.iterdir() if path.is_dir()}
+    for page in (*(DOCS / name for name in pages()), ROOT / "ARCHITECTURE.md", ROOT / "CONTRIBUTING.md"):
+        for name in re.findall(r"`([a-z_]+(?:/[a-z_]+)+)(?:\.py)?`", page.read_text(encoding="utf-8")):
+            if name.split("/")[0] in rooms:
+                assert (source / name).is_dir() or (source / f"{name}.py").is_file(), f"{page.name}: {name}"
+
+
 def test_every_page_is_in_the_contents() -> None:
     named: set[Path] = set()
     for page in pages():

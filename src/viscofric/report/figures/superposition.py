@@ -32,7 +32,7 @@ def plot_wicket(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappab
     ----------
     axes : matplotlib.axes.Axes
     sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
-        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+        See `plot_isotherms`; the points of a check are without their vertical shift.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def plot_cole_cole(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMap
     ----------
     axes : matplotlib.axes.Axes
     sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
-        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+        See `plot_isotherms`; the points of a check are without their vertical shift.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) ->
     ----------
     axes : matplotlib.axes.Axes
     sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
-        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+        See `plot_isotherms`; the points of a check are without their vertical shift.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> Sca
     ----------
     axes : matplotlib.axes.Axes
     sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
-        See `rubber_figures.plot_isotherms`; the points of a check are without their vertical shift.
+        See `plot_isotherms`; the points of a check are without their vertical shift.
 
     Returns
     -------

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from viscofric.datasets import plain
+
 if TYPE_CHECKING:
     import xarray
 
@@ -79,8 +81,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     answer = _answer(tree_of(contacts)) | {"notes": texts(rubber.bands.notes)}
     if rubber.rubber.from_friction:
         answer["warnings"] = [CIRCULAR, *answer["warnings"]]
-    plain: dict[str, Any] = context.plain(answer)
-    return plain
+    numbers: dict[str, Any] = plain(answer)
+    return numbers
 
 
 def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options) -> dict[str, Any]:

@@ -59,8 +59,6 @@ class Context:
     send: Callable[[str, dict[str, Any]], object] = lambda event, message: None
     _sent: float = field(default=-math.inf, repr=False)
 
-    plain = staticmethod(plain)
-
     def progress(self, done: float, total: float, label: str = "") -> None:
         """Say how much of the work is done; may be called as often as one likes."""
         now = time.monotonic()

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from viscofric.datasets import plain
+
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.identification.anchors import Anchor
@@ -104,8 +106,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         progress=report,
         **chosen,
     )
-    plain: dict[str, Any] = context.plain(_answer(found, curves, rubber if options.beside else None, anchor, context))
-    return plain
+    numbers: dict[str, Any] = plain(_answer(found, curves, rubber if options.beside else None, anchor, context))
+    return numbers
 
 
 def _anchor(asked: AnchorOptions, rubber: Material | None, curves: FrictionCurves) -> Anchor:

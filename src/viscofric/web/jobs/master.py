@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from viscofric.datasets import plain
+
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
@@ -91,8 +93,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         notes += found_notes
     if known is not None:
         result["known"] = _known(known, result["found"] or result["by_rubber"])
-    plain: dict[str, Any] = context.plain(result | {"notes": texts(notes)})
-    return plain
+    numbers: dict[str, Any] = plain(result | {"notes": texts(notes)})
+    return numbers
 
 
 def _settings(curves: FrictionCurves, indenter: Any, rubber: Material | None) -> dict[str, Any]:

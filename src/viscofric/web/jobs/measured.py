@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from viscofric.datasets import plain
+
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.web.jobs.context import Context
@@ -69,8 +71,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             "checks": _checks(found.curves),
             "download": _written(found.curves, context),
         }
-    plain: dict[str, Any] = context.plain(result)
-    return plain
+    numbers: dict[str, Any] = plain(result)
+    return numbers
 
 
 def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
