@@ -14,6 +14,7 @@ from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.datasets import dataset
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.report.results import is_extrapolated, number, values
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,8 +39,6 @@ if TYPE_CHECKING:
     #: The same, or all temperatures on one curve.
     ReducedFriction: TypeAlias = FrictionMasterCurve | xr.Dataset
 
-#: Half-width of a 95 % band over the standard error.
-LEVEL_95 = 1.959963984540054
 _POINTS_OF_A_LINE = 200
 _SIDES = ("lower", "upper")
 

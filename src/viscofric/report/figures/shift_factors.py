@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.report.data import LEVEL_95, as_dataset, shift_table
+from viscofric.report.data import as_dataset, shift_table
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -22,6 +22,7 @@ from viscofric.report.figures.style import (
 from viscofric.report.results import SAME_TEMPERATURE, values
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, WLFArrhenius
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.units import CELSIUS_ZERO

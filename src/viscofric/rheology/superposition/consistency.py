@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
 #: glassy sweep aside), an NBR/PVC foam 0.015, a filled adhesive 0.029, an EVA that melts 0.080; rubbers planted
 #: with 0.3, 1 and 3 % noise 0.002, 0.002 and 0.005.
 REPRODUCIBILITY = 0.02  # decades
-LEVEL_95 = 1.959963984540054
 #: Neighbours lie as far apart, on the whole, as noise and reproducibility explain together.
 LARGEST_FIGURE = 1.0
 #: Up to this it holds only roughly: a master curve of such sweeps (the adhesive has 1.2) is of use, but is off by more

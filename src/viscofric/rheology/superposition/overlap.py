@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -34,7 +36,6 @@ COMMON_MODULI = 0.25
 #: … and where they are joined pair by pair, E' and E'' ask for steps that differ by about so much.
 PAIR_UNCERTAINTY = 0.5  # decades
 SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
-LEVEL_95 = 1.959963984540054
 #: Sides of an interval that differ by more than this are no parabola with noise.
 LOPSIDED = 1.5
 

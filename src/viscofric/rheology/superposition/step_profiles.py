@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, ROUGHNESS
-from viscofric.rheology.superposition.overlap import LEVEL_95, allowed_half_width, steps_that_overlap
+from viscofric.rheology.superposition.overlap import allowed_half_width, steps_that_overlap
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

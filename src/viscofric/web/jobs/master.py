@@ -176,7 +176,7 @@ def _line(law: ShiftLaw, temperatures: Any) -> dict[str, Any]:
     """Return a law between temperatures, with its 95 % band where it has one."""
     import numpy as np
 
-    from viscofric.report.data import LEVEL_95
+    from viscofric.rheology.shifts.parametric_law import LEVEL_95
 
     kelvin = np.linspace(temperatures.min(), temperatures.max(), 100)
     log10, error = law.values_at(kelvin)

@@ -8,6 +8,7 @@ import numpy as np
 
 from viscofric.datasets import plain
 from viscofric.errors import InputError
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
@@ -24,7 +25,6 @@ _BEYOND = 10.0
 _PER_DECADE, _MOST = 16, 400
 #: Retardation times and frequencies of a ready rubber reach this far beyond one another, as a factor.
 _BEYOND_MODES = 30.0
-_LEVEL_95 = 1.959963984540054
 
 
 def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
@@ -160,7 +160,7 @@ def band_numbers(
         "modes": {"tau": plain(samples.tau[0]), "lower": plain(modes.lower), "upper": plain(modes.upper)}
         if alike
         else None,
-        "E0_error95": plain(_LEVEL_95 * error.E0),
-        "E_inf_error95": plain(_LEVEL_95 * error.E_inf),
+        "E0_error95": plain(LEVEL_95 * error.E0),
+        "E_inf_error95": plain(LEVEL_95 * error.E_inf),
         "notes": list(samples.notes),
     }
