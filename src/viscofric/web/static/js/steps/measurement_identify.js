@@ -24,9 +24,12 @@ const ASKED = {
 export function identification(app, step, { alone }) {
   const { state, fields, figures } = app;
   const { h, button, note } = fields;
+  let byHand = false; // whether the user chose the shift factors
+  let awaited = null; // the newest friction master curve on its way
   const shift = optionChoice(app, {
     key: "identify.shift",
     label: "Shift factors",
+    onChange: () => (byHand = true),
     options: [
       ["friction", "found from friction"],
       ["rubber", "of the page's material"],
@@ -165,8 +168,14 @@ export function identification(app, step, { alone }) {
     choose();
   }
 
-  /** Where friction tells no shift factors, the rubber's are to be taken. */
-  function suggest(master) {
+  /** Shift factors of friction where they can be found, else of the page's material, unless the user chose. */
+  async function suggest(coming) {
+    awaited = coming;
+    go.disabled = true; // which factors to use is not known before
+    const master = await coming;
+    if (awaited !== coming) return;
+    go.disabled = false;
+    if (byHand) return;
     if (master?.refusal && master.by_rubber) shift.choose("rubber");
     else if (master?.found) shift.choose("friction");
   }

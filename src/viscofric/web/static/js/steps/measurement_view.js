@@ -67,7 +67,7 @@ export function mount(section, app) {
     if (stale) return;
     if (master.alone()) compared.clear();
     else compared.run();
-    master.run().then((result) => identify.suggest(result));
+    identify.suggest(master.run());
   }
 
   const later = (work) => () => {
