@@ -273,8 +273,8 @@ def test_public_names_resolve_and_say_what_they_are() -> None:
     for name in viscofric.__all__:
         thing = getattr(viscofric, name)
         if inspect.isclass(thing) or inspect.isroutine(thing) or inspect.ismodule(thing):
-            told = inspect.getdoc(thing) or ""
-            if not told or told.startswith(f"{name}("):  # what dataclasses write by themselves
+            reported = inspect.getdoc(thing) or ""
+            if not reported or reported.startswith(f"{name}("):  # what dataclasses write by themselves
                 silent.append(name)
     assert not silent, f"public, but without a docstring: {silent}"
 

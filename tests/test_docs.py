@@ -145,7 +145,7 @@ def test_columns_of_friction_curves_are_in_the_reference(extensions: dict[str, M
     assert all(f"| `{heading}` |" in page for heading in headings.split(","))
 
 
-def test_layout_of_results_tells_units_dimensions_and_meaning(extensions: dict[str, ModuleType]) -> None:
+def test_layout_of_results_shows_units_dimensions_and_meaning(extensions: dict[str, ModuleType]) -> None:
     import xarray
 
     group = xarray.Dataset(
@@ -153,10 +153,10 @@ def test_layout_of_results_tells_units_dimensions_and_meaning(extensions: dict[s
         {"speed": ((), 3.0, {"units": "m/s", "long_name": "speed"})},
         {"accuracy": 1e-3},
     )
-    told = extensions["results_pages"].section("/prediction", group)
-    assert "| `load` | `case` | N | normal load |" in told
-    assert "| `speed` (coordinate) | one value | m/s | speed |" in told
-    assert "Attributes: `accuracy`." in told
+    reported = extensions["results_pages"].section("/prediction", group)
+    assert "| `load` | `case` | N | normal load |" in reported
+    assert "| `speed` (coordinate) | one value | m/s | speed |" in reported
+    assert "Attributes: `accuracy`." in reported
 
 
 def test_only_what_has_changed_is_written(
@@ -200,6 +200,6 @@ def test_requests_to_other_hosts_are_found(extensions: dict[str, ModuleType], tm
     assert list(offline.requests_of_site(tmp_path)) == ["style.css: https://a.org/x.css"]
 
 
-def test_run_tells_of_the_site() -> None:
-    told = subprocess.run([sys.executable, str(ROOT / "run"), "--help"], capture_output=True, text=True, check=True)
-    assert "./run docs" in told.stdout
+def test_run_shows_the_site() -> None:
+    reported = subprocess.run([sys.executable, str(ROOT / "run"), "--help"], capture_output=True, text=True, check=True)
+    assert "./run docs" in reported.stdout

@@ -59,8 +59,8 @@ def test_documented_parameters_are_those_of_the_signature(name, function):
 @pytest.mark.parametrize("name", [name for name in PUBLIC if dataclasses.is_dataclass(getattr(viscofric, name))])
 def test_documented_parameters_of_a_dataclass_are_those_it_takes(name):
     one = getattr(viscofric, name)
-    told = documented(one.__doc__)
-    assert not told or told == signature(one)
+    reported = documented(one.__doc__)
+    assert not reported or reported == signature(one)
 
 
 #: Names of results, which verbs return and users do not make: their verbs have the examples.  And errors.

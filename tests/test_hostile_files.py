@@ -244,7 +244,7 @@ except vf.ViscofricError as error:
 
 
 @pytest.mark.slow  # a process of its own, which imports anew
-def test_a_module_of_the_users_in_place_of_a_package_is_told_as_such(tmp_path: Path) -> None:
+def test_a_module_of_the_users_in_place_of_a_package_is_reported_as_such(tmp_path: Path) -> None:
     (tmp_path / "pint.py").write_text("import nothing_of_this_name\n", encoding="utf-8")
     (tmp_path / "script.py").write_text(SHADOWED, encoding="utf-8")
     done = subprocess.run([sys.executable, tmp_path / "script.py"], capture_output=True, text=True, check=True)

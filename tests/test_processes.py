@@ -72,13 +72,13 @@ def test_interrupt_ends_the_processes(children: list[subprocess.Popen[bytes]]) -
     assert all(child.returncode is not None for child in children)
 
 
-def test_process_that_ends_too_early_is_told() -> None:
+def test_process_that_ends_too_early_is_reported() -> None:
     with pytest.raises(ViscofricError, match="use fewer workers"):
         call_all(os._exit, [{"status": 1}] * 2, workers=2)
 
 
 @pytest.mark.slow
-def test_what_cannot_be_handed_over_is_told() -> None:
+def test_what_cannot_be_handed_over_is_reported() -> None:
     with pytest.raises(InputError, match=r"workers = 2: the calls cannot be sent .* use one worker"):
         call_all(statistics.fmean, [{"data": lambda: 1.0}] * 2, workers=2)
 
@@ -115,7 +115,7 @@ def test_workers_outlive_a_call_that_failed(children: list[subprocess.Popen[byte
         assert len(children) == 2
 
 
-def test_workers_that_ended_are_told_and_replaced(children: list[subprocess.Popen[bytes]]) -> None:
+def test_workers_that_ended_are_reported_and_replaced(children: list[subprocess.Popen[bytes]]) -> None:
     with Workers(2) as workers:
         with pytest.raises(ViscofricError, match="use fewer workers"):
             call_all(os._exit, [{"status": 1}] * 2, workers=workers)

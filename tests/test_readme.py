@@ -192,8 +192,8 @@ def test_readme_shows_the_two_commands() -> None:
     readme = blocks((ROOT / "README.md").read_text(encoding="utf-8"))
     typed = [" ".join(words[:2]) for block in readme if block.language in SHELL for words in commands(block)]
     assert {"./run demo", "./run test"} <= set(typed)
-    told = subprocess.run([sys.executable, str(ROOT / "run"), "--help"], capture_output=True, text=True, check=True)
-    assert all(command in told.stdout for command in ("./run demo", "./run test"))
+    reported = subprocess.run([sys.executable, str(ROOT / "run"), "--help"], capture_output=True, text=True, check=True)
+    assert all(command in reported.stdout for command in ("./run demo", "./run test"))
 
 
 def test_output_that_is_not_printed_is_found() -> None:

@@ -167,7 +167,7 @@ class LimitedProcess:
         alarm.daemon = True
         alarm.start()
         try:
-            kind, value = _answer_of(child, message)
+            kind, value = _reply_of(child, message)
         except BaseException:
             _end(child)
             raise
@@ -220,7 +220,7 @@ def _started(needed: str, memory: int = 0, **environment: str) -> Child:
         )
 
 
-def _answer_of(child: Child, message: bytes) -> tuple[str, Any]:
+def _reply_of(child: Child, message: bytes) -> tuple[str, Any]:
     """Send a call to a process, and return the kind of its end and the value."""
     assert child.stdin is not None
     assert child.stdout is not None
@@ -298,7 +298,7 @@ def call_all(
     found: dict[int, Any] = {}
     failures: dict[int, BaseException] = {}
     with workers._children(count) as children:
-        for index, kind, value in shared.answers(children):
+        for index, kind, value in shared.replies(children):
             if kind == "result":
                 found[index] = value
                 if progress is not None:
@@ -358,7 +358,7 @@ def as_they_come(
         return
     shared = _SharedCalls(function, calls, workers, tries=tries, stops=False)
     with workers._children(count) as children:
-        yield from shared.answers(children)
+        yield from shared.replies(children)
 
 
 class _SharedCalls:
@@ -388,20 +388,20 @@ class _SharedCalls:
         self.lock = threading.Lock()
         self.closed = False
 
-    def answers(self, children: list[Child]) -> Iterator[tuple[int, str, Any]]:
+    def replies(self, children: list[Child]) -> Iterator[tuple[int, str, Any]]:
         """Yield begin and end of the calls, until no process is busy any more."""
         self.children = children
         threads = [threading.Thread(target=self._keep_busy, args=(child,), daemon=True) for child in children]
-        unanswered = len(self.messages)
+        outstanding = len(self.messages)
         try:
             for thread in threads:
                 thread.start()
-            while unanswered and (any(thread.is_alive() for thread in threads) or not self.events.empty()):
+            while outstanding and (any(thread.is_alive() for thread in threads) or not self.events.empty()):
                 with contextlib.suppress(queue.Empty):
                     index, kind, value = self.events.get(timeout=_LONGEST_WAIT)
-                    unanswered -= kind != "begun"
+                    outstanding -= kind != "begun"
                     yield index, "error" if kind == "ended" and self.stops else kind, value
-            if unanswered and not self.stops:
+            if outstanding and not self.stops:
                 raise ViscofricError(_ENDED)
         finally:
             with self.lock:
@@ -430,7 +430,7 @@ class _SharedCalls:
                 self.waiting.clear()
 
     def _ask(self, child: Child, index: int) -> tuple[str, Any]:
-        kind, value = _answer_of(child, self.messages[index])
+        kind, value = _reply_of(child, self.messages[index])
         if kind == "not understood":
             return "error", _not_sent(self.workers.number, value)
         return kind, value

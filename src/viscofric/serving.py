@@ -1,4 +1,4 @@
-"""The other end of `viscofric.processes`: a process that answers calls of another."""
+"""The other end of `viscofric.processes`: a process that replies to the calls of another."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ def serve(parent: int, needed: str = "", memory: int = 0) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the calling process handles interrupts
     if sys.platform != "win32":  # an orphaned process gets another parent
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # printed text must not mix with the answers
+    replies = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # printed text must not mix with the replies
     if needed:
         import_module(needed)
     while True:
@@ -43,8 +43,8 @@ def serve(parent: int, needed: str = "", memory: int = 0) -> None:
         except EOFError:
             return
         try:
-            pickle.dump(_answer(message), answers)
-            answers.flush()
+            pickle.dump(_reply(message), replies)
+            replies.flush()
         except BrokenPipeError:  # the calling process closed its end
             os._exit(1)
 
@@ -72,7 +72,7 @@ def _end_with(parent: int) -> None:
     os._exit(1)
 
 
-def _answer(message: bytes) -> bytes:
+def _reply(message: bytes) -> bytes:
     """Make the call of a message, and return the kind of its end and the value, pickled."""
     try:
         name, call = pickle.loads(message)
@@ -93,8 +93,8 @@ def _answer(message: bytes) -> bytes:
 def _pickled(error: Exception) -> bytes:
     """Return an exception pickled, or its sentence if its class cannot be pickled and restored."""
     try:
-        answer = pickle.dumps(("error", error))
-        pickle.loads(answer)
+        reply = pickle.dumps(("error", error))
+        pickle.loads(reply)
     except Exception:  # noqa: BLE001 - restoring it may raise anything
         return pickle.dumps(("error", ViscofricError(f"{type(error).__name__}: {error}")))
-    return answer
+    return reply

@@ -77,7 +77,7 @@ def finished(once: Path, tmp_path: Path) -> Path:
     return shutil.copytree(once, tmp_path / "finished.results")
 
 
-def told(result: Result) -> str:
+def error_line(result: Result) -> str:
     """Return the one sentence that a failed call printed."""
     assert result.exit_code == 1, result.output
     assert "Traceback" not in result.output
@@ -105,7 +105,7 @@ def test_new_writes_a_study_that_runs_and_overwrites_nothing(tmp_path: Path) -> 
     result = call("new", tmp_path / "mine")
     assert result.exit_code == 0, result.output
     assert {path.name for path in (tmp_path / "mine").iterdir()} == {"study.toml", "dma.csv", "mtm.csv"}
-    assert "already holds" in told(call("new", tmp_path / "mine"))
+    assert "already holds" in error_line(call("new", tmp_path / "mine"))
 
 
 def sweeps(*rows: str) -> str:
@@ -131,8 +131,8 @@ TWO_ISOTHERMS = (
     ],
     ids=["negative", "nan", "empty cell", "wrong unit", "one isotherm", "no overlap", "empty", "binary"],
 )
-def test_bad_data_is_told_in_one_sentence(tmp_path: Path, dma: str, words: list[str]) -> None:
-    sentence = told(call("run", write(tmp_path, dma=dma)))
+def test_bad_data_is_reported_in_one_sentence(tmp_path: Path, dma: str, words: list[str]) -> None:
+    sentence = error_line(call("run", write(tmp_path, dma=dma)))
     for word in words:
         assert word in sentence
 
@@ -147,13 +147,13 @@ def test_bad_data_is_told_in_one_sentence(tmp_path: Path, dma: str, words: list[
         ('dma = "dma.csv"', 'dma = "other.csv"', "no such file"),
     ],
 )
-def test_bad_run_files_are_told_in_one_sentence(tmp_path: Path, good: str, bad: str, word: str) -> None:
+def test_bad_run_files_are_reported_in_one_sentence(tmp_path: Path, good: str, bad: str, word: str) -> None:
     assert good in STUDY
-    assert word in told(call("run", write(tmp_path, study=STUDY.replace(good, bad))))
+    assert word in error_line(call("run", write(tmp_path, study=STUDY.replace(good, bad))))
 
 
-def test_missing_run_file_is_told(tmp_path: Path) -> None:
-    assert "no such file" in told(call("run", tmp_path / "study.toml"))
+def test_missing_run_file_is_reported(tmp_path: Path) -> None:
+    assert "no such file" in error_line(call("run", tmp_path / "study.toml"))
 
 
 @pytest.mark.slow
@@ -256,22 +256,22 @@ def test_results_that_are_removed_before_the_end_are_an_error(tmp_path: Path, mo
         return write_report(tree, folder, **images)
 
     monkeypatch.setattr(html, "write_report", removed)
-    assert "was removed" in told(call("run", write(tmp_path)))
+    assert "was removed" in error_line(call("run", write(tmp_path)))
 
 
-def test_errors_are_told_without_an_empty_line_before_them(tmp_path: Path) -> None:
+def test_errors_are_reported_without_an_empty_line_before_them(tmp_path: Path) -> None:
     assert call("run", tmp_path / "study.toml").stderr.startswith("Error: ")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["figures", "report.html"])
-def test_report_that_cannot_be_written_is_told(finished: Path, name: str) -> None:
+def test_report_that_cannot_be_written_is_reported(finished: Path, name: str) -> None:
     (finished / name).rename(finished / "old")
     if name == "figures":
         (finished / name).touch()
     else:
         (finished / name).mkdir()
-    assert "cannot be written" in told(call("report", finished))
+    assert "cannot be written" in error_line(call("report", finished))
 
 
 def test_nothing_asked_is_answered_with_the_help() -> None:
@@ -409,13 +409,13 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
     assert "the same command with --resume continues" in result.output
     assert len(list((tmp_path / "study.results" / "cases").iterdir())) == 1
     monkeypatch.setattr(executors, "attempt", attempt)
-    assert "contains an unfinished study (1 solved contacts); resume it (--resume)" in told(call("run", path))
+    assert "contains an unfinished study (1 solved contacts); resume it (--resume)" in error_line(call("run", path))
     assert call("run", path, "--resume").exit_code == 0
-    assert "contains the results of a study" in told(call("run", path))
+    assert "contains the results of a study" in error_line(call("run", path))
 
 
 @pytest.mark.slow
-def test_programs_are_told_of_a_run_line_by_line(once: Path, tmp_path: Path) -> None:
+def test_programs_are_reported_a_run_line_by_line(once: Path, tmp_path: Path) -> None:
     """Nothing else on standard output, and on standard error nothing but warnings."""
     study = write(tmp_path)
     shutil.copytree(once, tmp_path / "study.results")
@@ -434,4 +434,4 @@ def test_programs_are_told_of_a_run_line_by_line(once: Path, tmp_path: Path) -> 
     assert (quiet.exit_code, quiet.stdout) == (0, "")
     assert quiet.stderr == result.stderr
     failed = call("run", study, "--json")
-    assert json.loads(failed.stdout.splitlines()[-1]) == {"event": "error", "message": told(failed)[7:]}
+    assert json.loads(failed.stdout.splitlines()[-1]) == {"event": "error", "message": error_line(failed)[7:]}

@@ -48,7 +48,7 @@ def test_table_file_and_json_hold_what_python_predicts(tmp_path: Path) -> None:
     assert "SYNTHETIC" in done.stdout
 
 
-def test_json_tells_inputs_and_points() -> None:
+def test_json_shows_inputs_and_points() -> None:
     words = (*SINGLE, "--cylinder", "10 mm", "--load", "100 N/m", "--speed", "1 m/s", "--accuracy", "0.02")
     done = call(*words, "--temperature", "40 degC", "--json")
     assert done.exit_code == 0, done.output
@@ -91,7 +91,7 @@ def test_curves_go_into_a_pipe_without_the_table() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "status", "told"),
+    ("words", "status", "reported"),
     [
         ([*BALL, "--speed", "1 m/s"], 2, "nothing says what the rubber is"),
         ([*RUBBER, "--dma", DMA, *BALL, "--speed", "1 m/s"], 2, "the rubber comes from one of them"),
@@ -105,8 +105,8 @@ def test_curves_go_into_a_pipe_without_the_table() -> None:
         ([*RUBBER, *BALL, "--speed", "1 m/s", "--out", "curves.txt"], 2, "must end in .csv"),
     ],
 )
-def test_mistakes_are_one_sentence(words: list[str], status: int, told: str) -> None:
+def test_mistakes_are_one_sentence(words: list[str], status: int, reported: str) -> None:
     done = call(*words)
     assert done.exit_code == status, done.output
-    assert told in " ".join(done.output.split())
+    assert reported in " ".join(done.output.split())
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1

@@ -54,7 +54,7 @@ def test_table_goes_into_a_pipe(pair: tuple[Path, Path], tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(
-    ("words", "status", "told"),
+    ("words", "status", "reported"),
     [
         (["--to", "xml"], 2, "Invalid value"),
         (["--to", "excel", "-o", "a.csv"], 2, "must end in .xlsx"),
@@ -64,13 +64,13 @@ def test_table_goes_into_a_pipe(pair: tuple[Path, Path], tmp_path: Path) -> None
     ],
 )
 def test_mistakes_of_exporting_are_one_sentence(
-    pair: tuple[Path, Path], words: list[str], status: int, told: str
+    pair: tuple[Path, Path], words: list[str], status: int, reported: str
 ) -> None:
     done = call("export", pair[0], *words)
-    assert (done.exit_code, told in done.output) == (status, True), done.output
+    assert (done.exit_code, reported in done.output) == (status, True), done.output
 
 
-def test_damaged_results_are_told(tmp_path: Path) -> None:
+def test_damaged_results_are_reported(tmp_path: Path) -> None:
     (tmp_path / "results.nc").touch()
     for words in (["export", tmp_path, "--to", "csv"], ["report", tmp_path]):
         done = call(*words)
@@ -88,7 +88,7 @@ def test_the_same_results_compare_as_the_same(pair: tuple[Path, Path]) -> None:
 
 
 @pytest.mark.slow
-def test_different_results_are_told_with_their_provenance(pair: tuple[Path, Path]) -> None:
+def test_different_results_are_reported_with_their_provenance(pair: tuple[Path, Path]) -> None:
     done = call("compare", *pair)
     assert done.exit_code == 1
     for words in (

@@ -50,8 +50,8 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any
 
 @pytest.mark.slow
 def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path, dict[str, Any]]) -> None:
-    told = found[1]
-    band, modulus = told["identified"], told["modulus"]
+    reported = found[1]
+    band, modulus = reported["identified"], reported["modulus"]
     assert band["high"] > 100.0 * band["low"]
     omega = np.array(modulus["angular_frequency"])
     inside = (omega >= band["low"]) & (omega <= band["high"])
@@ -59,30 +59,30 @@ def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path
     true = RUBBER.complex_modulus(omega)
     # Three of the standard errors of 5 % that the band claims: one mode is the least smooth of all spectra.
     assert np.all(np.abs(np.abs(found_modulus[inside]) / np.abs(true[inside]) - 1.0) < 0.15)
-    assert told["anchored"]
-    assert told["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01}
-    assert told["family"] == []
-    points, measured = told["points"], vf.read_friction_curves(found[0] / "curves.csv")
+    assert reported["anchored"]
+    assert reported["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01}
+    assert reported["family"] == []
+    points, measured = reported["points"], vf.read_friction_curves(found[0] / "curves.csv")
     assert points["speed"] == measured.speed.tolist()
     # All errors are alike, 1 %, so that residuals are one multiple of what the fit leaves over of ln μ.
     left = np.log(measured.viscoelastic / points["viscoelastic"])
     np.testing.assert_allclose(points["residual"] / left, points["residual"][0] / left[0], rtol=1e-6)
     assert points["residual"][0] * left[0] > 0.0
-    assert len(told["samples"]) == 20
-    assert {len(sample["C"]) for sample in told["samples"]} == {len(told["material"]["tau"])}
-    assert told["inputs"]["anchor_modulus"] == "2.287 MPa"
-    assert not {"ball", "cone", "leave_out_outliers", "zero_error"} & set(told["inputs"])
+    assert len(reported["samples"]) == 20
+    assert {len(sample["C"]) for sample in reported["samples"]} == {len(reported["material"]["tau"])}
+    assert reported["inputs"]["anchor_modulus"] == "2.287 MPa"
+    assert not {"ball", "cone", "leave_out_outliers", "zero_error"} & set(reported["inputs"])
 
 
 @pytest.mark.slow
 def test_the_rubber_is_read_back_by_the_other_commands(found: tuple[Path, dict[str, Any]]) -> None:
-    folder, told = found
+    folder, reported = found
     rubber = vf.read_card(folder / "rubber.json")
-    np.testing.assert_allclose(rubber.modes_at().C, told["material"]["C"], rtol=1e-12)
+    np.testing.assert_allclose(rubber.modes_at().C, reported["material"]["C"], rtol=1e-12)
     fit = rubber.modes_at().fit
     assert fit is not None
     assert fit.from_friction
-    assert fit.frequency_range == (told["identified"]["low"], told["identified"]["high"])
+    assert fit.frequency_range == (reported["identified"]["low"], reported["identified"]["high"])
     shown = CliRunner().invoke(main, ["material", "show", str(folder / "rubber.json"), "--frequency", "10 rad/s"])
     assert shown.exit_code == 0, shown.output
     assert "identified from friction" in shown.output
@@ -111,7 +111,7 @@ def test_the_size_of_a_contact_is_an_anchor_too(option: str, text: str, name: st
     assert (anchor.speed, anchor.load, anchor.temperature) == (1.0, 1.0, 300.0)
 
 
-def test_tables_tell_what_is_identified_and_what_not() -> None:
+def test_tables_show_what_is_identified_and_what_not() -> None:
     from types import SimpleNamespace
 
     from viscofric.report.texts.inverse import family_lines, modulus_lines
@@ -143,7 +143,7 @@ def test_tables_tell_what_is_identified_and_what_not() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "status", "told"),
+    ("words", "status", "reported"),
     [
         (["curves.csv"], 2, "nothing says what the indenter is"),
         (["curves.csv", "--ball", "10 mm", "--anchor-modulus", "2 MPa"], 2, "needs --anchor-frequency too"),
@@ -160,7 +160,7 @@ def test_tables_tell_what_is_identified_and_what_not() -> None:
     ],
 )
 def test_mistakes_are_one_sentence(
-    words: list[object], status: int, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    words: list[object], status: int, reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     same = np.ones(2)
@@ -168,6 +168,6 @@ def test_mistakes_are_one_sentence(
     vf.write_friction_curves(measured, tmp_path / "curves.csv")
     done = call(*words)
     assert done.exit_code == status, done.output
-    assert told in done.output
+    assert reported in done.output
     assert "Traceback" not in done.output
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1

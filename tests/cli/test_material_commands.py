@@ -67,7 +67,7 @@ def test_what_fit_writes_is_the_same_rubber(fitted: tuple[Path, str]) -> None:
     np.testing.assert_allclose(factors.log10_values, again.shift_factors.log10_values, atol=1e-12)
 
 
-def test_the_report_tells_the_command_that_made_it(fitted: tuple[Path, str]) -> None:
+def test_the_report_shows_the_command_that_made_it(fitted: tuple[Path, str]) -> None:
     folder, _ = fitted
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert "viscofric material fit" in page
@@ -173,7 +173,7 @@ def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "reported"),
     [
         (["fit", "nothing.csv", "--reference", "30 degC"], "nothing.csv: no such file"),
         (["fit", EXAMPLE, "--reference", "30"], "reference_temperature"),
@@ -191,10 +191,10 @@ def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
     ],
 )
 def test_mistakes_are_one_sentence(
-    words: list[object], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    words: list[object], reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     done = call(*words)
     assert done.exit_code in (1, 2)
-    assert told in done.output
+    assert reported in done.output
     assert "Traceback" not in done.output

@@ -116,7 +116,7 @@ def test_separated_curves_are_read_back_as_they_are(tmp_path: Path) -> None:
     np.testing.assert_array_equal(again.viscoelastic_error, curves.viscoelastic_error)
 
 
-def test_one_direction_of_slip_needs_an_assumption_which_is_told(tmp_path: Path) -> None:
+def test_one_direction_of_slip_needs_an_assumption_which_is_reported(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", slips=(1,))
     assert call("measure", path).exit_code == 1
     found = record("measure", path, "--coulomb", COULOMB, "--coulomb-error", "0.001")
@@ -127,7 +127,7 @@ def test_one_direction_of_slip_needs_an_assumption_which_is_told(tmp_path: Path)
     assert "assumed" in call("measure", path, "--coulomb", COULOMB).stdout
 
 
-def test_coulomb_friction_that_is_not_needed_is_told(tmp_path: Path) -> None:
+def test_coulomb_friction_that_is_not_needed_is_reported(tmp_path: Path) -> None:
     done = call("measure", runs(tmp_path / "runs.csv"), "--coulomb", "45")
     assert done.exit_code == 0, done.output
     assert "The given Coulomb friction is not used" in done.stderr
@@ -160,7 +160,7 @@ def test_measure_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -
 
 
 @pytest.mark.parametrize(
-    ("words", "status", "told"),
+    ("words", "status", "reported"),
     [
         (["measure"], 2, "Missing argument"),
         (["measure", "nothing.csv"], 1, "nothing.csv: no such file"),
@@ -177,13 +177,13 @@ def test_measure_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -
     ],
 )
 def test_mistakes_are_one_sentence(
-    words: list[object], status: int, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    words: list[object], status: int, reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     runs(tmp_path / "runs.csv")
     done = call(*words)
     assert done.exit_code == status, done.output
-    assert told in done.output
+    assert reported in done.output
     assert "Traceback" not in done.output
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
 
@@ -260,7 +260,7 @@ def test_the_best_law_says_why_and_how_well_it_fits(tmp_path: Path) -> None:
     assert record("master", path, "--law", "wlf")["law_explanation"] is None
 
 
-def test_friction_below_zero_is_told(tmp_path: Path) -> None:
+def test_friction_below_zero_is_reported(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv")
     measured = vf.read_friction_curves(path)
     vf.write_friction_curves(replace(measured, viscoelastic=-measured.viscoelastic), path)
@@ -268,7 +268,7 @@ def test_friction_below_zero_is_told(tmp_path: Path) -> None:
     assert "Viscoelastic friction is below zero at 32 of 32 points" in done.output
 
 
-def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
+def test_curves_without_overlap_show_no_factor(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", [303.15, 363.15])
     alone = call("master", path)
     assert alone.exit_code == 1
@@ -276,12 +276,12 @@ def test_curves_without_overlap_tell_no_factor(tmp_path: Path) -> None:
     beside = call("master", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
     assert beside.exit_code == 0, beside.output
     assert "No shift factors from friction" in beside.output
-    told = record("master", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
+    reported = record("master", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
     law = vf.synthetic_fluoroelastomer().shift
     assert law is not None
-    assert not told["found"]
-    assert told["covariance"] is None
-    np.testing.assert_allclose(told["log10_shift_factor"], law.log10(np.array([303.15, 363.15])), atol=1e-12)
+    assert not reported["found"]
+    assert reported["covariance"] is None
+    np.testing.assert_allclose(reported["log10_shift_factor"], law.log10(np.array([303.15, 363.15])), atol=1e-12)
     refused = call("master", path, "--shift", "synthetic fluoroelastomer", "--out", tmp_path / "alpha.csv")
     assert refused.exit_code == 1
     assert "alpha.csv is not written" in refused.output
@@ -307,7 +307,7 @@ def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "status", "told"),
+    ("words", "status", "reported"),
     [
         (["master", "nothing.csv"], 1, "nothing.csv: no such file"),
         (["master", "curves.csv", "runs.csv"], 1, "runs.csv is none"),
@@ -322,7 +322,7 @@ def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
     ],
 )
 def test_mistakes_of_shifting_are_one_sentence(
-    words: list[object], status: int, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    words: list[object], status: int, reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     runs(tmp_path / "runs.csv")
@@ -330,5 +330,5 @@ def test_mistakes_of_shifting_are_one_sentence(
     (tmp_path / "mu.csv").write_text(text.replace("viscoelastic friction", "mu"), encoding="utf-8")
     done = call(*words)
     assert done.exit_code == status, done.output
-    assert told in done.output
+    assert reported in done.output
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1

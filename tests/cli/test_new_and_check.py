@@ -84,7 +84,7 @@ def test_run_file_comes_from_standard_input_and_goes_to_standard_output() -> Non
     assert (bad.exit_code, bad.stderr) == (1, "Error: standard input: is not UTF-8 text; save it as UTF-8.\n")
 
 
-def test_check_tells_all_mistakes_at_once(tmp_path: Path) -> None:
+def test_check_shows_all_mistakes_at_once(tmp_path: Path) -> None:
     text = template_text("ball").replace('"25 N"', '"25 mm"').replace("[solver]", "[solvr]")
     (tmp_path / "study.toml").write_text(text.replace('"90 degC"', '"-300 degC"'), encoding="utf-8")
     result = call("check", tmp_path / "study.toml")
@@ -94,7 +94,7 @@ def test_check_tells_all_mistakes_at_once(tmp_path: Path) -> None:
     assert [line.split(":")[0] for line in lines] == ["  conditions.load", "  conditions.temperature[2]", "  solvr"]
 
 
-def test_check_tells_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
+def test_check_shows_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
     text = template_text("measured").replace("dma.csv", "no.csv").replace("mtm.csv", "none.csv")
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
     result = call("check", tmp_path / "study.toml")
@@ -103,7 +103,7 @@ def test_check_tells_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
     assert "none.csv: no such file" in result.stderr
 
 
-def test_check_tells_a_temperature_without_a_shift_factor(tmp_path: Path) -> None:
+def test_check_shows_a_temperature_without_a_shift_factor(tmp_path: Path) -> None:
     call("new", tmp_path, "--template", "ball")
     text = (tmp_path / "study.toml").read_text(encoding="utf-8").replace('"90 degC"', '"400 degC"')
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
@@ -134,7 +134,7 @@ def test_schema_is_printed_or_written_beside_the_run_file(tmp_path: Path) -> Non
         (1e7, "about 120 days"),
     ],
 )
-def test_times_are_told_roughly(seconds: float, words: str) -> None:
+def test_times_are_reported_roughly(seconds: float, words: str) -> None:
     assert duration(seconds) == words
 
 
@@ -146,7 +146,7 @@ def test_each_case_solved_is_each_case_expected(tmp_path: Path) -> None:
     assert (found["cases"], found["expected"]["solves"]) == (93, 93)
 
 
-def test_jobs_that_are_too_small_are_told() -> None:
+def test_jobs_that_are_too_small_are_reported() -> None:
     text = template_text("layer") + '[cluster]\njobs = 2\ncores = 64\nmemory = "1 GB"\nwalltime = "10 ms"\n'
     assert "cluster.walltime" in call("check", "-", given=text).stderr
     result = call("check", "-", given=text.replace("10 ms", "1 s").replace("1e-2", "1e-4"))

@@ -46,7 +46,7 @@ def expected(**arguments: Any) -> vf.ContactSolution:
     return vf.solve_steady(rubber, vf.Ball("10 mm"), **{"speed": "1 m/s", "load": "1 N", **arguments})
 
 
-def test_a_contact_beyond_the_frequencies_of_the_rubber_is_told(tmp_path: Path) -> None:
+def test_a_contact_beyond_the_frequencies_of_the_rubber_is_reported(tmp_path: Path) -> None:
     solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
     fit = SpectrumFit(None, None, True, True, (100.0, 2e3), method="friction")
     vf.write_card(vf.Material(replace(solid, fit=fit)), tmp_path / "rubber.json", format="json")
@@ -94,7 +94,7 @@ def test_every_number_has_a_unit() -> None:
     assert line["errors"]["half_width"] is None
 
 
-def test_words_tell_the_numbers_and_their_errors() -> None:
+def test_words_show_the_numbers_and_their_errors() -> None:
     done = call(*RUBBER, *BALL)
     assert done.exit_code == 0, done.output
     solution = expected()
@@ -185,7 +185,7 @@ def test_a_direction_is_an_angle_or_two_numbers() -> None:
 
 
 @pytest.mark.slow
-def test_the_force_across_the_motion_is_told_with_its_side() -> None:
+def test_the_force_across_the_motion_is_reported_with_its_side() -> None:
     found = record(*OBLIQUE, "--direction", "30 deg")
     assert found["results"]["lateral_friction_coefficient"] < 0.0
     assert "(a force to the right is needed to keep the direction)" in call(*OBLIQUE, "--direction", "30 deg").stdout
@@ -199,7 +199,7 @@ def test_the_force_across_the_motion_is_told_with_its_side() -> None:
 
 
 @pytest.mark.slow
-def test_derivatives_are_told_as_slopes_in_logarithms() -> None:
+def test_derivatives_are_reported_as_slopes_in_logarithms() -> None:
     solution = expected(derivatives=True)
     assert solution.derivatives is not None
     found = record(*RUBBER, *BALL, "--derivatives")["derivatives"]
@@ -210,7 +210,7 @@ def test_derivatives_are_told_as_slopes_in_logarithms() -> None:
         assert found[name] == getattr(solution.derivatives, name)
     words = call(*RUBBER, *BALL, "--derivatives").stdout
 
-    def told(start: str, column: int = -1) -> float:
+    def reported(start: str, column: int = -1) -> float:
         (line,) = (line for line in words.splitlines() if line.startswith(f"  {start}"))
         return float(line.split()[column].replace("−", "-"))
 
@@ -221,10 +221,10 @@ def test_derivatives_are_told_as_slopes_in_logarithms() -> None:
 
     error = solution.derivatives.error / solution.friction_coefficient
     assert 0.0 < error < 0.03
-    assert told("speed") == pytest.approx(slope("speed", "m/s"), abs=error + 1e-2)
-    assert told("load") == pytest.approx(slope("load", "N"), abs=error + 1e-2)
+    assert reported("speed") == pytest.approx(slope("speed", "m/s"), abs=error + 1e-2)
+    assert reported("load") == pytest.approx(slope("load", "N"), abs=error + 1e-2)
     # One mode: times and speed have one effect.
-    assert told("1 ms") == told("speed")
+    assert reported("1 ms") == reported("speed")
     assert words.count("+0.520") == 2  # to the digit that the error is in
     assert "glassy modulus" in words
 
@@ -327,7 +327,7 @@ def test_a_picture_turns_the_indenter_with_its_motion() -> None:
     assert lower[touching] == pytest.approx(np.asarray(surface)[touching], abs=1e-3)
 
 
-def test_pictures_tell_the_conditions() -> None:
+def test_pictures_show_the_conditions() -> None:
     figure = contact_figure(expected(speed="-1 m/s"), vf.Ball("10 mm"), title="A ball")
     assert figure.get_suptitle() == "A ball\n−1 m/s, 1 N: $\\mu$ = −0.05755"
     assert figure.axes[0].get_xlabel() == "← along the motion $x$ (mm)"
@@ -351,7 +351,7 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "status", "told"),
+    ("arguments", "status", "reported"),
     [
         ((*RUBBER, "--ball", "10 mm", "--speed", "1", "--load", "1 N"), 1, "speed = '1': has no unit"),
         ((*RUBBER, "--ball", "10", "--speed", "1 m/s", "--load", "1 N"), 1, "radius = '10'"),
@@ -395,17 +395,17 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
     ids=lambda value: str(value)[:40],
 )
 def test_mistakes_are_one_sentence(
-    arguments: tuple[str, ...], status: int, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    arguments: tuple[str, ...], status: int, reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     done = call(*arguments)
     assert done.exit_code == status, done.output
-    assert told in done.output
+    assert reported in done.output
     assert "Traceback" not in done.output
     assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
 
 
-def test_too_small_a_map_is_told_with_its_file(tmp_path: Path) -> None:
+def test_too_small_a_map_is_reported_with_its_file(tmp_path: Path) -> None:
     np.savetxt(tmp_path / "one.csv", [[1.0, 2.0]], delimiter=",")
     done = call(*RUBBER, *BALL[2:], "--height-map", tmp_path / "one.csv", "--spacing", "1 um")
     assert done.exit_code == 1

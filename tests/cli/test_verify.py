@@ -35,7 +35,7 @@ def test_each_check_is_a_line_with_its_worst_number() -> None:
     assert done.stderr == ""
 
 
-def test_details_tell_every_comparison_and_the_reasons() -> None:
+def test_details_show_every_comparison_and_the_reasons() -> None:
     done = call("--only", "hertz-cylinder", "--details")
     assert done.exit_code == 0, done.output
     assert done.stdout.count("contact width (m)") == 3  # the worst, and both
@@ -54,12 +54,12 @@ def test_a_wide_terminal_gets_a_table(
 
     (check,) = select(CHECKS, ["hertz-cylinder"])
     _table([check.run(), replace(check, name="broken", compare=broken).run()], details)
-    told = " ".join(capsys.readouterr().out.split())
-    assert "hertz-cylinder" in told
-    assert "passed" in told
-    assert "FAILED" in told
-    assert "no window" in told
-    assert told.count("5.0e-03 rel.") == (2 if details else 1)
+    reported = " ".join(capsys.readouterr().out.split())
+    assert "hertz-cylinder" in reported
+    assert "passed" in reported
+    assert "FAILED" in reported
+    assert "no window" in reported
+    assert reported.count("5.0e-03 rel.") == (2 if details else 1)
 
 
 def test_json_holds_everything() -> None:
@@ -75,7 +75,7 @@ def test_json_holds_everything() -> None:
             assert one["passed"] == (one["error"] <= one["bound"])
 
 
-def test_a_wrong_engine_is_told_with_status_one(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_engine_is_reported_with_status_one(monkeypatch: pytest.MonkeyPatch) -> None:
     original = SlidingSolid.transfer
     monkeypatch.setattr(SlidingSolid, "transfer", lambda *arguments: 1.03 * original(*arguments))
     done = call(*CHEAP)

@@ -251,7 +251,7 @@ def test_threads_are_whole_numbers(threads: int) -> None:
         Backend("scipy", threads=threads)
 
 
-def test_ffts_have_one_thread_unless_told_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ffts_have_one_thread_unless_set_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(THREADS_VARIABLE, raising=False)
     assert Backend().threads == 1
     monkeypatch.setenv(THREADS_VARIABLE, "2")

@@ -217,7 +217,7 @@ def test_two_ways_to_friction_agree_better_on_finer_grids() -> None:
     assert disagreement(3e-5) < 0.5 * disagreement(1e-2)
 
 
-def test_diagnostics_tell_the_work_and_the_residuals() -> None:
+def test_diagnostics_show_the_work_and_the_residuals() -> None:
     diagnostics = SLS.solve(tolerance=1e-9).diagnostics
     assert diagnostics.complementarity <= 1e-9
     assert diagnostics.load < 1e-12  # scaled to the load: round-off

@@ -170,7 +170,7 @@ def test_single_precision_takes_the_steps_of_double_where_long_waves_yield_a_mil
     assert steps[1] <= 1.5 * steps[0]
 
 
-def test_failure_is_told() -> None:
+def test_failure_is_reported() -> None:
     window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
     height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
     operator = HalfSpaceOperator(window, MATERIALS["one mode"])

@@ -116,7 +116,7 @@ def test_contact_that_moves_any_way_is_the_same_by_the_array_standard(toward: tu
     assert abs(other.diagnostics.ffts - one.diagnostics.ffts) <= 10
 
 
-def test_lag_tells_how_late_short_waves_answer_and_which_way() -> None:
+def test_lag_shows_how_late_short_waves_answer_and_which_way() -> None:
     points = 128
     late = {way: lag(sliding(points, way).transfer, points, (1.0, 0.0)) for way in ((30.0, 0.0), (-30.0, 0.0))}
     assert late[30.0, 0.0] == -late[-30.0, 0.0]

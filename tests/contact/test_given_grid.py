@@ -73,7 +73,7 @@ def test_line_contact_takes_rear_and_front() -> None:
     assert solution.x[0] == pytest.approx(-A0 + 0.5 * solution.diagnostics.spacing)
 
 
-def test_contact_beyond_the_window_is_told_in_millimetres() -> None:
+def test_contact_beyond_the_window_is_reported_in_millimetres() -> None:
     with refused("beyond-window") as caught:
         solve(window=(0.1 * A0, 1.5 * A0, 1.25 * A0))
     assert "mm behind the axis" in str(caught.value)

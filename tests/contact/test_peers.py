@@ -69,7 +69,7 @@ def answer_of(tool: str, given: dict[str, Any], heights: Array) -> dict[str, Arr
     return arrays
 
 
-def test_peers_that_are_named_but_not_there_are_told() -> None:
+def test_peers_that_are_named_but_not_there_are_reported() -> None:
     with pytest.raises(others.PeerError, match=r"make_peers\.sh"):
         others.ask("tamaas", {}, np.zeros((2, 2)), Path("no such python"), 1.0)
 

@@ -531,7 +531,7 @@ def test_wrong_surfaces_are_refused(z: object) -> None:
 
 
 @pytest.mark.parametrize(("amplitude", "doubtful"), [(0.06, False), (0.08, True)])
-def test_steep_surfaces_are_told(amplitude: float, doubtful: bool) -> None:
+def test_steep_surfaces_are_reported(amplitude: float, doubtful: bool) -> None:
     """In full contact the rms slope of a wave is 2πΔ/λ√2: 0.27 and 0.36, one below the bound of 0.3, one above."""
     wave = PeriodicSurface(amplitude * np.cos(2.0 * np.pi * np.arange(32) / 32), 1.0 / 32)
     solution = solve_periodic(broad(), wave, speed=1.0, pressure=100.0)
@@ -539,7 +539,7 @@ def test_steep_surfaces_are_told(amplitude: float, doubtful: bool) -> None:
     assert any("rises by" in warning for warning in solution.warnings) == doubtful
 
 
-def test_a_layer_pressed_deeply_is_told() -> None:
+def test_a_layer_pressed_deeply_is_reported() -> None:
     """A mean pressure of E0 compresses the layer by (1+ν)(1−2ν)/(1−ν), far more than waves a thousandth as high."""
     wave = PeriodicSurface(1e-3 * np.cos(2.0 * np.pi * np.arange(32) / 32), 1.0 / 32)
     deep, shallow = (

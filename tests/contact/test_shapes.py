@@ -360,7 +360,7 @@ def test_contact_beyond_the_height_map_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("indenter", "arguments", "told"),
+    ("indenter", "arguments", "reported"),
     [
         (Cone("20 deg"), {"load": LOAD}, "0.36"),
         (Ellipsoid(BALL_RADIUS, 0.1 * BALL_RADIUS), {"load": 10.0 * LOAD}, "rises by"),
@@ -369,10 +369,10 @@ def test_contact_beyond_the_height_map_is_refused() -> None:
     ],
     ids=["cone", "ellipsoid", "punch", "map"],
 )
-def test_steep_indenters_are_a_warning(indenter: Indenter, arguments: dict[str, float], told: str) -> None:
+def test_steep_indenters_are_a_warning(indenter: Indenter, arguments: dict[str, float], reported: str) -> None:
     solution = solve_steady(RUBBER, indenter, speed=0.0, **arguments)
     assert len(solution.warnings) == 1
-    assert told in solution.warnings[0]
+    assert reported in solution.warnings[0]
     assert "small strain" in solution.warnings[0]
 
 

@@ -27,7 +27,7 @@ def test_a_prediction_too_high_everywhere_has_that_bias() -> None:
     assert "10.0 % above" in str(agreement)
 
 
-def test_each_temperature_is_told_apart() -> None:
+def test_each_temperature_is_distinguished() -> None:
     """±10 % at 30 °C has no bias but a root mean square; −5 % at 60 °C is within twice the combined error."""
     measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02), error=4e-4)
     predicted = friction_curves(SPEED, TEMPERATURE, 0.02 * np.array([1.1, 0.9, 0.95, 0.95]), error=3e-4)
@@ -104,9 +104,9 @@ def test_the_bias_scatters_as_its_standard_error_says() -> None:
         measured = friction_curves(speed, temperature, truth * (1 + 0.03 * random.standard_normal(count)), error=9e-4)
         predicted = friction_curves(speed, temperature, truth * (1 + 0.02 * random.standard_normal()))
         found.append(compare(measured, replace(predicted, material_error=0.02 * truth)))
-    told = np.mean([one.bias_error for one in found])
+    reported = np.mean([one.bias_error for one in found])
     # A standard deviation from 400 values is good to 1/√800 = 3.5 %; three times that.
-    assert np.std([one.bias for one in found]) == pytest.approx(told, rel=0.11)
+    assert np.std([one.bias for one in found]) == pytest.approx(reported, rel=0.11)
 
 
 def test_an_unknown_error_is_said_to_be_unknown() -> None:
@@ -117,7 +117,7 @@ def test_an_unknown_error_is_said_to_be_unknown() -> None:
     assert "of unknown standard error" in str(agreement)
 
 
-def test_the_scatter_of_replicates_is_told_where_there_are_any() -> None:
+def test_the_scatter_of_replicates_is_reported_where_there_are_any() -> None:
     measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02))
     assert compare(measured, measured).share_within_scatter is None
     repeated = replace(
@@ -203,7 +203,7 @@ def test_runs_that_are_not_separated_yet_are_no_friction_curves(what: str) -> No
         uses[what]()
 
 
-def test_errors_that_are_not_known_tell_no_share() -> None:
+def test_errors_that_are_not_known_show_no_share() -> None:
     """Else every prediction, however wrong, would be within twice an infinite error."""
     measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02), error=np.full(4, np.inf))
     predicted = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.03))

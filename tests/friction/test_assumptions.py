@@ -80,10 +80,12 @@ def test_four_contact_radii_do_not_do_for_a_broad_spectrum() -> None:
     assert check.value < 0.25
     assert check.holds is False
     assert check.limit < check.value
-    told = re.search(r"is about (.*) % lower than on the half-space, the indentation about (.*) % smaller", str(check))
-    assert told is not None
-    assert float(told[1]) == pytest.approx(less, rel=0.07)
-    assert float(told[2]) == pytest.approx(sunk, rel=0.1)
+    reported = re.search(
+        r"is about (.*) % lower than on the half-space, the indentation about (.*) % smaller", str(check)
+    )
+    assert reported is not None
+    assert float(reported[1]) == pytest.approx(less, rel=0.07)
+    assert float(reported[2]) == pytest.approx(sunk, rel=0.1)
     assert "4 contact radii, 9.3 mm, and more, cannot be taken as a half-space" in str(check)
     # thicker rubber, as it tells, does
     enough = float(re.search(r"about (\S+) mm for friction within 5 %", str(check))[1])  # type: ignore[index]
@@ -118,7 +120,7 @@ def test_a_line_contact_does_not_forget_the_thickness() -> None:
     assert "the indentation of a line contact cannot be compared" in str(said)
 
 
-def test_without_a_thickness_the_one_that_serves_is_told() -> None:
+def test_without_a_thickness_the_one_that_serves_is_reported() -> None:
     check = checks(RUBBER, BALL, solved_curves(), contact_radius="2.4 mm")["half-space"]
     assert (check.value, check.holds) == (None, None)
     assert "above 4 contact radii, 9.6 mm" in check.sentence
@@ -191,7 +193,7 @@ def test_a_maximum_on_the_way_is_seen() -> None:
     assert change.min() > 0.01
 
 
-def test_a_hot_contact_is_told() -> None:
+def test_a_hot_contact_is_reported() -> None:
     """The same under PTFE, which is no better a conductor than the rubber."""
     measured = replace(curves(), coulomb=np.full(4, 0.5), slip=0.2 * SPEED)
     check = checks(RUBBER, BALL, measured, contact_radius="2 mm")["one temperature"]
@@ -276,7 +278,7 @@ def test_coupling_is_that_of_an_elastic_layer_on_a_bonded_base(poisson_ratio: fl
     ("poisson_ratio", "thickness", "holds"),
     [(0.5, None, True), (0.5, "20 mm", True), (0.5, "2 mm", False), (0.49, None, True), (0.3, None, False)],
 )
-def test_coulomb_friction_that_changes_the_pressure_is_told(
+def test_coulomb_friction_that_changes_the_pressure_is_reported(
     poisson_ratio: float, thickness: str | None, holds: bool
 ) -> None:
     """0.5 (1 − 2ν)/(2(1 − ν)) on half-spaces; rubber as thick as the contact is wide couples whatever ν is."""

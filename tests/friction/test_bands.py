@@ -152,7 +152,7 @@ def test_the_misfit_counts_at_the_frequency_of_the_contact(measured) -> None:
     assert curves.material_error[0] == pytest.approx(expected * curves.viscoelastic[0], rel=1e-4)
 
 
-def test_a_wide_band_and_a_foreign_one_are_told() -> None:
+def test_a_wide_band_and_a_foreign_one_are_reported() -> None:
     rubber = vf.synthetic_fluoroelastomer()
     softer, stiffer = (replace(rubber, spectrum=rubber.spectrum.shifted(1.0, b)) for b in (0.4, 2.0))
     notes = predicted(rubber, drawn_from(softer, stiffer), 333.15, 0.1).notes
@@ -198,7 +198,7 @@ def test_samples_that_do_not_fit_are_refused(measured) -> None:
 
 
 @pytest.mark.slow
-def test_what_is_told_is_how_far_the_truth_is_off() -> None:
+def test_what_is_reported_is_how_far_the_truth_is_off() -> None:
     """True friction of the planted rubber, in standard errors told, over eight measurements of it with 1 % noise.
 
     Sixteen of them, two of each measurement being alike in part, have a root mean square of 1 ± 0.2; within two and a

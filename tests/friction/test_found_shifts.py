@@ -151,9 +151,9 @@ def test_widened_steps_keep_the_reference_and_the_other_steps() -> None:
 
 
 @pytest.mark.slow
-def test_shifts_of_marginal_overlap_are_told_and_their_errors_hold() -> None:
+def test_shifts_of_marginal_overlap_are_reported_and_their_errors_hold() -> None:
     """Of two temperatures that are found once in four times: when chance moved them together."""
-    off, told = [], 0
+    off, reported = [], 0
     for seed in range(100):
         curves = made(power, 50.0, 60.0, speeds=np.geomspace(0.02, 0.2, 8), noise=0.05, seed=seed)
         try:
@@ -161,16 +161,16 @@ def test_shifts_of_marginal_overlap_are_told_and_their_errors_hold() -> None:
         except SuperpositionError:
             continue
         off.append(deviation(master.shift_factors)[1] / master.shift_factors.standard_errors[1])
-        told += "marginal-overlap" in codes(master.notes)
+        reported += "marginal-overlap" in codes(master.notes)
     assert 15 <= len(off) <= 45
-    assert told >= 0.8 * len(off)
+    assert reported >= 0.8 * len(off)
     assert np.mean(np.abs(off) <= 1.96) >= 0.9
     # Without what having been found says of them they are off by 0.85 standard errors on average.
     assert abs(np.mean(off)) < 0.7
 
 
 @pytest.mark.slow
-def test_errors_that_a_temperature_shares_are_counted_if_told() -> None:
+def test_errors_that_a_temperature_shares_are_counted_if_reported() -> None:
     """Levels off by 1 % move α by many times what the scatter of the points does; told of, intervals hold again."""
     law = planted_law()
     inside: dict[float, list[bool]] = {0.0: [], 0.01: []}
@@ -178,8 +178,8 @@ def test_errors_that_a_temperature_shares_are_counted_if_told() -> None:
         plain = synthetic_curves(30.0, 35.0, 40.0, noise=0.01, seed=seed)
         level = np.repeat(1.0 + 0.01 * np.random.default_rng(seed).standard_normal(3), 10)
         curves = replace(plain, viscoelastic=level * plain.viscoelastic)
-        for told, found in inside.items():
-            factors = shift_friction(curves, level_error=told, reference="30 degC").shift_factors
+        for reported, found in inside.items():
+            factors = shift_friction(curves, level_error=reported, reference="30 degC").shift_factors
             found += list(np.abs(deviation(factors, law))[1:] < 1.96 * factors.standard_errors[1:])
     # 40 values, some of them correlated: 95 % to within three of their standard deviations, 4 %.
     assert np.mean(inside[0.01]) > 0.83
@@ -196,7 +196,7 @@ def test_the_papers_three_temperatures_do_not_overlap(noise: float) -> None:
             shift_friction(synthetic_curves(30.0, 60.0, 90.0, noise=noise, seed=seed))
 
 
-def test_a_temperature_that_reaches_no_other_is_left_out_and_told() -> None:
+def test_a_temperature_that_reaches_no_other_is_left_out_and_reported() -> None:
     for seed in range(5):
         master = shift_friction(synthetic_curves(30.0, 35.0, 40.0, 90.0, noise=NOISE, seed=seed))
         np.testing.assert_allclose(master.shift_factors.temperatures, [303.15, 308.15, 313.15])
@@ -220,7 +220,7 @@ def test_of_two_groups_that_of_the_reference_counts() -> None:
 
 
 @pytest.mark.parametrize("noise", [0.0, NOISE])
-def test_friction_that_does_not_depend_on_speed_tells_no_shift(noise: float) -> None:
+def test_friction_that_does_not_depend_on_speed_shows_no_shift(noise: float) -> None:
     """One false alarm in 20 would be too many; 60 seeds of each of two gave none."""
     for seed in range(20 if noise else 1):
         with pytest.raises(SuperpositionError) as caught:
@@ -316,7 +316,7 @@ def test_an_alpha_that_rises_with_temperature_is_refused() -> None:
         shift_friction(mixed_up)
 
 
-def test_many_temperatures_are_told_by_their_range() -> None:
+def test_many_temperatures_are_reported_by_their_range() -> None:
     with refused("curves-too-flat", SuperpositionError) as caught:
         shift_friction(made(constant, *np.arange(30.0, 49.0, 2.0)))
     assert "10 temperatures from 30.0 to 48.0 °C" in str(caught.value)

@@ -98,7 +98,7 @@ def _without(runs: TractionRuns, rows: np.ndarray) -> TractionRuns:
 @pytest.mark.slow
 @pytest.mark.parametrize("size", [1, 30])
 def test_sound_tests_are_seldom_doubted_however_many_conditions_they_have(size: int) -> None:
-    told = 0
+    reported = 0
     tests = 80 // size + 10
     for seed in range(tests):
         runs = traction_runs(
@@ -109,9 +109,9 @@ def test_sound_tests_are_seldom_doubted_however_many_conditions_they_have(size: 
             noise=0.05,
             seed=seed,
         )
-        told += bool(codes(separate(runs).notes) & {"inconsistent", "negative-friction"})
+        reported += bool(codes(separate(runs).notes) & {"inconsistent", "negative-friction"})
     # Once in 370 by chance for each kind.
-    assert told <= 2
+    assert reported <= 2
 
 
 def test_a_reversed_sliding_direction_is_found_by_the_consistency() -> None:

@@ -146,7 +146,7 @@ def test_other_loads_without_a_rule_are_refused() -> None:
         master(0.1, load="50 N")
 
 
-def test_what_lies_outside_is_told_beforehand() -> None:
+def test_what_lies_outside_is_reported_beforehand() -> None:
     master = shift_friction(made(np.full(30, 25.0)))
     low, high = master.reduced_range
     kelvin = master.reference

@@ -99,7 +99,7 @@ def test_smoothing_averages_noise_and_says_how_well() -> None:
     assert np.mean(values) == pytest.approx(0.03, rel=0.005)
 
 
-def test_overlap_is_exact_without_noise_and_tells_noise() -> None:
+def test_overlap_is_exact_without_noise_and_shows_noise() -> None:
     exact = shift_friction(shifted_curves(), shift=LAW)
     # A cubic spline through 9 intervals of a decade; h⁴/384 of the fourth derivative, more at the ends.
     assert exact.overlap_rms == pytest.approx(0.0, abs=1e-3)

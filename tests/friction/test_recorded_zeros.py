@@ -116,7 +116,7 @@ def test_errors_of_the_recorded_zeros_are_in_the_standard_errors(own: bool) -> N
 
 
 @pytest.mark.slow
-def test_the_error_of_a_zero_that_all_replicates_share_is_told_by_the_other_recordings() -> None:
+def test_the_error_of_a_zero_that_all_replicates_share_is_reported_by_the_other_recordings() -> None:
     """Each speed in one step: no scatter shows what is wrong with its zero, of which viscoelastic friction is made."""
     held = {"viscoelastic": 0, "coulomb": 0}
     for seed in range(20):
@@ -443,7 +443,7 @@ def test_degrees_of_freedom_of_recorded_zeros(count: int) -> None:
     )
 
 
-def test_drift_is_told_with_its_size_in_friction() -> None:
+def test_drift_is_reported_with_its_size_in_friction() -> None:
     runs = _one_after_the_other(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=6, noise=0.01), 10.0)
     assert runs.time is not None
     drifting = replace(runs, traction_force=runs.traction_force + 0.5 * runs.time / 3600.0)
@@ -482,15 +482,15 @@ def test_the_error_of_a_drift_is_in_the_standard_errors() -> None:
 
 
 def test_steady_zeros_are_seldom_said_to_drift() -> None:
-    told = 0
+    reported = 0
     for seed in range(40):
         runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=4, noise=0.05, speeds=[0.1], seed=seed)
-        told += any("force cell" in note for note in separate(_one_after_the_other(runs, 10.0)).notes)
+        reported += any("force cell" in note for note in separate(_one_after_the_other(runs, 10.0)).notes)
     # A rate is told once in 370 tests by chance, uneven motion about as often: 0.2 expected.
-    assert told <= 2
+    assert reported <= 2
 
 
-def test_a_zero_that_jumps_between_series_is_told_but_no_drift_is_made_of_it() -> None:
+def test_a_zero_that_jumps_between_series_is_reported_but_no_drift_is_made_of_it() -> None:
     runs = _one_after_the_other(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=6, noise=0.01), 10.0)
     jumps = 0.3 * np.array([0, 1, -1, 2, 0, -2, 1])[runs.replicate]
     curves = separate(replace(runs, traction_force=runs.traction_force + jumps))
@@ -499,10 +499,12 @@ def test_a_zero_that_jumps_between_series_is_told_but_no_drift_is_made_of_it() -
     assert "moves unevenly" in note
 
 
-def test_a_given_zero_that_the_configurations_contradict_is_told() -> None:
+def test_a_given_zero_that_the_configurations_contradict_is_reported() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, noise=0.02, offset=0.3)
-    (told,) = [note for note in separate(runs, zero="0.5 N").notes if note.code == "given-zero-contradicted"]
-    assert re.search(r"0\.5 N, is used, though the configurations at 6 conditions give another one, 0\.(29|30)", told)
+    (reported,) = [note for note in separate(runs, zero="0.5 N").notes if note.code == "given-zero-contradicted"]
+    assert re.search(
+        r"0\.5 N, is used, though the configurations at 6 conditions give another one, 0\.(29|30)", reported
+    )
     assert "given-zero-contradicted" not in codes(separate(runs, zero=("0.3 N", "0.02 N")).notes)
     # One direction of the disc tells no zero.
     forwards = runs.select(runs.disc_speed > 0.0)

@@ -57,7 +57,7 @@ def test_the_slope_holds_what_its_error_says(stretch: float) -> None:
     assert slope.mean() == pytest.approx(stretch, abs=4 * slope.std() / np.sqrt(200))
 
 
-def test_different_factors_are_told_apart() -> None:
+def test_different_factors_are_distinguished() -> None:
     agreement = compare_shift_factors(factors(0.02, np.random.default_rng(1), stretch=1.3), LAW)
     assert agreement.p_value < 1e-6
     assert abs(agreement.slope - 1.3) < 4.0 * agreement.slope_error

@@ -79,7 +79,7 @@ def test_errors_of_constant_coulomb_friction_are_those_of_both_speeds() -> None:
         np.testing.assert_allclose(curves.coulomb_error[here], lowest, rtol=1e-12)  # type: ignore[index]
 
 
-def test_what_the_signs_tell_is_not_assumed() -> None:
+def test_what_the_signs_show_is_not_assumed() -> None:
     """Only the temperature with one direction of slip is; nothing changes where there are four configurations."""
     whole = traction_runs(viscoelastic=lambda v, T: 0.03, coulomb=0.08, temperatures=[363.15])
     runs = runs_from(np.concatenate([rows_of(one_way()), rows_of(whole)]))
@@ -101,7 +101,7 @@ def test_both_disc_directions_at_one_slip_need_no_zero_with_a_known_coulomb_fric
         separate(runs, coulomb="constant")
 
 
-def test_one_speed_tells_nothing_of_constant_coulomb_friction() -> None:
+def test_one_speed_shows_nothing_of_constant_coulomb_friction() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=[(1, 1)], speeds=[0.1])
     with refused("one-speed"):
         separate(runs, zero=0.3, coulomb="constant")

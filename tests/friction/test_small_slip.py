@@ -35,9 +35,9 @@ def swept_runs(slip_error: float) -> TractionRuns:
 def test_slip_that_is_not_reversed_in_a_point_of_a_sweep_counts_as_none() -> None:
     """Recorded 1.2 % too small, slips below that are recorded with one sign in both readings of a point."""
     curves = separate(swept_runs(0.012))
-    (told,) = [note for note in curves.notes if note.code == "slip-not-reversed"]
+    (reported,) = [note for note in curves.notes if note.code == "slip-not-reversed"]
     # 3 steps with 2 or 3 of 40 ratios between 0.2 and 1.2 %, two readings each; noise of 0.2 % moves one or two.
-    assert 6 <= int(told.split()[1]) <= 24
+    assert 6 <= int(reported.split()[1]) <= 24
     assert curves.coulomb is not None
     assert curves.slip is not None
     sliding = curves.slip > 0.05 * curves.speed
@@ -72,10 +72,10 @@ def test_rolling_with_unnoticed_slip_is_left_out_where_sliding_contradicts_it(un
         seed=3,
     )
     curves = separate(runs_from(np.concatenate([rows_of(sliding), rows_of(rolling)])))
-    told = [note for note in curves.notes if note.code == "unnoticed-slip"]
+    reported = [note for note in curves.notes if note.code == "unnoticed-slip"]
     assert curves.slip is not None
     assert (len(curves), np.count_nonzero(curves.slip == 0.0)) == ((6, 0) if unnoticed else (12, 6))
     # Noise of 0.01 N over 25 N and the root of 8 readings or more; five standard errors.
     np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=5 * 0.01 / 25.0 / np.sqrt(8))
-    assert len(told) == (6 if unnoticed else 0)
-    assert all("0.05 ±" in note and "0.03 ±" in note for note in told)
+    assert len(reported) == (6 if unnoticed else 0)
+    assert all("0.05 ±" in note and "0.03 ±" in note for note in reported)

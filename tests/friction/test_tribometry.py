@@ -410,13 +410,13 @@ def test_values_without_gaps_are_refused_with_what_helps(field: str) -> None:
     assert curves.viscoelastic == pytest.approx([0.03], rel=ROUNDING)
 
 
-def test_a_drift_of_the_temperature_is_separated_with_the_tolerance_that_is_told() -> None:
+def test_a_drift_of_the_temperature_is_separated_with_the_tolerance_that_is_reported() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, speeds=[0.1], temperatures=[303.15], replicates=30)
     runs = replace(runs, temperature=303.15 + 0.15 * runs.replicate)
     with refused("no-gap") as caught:
         separate(runs)
-    (told,) = re.findall(r"give temperature_tolerance = (\S+) K", str(caught.value))
-    assert separate(runs, temperature_tolerance=float(told)).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
+    (caught,) = re.findall(r"give temperature_tolerance = (\S+) K", str(caught.value))
+    assert separate(runs, temperature_tolerance=float(caught)).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
     ((middle, half),) = re.findall(r"runs\.select\(abs\(runs\.temperature - (\S+)\) < (\S+)\)", str(caught.value))
     steady = runs.select(abs(runs.temperature - float(middle)) < float(half))
     assert separate(steady).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
@@ -595,7 +595,7 @@ def test_fifty_thousand_readings_take_seconds() -> None:
     assert curves.notes == ()
 
 
-def test_outliers_are_told_from_the_scatter_of_loads() -> None:
+def test_outliers_are_distinguished_from_the_scatter_of_loads() -> None:
     """Loads that jitter by 2 % move forces by 0.03 N, and an offset of 30 N by none of that: 0.1 N stand out."""
     runs = traction_runs(
         viscoelastic=lambda v, T: 0.03, offset=30.0, load_jitter=0.02, noise=0.002, replicates=8, seed=2

@@ -154,6 +154,6 @@ def test_half_a_replicate_is_refused() -> None:
         (lambda: _predict(temperatures=5.0), "plain numbers are kelvin"),
     ],
 )
-def test_what_was_meant_is_told(call: Callable[[], object], said: str) -> None:
+def test_what_was_meant_is_reported(call: Callable[[], object], said: str) -> None:
     with pytest.raises(vf.InputError, match=said):
         call()

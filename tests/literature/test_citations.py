@@ -97,7 +97,7 @@ def test_sweeps_become_a_rubber() -> None:
     assert keys(vf.sample_materials(fit, spectrum, samples=20)) == {"efron1993"}
 
 
-def test_friction_curves_tell_predicted_from_measured() -> None:
+def test_friction_curves_distinguish_predicted_from_measured() -> None:
     assert keys(curves()) == POINT
     assert keys(curves(load_unit="N/m")) == LINE
     assert keys(curves(material_error=np.ones(30))) == POINT | {"efron1993", "giles2000"}
@@ -220,11 +220,11 @@ TEXT = "\n".join(path.read_text("utf-8") for path in SOURCE.rglob("*.py") if pat
 def test_citation_file_names_the_software_and_the_paper() -> None:
     """As pyproject.toml does: same authors, same licence; keys are those that CFF 1.2.0 knows and asks for."""
     root = Path(__file__).parents[2]
-    told = yaml.safe_load((root / "CITATION.cff").read_text("utf-8"))
+    reported = yaml.safe_load((root / "CITATION.cff").read_text("utf-8"))
     project = tomllib.loads((root / "pyproject.toml").read_text("utf-8"))["project"]
-    assert {"cff-version", "message", "title", "authors"} <= set(told)
-    assert set(told) <= {"cff-version", "message", "title", "authors", "abstract", "type", "license", "keywords"}
-    assert told["title"] == project["name"]
-    assert told["authors"] == project["authors"]
-    assert told["license"] == project["license"]
-    assert PAPER.title in told["abstract"]
+    assert {"cff-version", "message", "title", "authors"} <= set(reported)
+    assert set(reported) <= {"cff-version", "message", "title", "authors", "abstract", "type", "license", "keywords"}
+    assert reported["title"] == project["name"]
+    assert reported["authors"] == project["authors"]
+    assert reported["license"] == project["license"]
+    assert PAPER.title in reported["abstract"]

@@ -183,7 +183,7 @@ def test_sweeps_run_at_two_amplitudes_are_not_averaged(tmp_path):
         read_dma(write(tmp_path, twice, STRAIN))
 
 
-def test_an_amplitude_that_changes_along_a_sweep_is_told(tmp_path):
+def test_an_amplitude_that_changes_along_a_sweep_is_reported(tmp_path):
     def strained(ratio):
         return read_dma(write(tmp_path, [(*row, 1.0 if row[1] < 1.0 else ratio) for row in rows()], STRAIN))
 
@@ -234,13 +234,13 @@ def test_temperatures_that_cannot_be_parted_are_refused(tmp_path):
         read_dma(write(tmp_path, points))
 
 
-def test_heating_and_cooling_are_told_with_how_far_they_lie_apart(tmp_path):
+def test_heating_and_cooling_are_reported_with_how_far_they_lie_apart(tmp_path):
     sweeps = read_dma(write(tmp_path, rows() + rows(factor=1.04)[::-1]))
     assert notes_with(sweeps, "measured-again", "at 0.0, 20.0 and 40.0 °C") != []
     assert notes_with(sweeps, "repeats-differ", "4 %") != []
 
 
-def test_a_rubber_that_softens_when_it_cools_is_told(tmp_path):
+def test_a_rubber_that_softens_when_it_cools_is_reported(tmp_path):
     assert notes_with(read_dma(write(tmp_path, rows())), "stiffer-when-warmer") == []
     mirrored = [(40.0 - T, *rest) for T, *rest in rows()]
     assert notes_with(read_dma(write(tmp_path, mirrored)), "stiffer-when-warmer") != []
@@ -312,7 +312,7 @@ def test_a_frequency_in_reciprocal_seconds_is_asked_for(tmp_path):
         read_dma(osc)
 
 
-def test_logarithms_and_liquids_are_told(tmp_path):
+def test_logarithms_and_liquids_are_reported(tmp_path):
     logs = [(T, f, math.log10(1e6 * a), math.log10(1e6 * b)) for T, f, a, b in rows()]
     assert notes_with(read_dma(write(tmp_path, logs, HEADER.replace("MPa", "Pa"))), "logarithms") != []
     liquid = [(T, f, a, 20.0 * a) for T, f, a, _ in rows()]
@@ -321,17 +321,17 @@ def test_logarithms_and_liquids_are_told(tmp_path):
     assert notes_with(plain, "logarithms") == notes_with(plain, "columns-swapped") == []
 
 
-def test_a_strain_without_unit_is_told(tmp_path):
+def test_a_strain_without_unit_is_reported(tmp_path):
     points = [(*row, 0.01) for row in rows()]
-    told = read_dma(write(tmp_path, points, HEADER + ",strain"))
-    assert notes_with(told, "strain-without-unit", "'strain'") != []
-    assert told.isotherms[0].strain_amplitude == pytest.approx(np.full(6, 0.01), rel=1e-12)
+    reported = read_dma(write(tmp_path, points, HEADER + ",strain"))
+    assert notes_with(reported, "strain-without-unit", "'strain'") != []
+    assert reported.isotherms[0].strain_amplitude == pytest.approx(np.full(6, 0.01), rel=1e-12)
     unread = read_dma(write(tmp_path, points, HEADER + ",strain (mm)"))
     assert unread.isotherms[0].strain_amplitude is None
     assert notes_with(unread, "strain-amplitude-not-read", "'strain (mm)'") != []
 
 
-def test_a_strain_without_unit_in_an_interval_is_told(tmp_path):
+def test_a_strain_without_unit_in_an_interval_is_reported(tmp_path):
     text = "\n".join(rheocompass.lines(rheocompass.ENGLISH)).replace("[%]", "[]")
     path = tmp_path / "export.txt"
     path.write_text(text + "\n", encoding="utf-8")

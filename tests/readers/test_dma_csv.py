@@ -129,7 +129,7 @@ def test_repeated_readings_are_averaged(tmp_path):
     assert sweeps.isotherms[0].loss_modulus == pytest.approx([6e5, 9e5])
 
 
-def test_isotherms_are_told_by_gaps_in_measured_temperature(tmp_path):
+def test_isotherms_are_reported_by_gaps_in_measured_temperature(tmp_path):
     sweeps = read_dma(write(tmp_path, HEADER, "19.8,1,5,1", "20.3,2,5,1", "24.9,1,4,1", "25.2,2,4,1"))
     assert sweeps.temperatures - 273.15 == pytest.approx([20.05, 25.05])  # their means
 
@@ -221,7 +221,7 @@ def test_what_is_wrong_is_said_in_one_sentence(tmp_path, lines, refusal):
     assert "\n" not in str(caught.value)
 
 
-def test_missing_file_folder_and_binary_are_told_apart(tmp_path):
+def test_missing_file_folder_and_binary_are_distinguished(tmp_path):
     with refused("no-such-file"):
         read_dma(tmp_path / "absent.csv")
     with refused("folder"):
@@ -292,7 +292,7 @@ def test_angular_frequency_is_known_in_the_users_language(tmp_path):
         assert sweeps.isotherms[0].angular_frequency == pytest.approx([1.0, 10.0], rel=1e-12)
 
 
-def test_shear_and_tension_are_told_in_the_users_language(tmp_path):
+def test_shear_and_tension_are_reported_in_the_users_language(tmp_path):
     header = "Temperatur (°C);Frequenz (Hz);Speicherschubmodul (MPa);Verlustschubmodul (MPa)"
     assert read_dma(write(tmp_path, header, *(row.replace(",", ";") for row in ROWS))).deformation == "shear"
 
@@ -362,11 +362,11 @@ def test_a_modulus_without_unit_is_read_in_the_unit_that_is_given(tmp_path):
         read_dma(write(tmp_path, bare, *ROWS), modulus_unit="mm")
 
 
-def test_a_temperature_is_given_or_told_by_the_name_of_the_file(tmp_path):
+def test_a_temperature_is_given_or_reported_by_the_name_of_the_file(tmp_path):
     lines = ["frequency (Hz),E' (MPa),E'' (MPa)", "1,5,0.5", "2,6,0.6"]
-    told = read_dma(write(tmp_path, *lines, name="foam_-25C.csv"))
-    assert told.temperatures == pytest.approx([248.15])
-    assert noted(told.notes, "temperature-from-name", "file's")
+    reported = read_dma(write(tmp_path, *lines, name="foam_-25C.csv"))
+    assert reported.temperatures == pytest.approx([248.15])
+    assert noted(reported.notes, "temperature-from-name", "file's")
     given = read_dma(write(tmp_path, *lines, name="foam_30C.csv"), temperature="-25 degC")
     assert given.temperatures == pytest.approx([248.15])
     assert noted(given.notes, "temperature-given")

@@ -49,7 +49,7 @@ def test_missing_number_in_a_column_that_is_not_needed_does_no_harm(tmp_path):
     assert len(read(saved(tmp_path, tables))) == len(points())
 
 
-def test_row_without_modulus_is_left_out_and_told(tmp_path):
+def test_row_without_modulus_is_left_out_and_reported(tmp_path):
     tables = raw_tables()
     tables["Exported Data"][4][6] = "---"
     readings = read(saved(tmp_path, tables))
@@ -97,11 +97,11 @@ def test_frequency_that_no_shift_explains_is_refused(tmp_path):
         read(saved(tmp_path, tables))
 
 
-@pytest.mark.parametrize(("lost", "told"), [("Shiftlist", "Shiftlist"), ("Data header", "range of frequencies")])
-def test_master_curve_that_cannot_be_taken_apart_is_refused(tmp_path, lost, told):
+@pytest.mark.parametrize(("lost", "reported"), [("Shiftlist", "Shiftlist"), ("Data header", "range of frequencies")])
+def test_master_curve_that_cannot_be_taken_apart_is_refused(tmp_path, lost, reported):
     tables = master_tables()
     del tables[lost]
-    with refused("master-curve-inseparable", None, "10.0 °C", told):
+    with refused("master-curve-inseparable", None, "10.0 °C", reported):
         read(saved(tmp_path, tables))
 
 
@@ -130,14 +130,14 @@ def test_list_may_name_isotherms_without_rows(tmp_path):
         (0, 7, "loss", ("missing-columns", None, "\"E''\"")),
     ],
 )
-def test_damaged_sheet_is_told(tmp_path, row, column, cell, refusal):
+def test_damaged_sheet_is_reported(tmp_path, row, column, cell, refusal):
     tables = raw_tables()
     tables["Exported Data"][row][column] = cell
     with refused(*refusal):
         read(saved(tmp_path, tables))
 
 
-def test_damaged_list_is_told(tmp_path):
+def test_damaged_list_is_reported(tmp_path):
     tables = master_tables()
     tables["Shiftlist"][4][1] = "much"
     with refused("shift-list", None, "'Shiftlist'", "row 5"):

@@ -72,7 +72,7 @@ def test_every_reading_is_in_one_isotherm_or_left_out():
 
 
 @pytest.mark.parametrize("step", [0.1, 0.2, 0.5])
-def test_heating_that_was_recorded_finely_is_told_from_holding(step):
+def test_heating_that_was_recorded_finely_is_distinguished_from_holding(step):
     celsius, hertz = programme([20.0, 30.0, 40.0], scatter=0.02)
     heating = np.arange(20.0, 30.0, step) + step / 2
     celsius = np.concatenate([celsius[:9], heating, celsius[9:18], heating + 10.0, celsius[18:]])
@@ -138,7 +138,7 @@ def test_one_temperature_in_two_files_is_one_isotherm():
     assert sweeps.isotherms[0].angular_frequency == pytest.approx(2 * math.pi * FREQUENCIES)
 
 
-def test_a_steady_drift_is_told_and_scatter_is_not():
+def test_a_steady_drift_is_reported_and_scatter_is_not():
     drifting = isothermal_sweeps([readings(20.0 + np.linspace(0.0, 0.8, 9), FREQUENCIES)])
     assert notes_with(drifting, "temperature-drifts", "0.8 K", "20.4 °C") != []
     scattering = isothermal_sweeps([readings(20.0 + 0.4 * np.cos(np.pi * np.arange(9)), FREQUENCIES)])
@@ -201,7 +201,7 @@ def test_mostly_negative_storage_moduli_are_refused():
         isothermal_sweeps([readings(np.full(9, 20.0), FREQUENCIES, bad)])
 
 
-def test_strain_amplitudes_that_differ_between_isotherms_are_told():
+def test_strain_amplitudes_that_differ_between_isotherms_are_reported():
     celsius, hertz = programme([20.0, 30.0, 40.0])
     same, differing = np.full(27, 1e-3), np.repeat([1e-3, 2e-3, 5e-3], 9)
     assert notes_with(isothermal_sweeps([readings(celsius, hertz, strain_amplitude=same)]), "amplitudes-differ") == []
@@ -210,7 +210,7 @@ def test_strain_amplitudes_that_differ_between_isotherms_are_told():
     assert sweeps.isotherms[2].strain_amplitude == pytest.approx(np.full(9, 5e-3))
 
 
-def test_repeated_readings_that_disagree_are_told():
+def test_repeated_readings_that_disagree_are_reported():
     hertz = np.array([1.0, 2.0, 2.0, 3.0])
     near, far = np.array([1.0, 2.0, 2.02, 3.0]), np.array([1.0, 2.0, 2.4, 3.0])
     agreeing, differing = (isothermal_sweeps([readings(np.full(4, 20.0), hertz, 1e6 * E)]) for E in (near, far))
@@ -225,9 +225,9 @@ def test_files_that_contradict_each_other_are_refused():
     with refused("deformation-contradicts", None, "b.txt", "a.txt"):
         isothermal_sweeps([one, other])
     silent = readings(np.full(9, 30.0), FREQUENCIES, source="c.txt", deformation=None)
-    told = isothermal_sweeps([one, silent])
-    assert told.deformation == "tension"
-    assert notes_with(told, "deformation-not-said", "c.txt", "tension") != []
+    reported = isothermal_sweeps([one, silent])
+    assert reported.deformation == "tension"
+    assert notes_with(reported, "deformation-not-said", "c.txt", "tension") != []
 
 
 def test_notes_that_files_share_stand_once():
@@ -252,7 +252,7 @@ def test_a_soft_noisy_sample_keeps_what_can_be_used(real_data):
     assert len(sweeps.notes) < 12
 
 
-def test_strain_amplitudes_that_differ_by_a_third_are_told():
+def test_strain_amplitudes_that_differ_by_a_third_are_reported():
     celsius, hertz = programme([20.0, 30.0])
     differing = np.repeat([1e-3, 1.3e-3], 9)
     sweeps = isothermal_sweeps([readings(celsius, hertz, strain_amplitude=differing)])

@@ -33,7 +33,7 @@ def test_a_text_table_is_sorted_and_carries_its_reference(tmp_path):
     assert curve.temperature == pytest.approx([298.15] * 3)
 
 
-def test_temperatures_of_the_isotherms_are_kept_where_a_column_tells_them(tmp_path):
+def test_temperatures_of_the_isotherms_are_kept_where_a_column_shows_them(tmp_path):
     lines = ["f (Hz),E' (MPa),E'' (MPa),T (°C)", *(f"{row},{T}" for row, T in zip(ROWS, (60, -20, 25), strict=True))]
     curve = read_master_curve(write(tmp_path, *lines), 298.15)
     assert curve.temperature - 273.15 == pytest.approx([60.0, 25.0, -20.0])

@@ -87,7 +87,7 @@ def test_negative_moduli_are_handed_on():
         (0, "1" * 5000, ("not-a-number", 4)),
     ],
 )
-def test_damaged_cell_is_told(place, cell, refusal):
+def test_damaged_cell_is_reported(place, cell, refusal):
     lines = block(10.0)
     cells = lines[3].split()
     cells[place] = cell
@@ -96,14 +96,14 @@ def test_damaged_cell_is_told(place, cell, refusal):
         mettler.read(written(lines))
 
 
-def test_row_cut_short_is_told():
+def test_row_cut_short_is_reported():
     lines = block(10.0)
     lines[-1] = lines[-1][:100]
     with refused("row-length", 7, "7 cells", "12 columns"):
         mettler.read(written(lines))
 
 
-def test_unit_of_another_kind_is_told():
+def test_unit_of_another_kind_is_reported():
     lines = block(10.0)
     lines[1] = lines[1].replace("[Hz]", "[N] ")
     with refused("wrong-unit", None, "'f'", "'N'"):

@@ -163,7 +163,7 @@ def test_the_last_row_may_be_cut_short(tmp_path):
     assert "step 3, row 3" in note(runs, "cut-short")
 
 
-def test_a_test_that_was_aborted_is_told(tmp_path):
+def test_a_test_that_was_aborted_is_reported(tmp_path):
     text = "\n".join(pcs.mtm())
     text = text.replace("All steps completed, test completed normally at", "Test aborted by user at")
     text = text.replace("completed:\t5", "completed:\t4")
@@ -183,7 +183,7 @@ def test_the_thermometer_can_be_chosen(tmp_path, mtm):
     assert "lube RTD" in note(runs, "thermometer-missing")
 
 
-def test_thermometers_that_disagree_are_told(tmp_path):
+def test_thermometers_that_disagree_are_reported(tmp_path):
     lines = [line.replace("\t42.0\t40.0\t", "\t120.0\t13.0\t") for line in pcs.mtm()]
     runs = read_mtm(pcs.write(tmp_path, lines))
     assert "13.0 °C on average, but the pot RTD reads 120.0 °C; thermometer='pot'" in note(runs, "thermometers-differ")
@@ -215,7 +215,7 @@ def test_what_the_file_says_twice_is_compared(tmp_path):
     assert "step 3, row 1" in note(runs, "force-contradicts")
 
 
-def test_speeds_that_do_not_fit_the_printed_slip_are_told(tmp_path):
+def test_speeds_that_do_not_fit_the_printed_slip_are_reported(tmp_path):
     runs = read_mtm(changed(tmp_path, "\t18.00", "\t28.00"))
     assert "step 2, row 1" in note(runs, "sliding-speed-contradicts")
 
@@ -258,7 +258,7 @@ def test_a_file_without_a_single_force_is_refused(tmp_path):
         read_mtm(pcs.write(tmp_path, pcs.step(1, "MAPPER", [], "10:00:00")))
 
 
-def test_rows_without_force_or_load_are_left_out_and_told(tmp_path):
+def test_rows_without_force_or_load_are_left_out_and_reported(tmp_path):
     path = changed(tmp_path, "\t25.000", "\t-0.012")
     runs = read_mtm(path)
     assert len(runs) == 23

@@ -193,7 +193,7 @@ def test_times_of_tables_begin_anew_with_each_file(tmp_path):
     assert noted(runs.notes[-1:], "date-unknown")
 
 
-def test_a_file_of_no_known_kind_and_an_empty_one_are_told(tmp_path):
+def test_a_file_of_no_known_kind_and_an_empty_one_are_reported(tmp_path):
     path = tmp_path / "some.bin"
     path.write_bytes(bytes(range(256)))
     with refused("unknown-format", None, "some.bin"):

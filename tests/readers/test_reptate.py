@@ -29,7 +29,7 @@ def test_a_sweep_is_read_with_its_measured_temperature_and_strain(tmp_path):
     assert isotherm.strain_amplitude == pytest.approx(np.full(5, 0.0199))
 
 
-def test_without_a_column_the_first_line_tells_the_temperature(tmp_path):
+def test_without_a_column_the_first_line_shows_the_temperature(tmp_path):
     path = write(tmp_path, "T=40;Mw=88;", "Freq\tG'\tG''", "[Hz]\t[kPa]\t[kPa]", "1 5 0.5", "2 6 0.6")
     (isotherm,) = read_dma(path).isotherms
     assert isotherm.temperature == pytest.approx(313.15)

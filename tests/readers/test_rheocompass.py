@@ -13,9 +13,9 @@ from viscofric.readers.dma.instruments import rheocompass
 from viscofric.readers.source import Source
 
 
-def written(text, encoding="utf-16", **told):
+def written(text, encoding="utf-16", **reported):
     body = text if isinstance(text, str) else "\n".join(text) + "\n"
-    return Source("export.csv", body.encode(encoding), **told)
+    return Source("export.csv", body.encode(encoding), **reported)
 
 
 def table(readings):
@@ -68,7 +68,7 @@ def test_delimiter_is_that_of_the_file(mark):
     assert np.allclose(table(rheocompass.read(written(text))), np.array(points()), rtol=1e-7)
 
 
-def test_thousands_are_told_from_decimals():
+def test_thousands_are_distinguished_from_decimals():
     english = sweep([["25.0", "1", "1,234.5", "1,000"], ["25.0", "10", "12,345.6", "200"]])
     german = sweep([["25,0", "1", "1.234,5", "1.000"], ["25,0", "10", "12.345,6", "200"]])
     for text in (english, german):
@@ -96,7 +96,7 @@ def test_strain_is_a_fraction(unit, factor):
     assert np.allclose(readings.strain_amplitude, 0.5 * factor, rtol=1e-12)
 
 
-def test_names_that_tell_no_deformation_leave_it_open():
+def test_names_that_show_no_deformation_leave_it_open():
     assert rheocompass.read(written(sweep(ROWS))).deformation is None
 
 
@@ -131,13 +131,13 @@ def test_marked_points_and_wave_forms_are_no_points():
     assert noted(readings.notes, "points-left-out", "1 point", "marked")
 
 
-def test_point_without_modulus_is_left_out_and_told():
+def test_point_without_modulus_is_left_out_and_reported():
     readings = rheocompass.read(written(sweep([*ROWS, ["25.0", "100", "", "9"]])))
     assert len(readings) == 2
     assert noted(readings.notes, "points-left-out", "empty", "line 7")
 
 
-def test_interval_stopped_early_is_told():
+def test_interval_stopped_early_is_reported():
     text = sweep(ROWS)
     text[0] = "Interval and data points:\t1\t20"
     assert noted(rheocompass.read(written(text)).notes, "points-missing", "20 points", "18")
@@ -160,12 +160,12 @@ def test_file_that_breaks_off_is_refused(cut):
         (["25.0", "5", "inf", "100"], ("not-a-number", 5, "'inf'")),
     ],
 )
-def test_damaged_cell_is_told(row, refusal):
+def test_damaged_cell_is_reported(row, refusal):
     with refused(*refusal):
         rheocompass.read(written(sweep([row, *ROWS])))
 
 
-def test_unit_of_another_kind_is_told():
+def test_unit_of_another_kind_is_reported():
     with refused("wrong-unit", 1, "'Storage Modulus'", "'N'"):
         rheocompass.read(written(sweep(ROWS, units=("[°C]", "[rad/s]", "[N]", "[Pa]"))))
     with refused("wrong-unit", 1, "'Angular Frequency'", "'Hz'"):

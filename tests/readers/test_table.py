@@ -41,7 +41,7 @@ def test_decimal_commas_in_columns_without_a_unit_alone(tmp_path):
 
 
 @pytest.mark.parametrize("line", ["sep=;", '"sep=;"', "SEP=;"])
-def test_a_line_that_tells_excel_the_delimiter_is_no_header(tmp_path, line):
+def test_a_line_that_shows_excel_the_delimiter_is_no_header(tmp_path, line):
     sweeps = read_dma(write(tmp_path, line, HEADER, "20;0,1;5,5;0,5", "20;1;6,5;0,5"))
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
 

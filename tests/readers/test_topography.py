@@ -85,7 +85,7 @@ def test_points_in_any_order_find_their_grid_and_holes_stay_holes(tmp_path):
     np.testing.assert_allclose(found.heights[there], 1e-9 * HEIGHTS[there], atol=1e-15)
 
 
-def test_points_without_headings_are_told_from_a_matrix_by_the_spacing(tmp_path):
+def test_points_without_headings_are_distinguished_from_a_matrix_by_the_spacing(tmp_path):
     x, y = np.meshgrid(np.arange(6.0), np.arange(4.0), indexing="ij")
     text = "\n".join(f"{a} {b} {c:.4f}" for a, b, c in zip(x.flat, y.flat, HEIGHTS.flat, strict=True))
     points = vf.read_topography(write(tmp_path, text), unit="um")
@@ -93,7 +93,7 @@ def test_points_without_headings_are_told_from_a_matrix_by_the_spacing(tmp_path)
     assert vf.read_topography(write(tmp_path, text), spacing="1 um").shape == (24, 3)
 
 
-def test_metres_are_taken_for_what_has_no_unit_and_that_is_told(tmp_path):
+def test_metres_are_taken_for_what_has_no_unit_and_that_is_reported(tmp_path):
     points = write(tmp_path, "0,1e-6\n1e-5,2e-6\n2e-5,0\n")
     assert vf.read_topography(points).history[1:] == ("positions and heights assumed to be in m",)
     matrix = write(tmp_path, matrix_text())
@@ -112,7 +112,7 @@ def test_a_line_scan_with_uneven_positions_is_interpolated_and_says_so(tmp_path)
     assert found.history[1] == "5 uneven positions interpolated linearly onto 6 even ones"
 
 
-def test_missing_heights_are_told_by_words_or_by_a_number(tmp_path):
+def test_missing_heights_are_reported_by_words_or_by_a_number(tmp_path):
     path = write(tmp_path, "1,2,NaN\n4,-9999,6\n7,8,\n")
     found = vf.read_topography(path, spacing="1 um", missing=-9999)
     np.testing.assert_array_equal(np.isnan(found.heights), [[0, 0, 1], [0, 1, 0], [0, 0, 1]])

@@ -28,8 +28,8 @@ WRITERS = {
 }
 
 
-def read(path, **told):
-    found = Source(str(path), path.read_bytes(), **told)
+def read(path, **reported):
+    found = Source(str(path), path.read_bytes(), **reported)
     ours = [one for one in (universal_analysis, trios_json, trios_text) if one.recognises(found)]
     assert len(ours) == 1
     return ours[0].read(found)
@@ -133,7 +133,7 @@ def test_columns_stand_in_any_order(tmp_path, order, layout):
     ],
 )
 @pytest.mark.parametrize("layout", ["lims", "json"])
-def test_geometry_tells_tension_from_shear(tmp_path, layout, geometry, deformation, said_by):
+def test_geometry_distinguishes_tension_from_shear(tmp_path, layout, geometry, deformation, said_by):
     names = tuple(name for name in trios.COLUMNS if name != "Oscillation torque")
     readings = read(WRITERS[layout](tmp_path, geometry=geometry, names=names))
     assert readings.deformation == deformation

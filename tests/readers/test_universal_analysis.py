@@ -105,7 +105,7 @@ def test_rows_of_negative_time_are_events_and_no_points(tmp_path):
         ("no word of it", None),
     ],
 )
-def test_clamp_tells_tension_from_shear(tmp_path, clamp, deformation):
+def test_clamp_distinguishes_tension_from_shear(tmp_path, clamp, deformation):
     readings = read(q800.write_text(tmp_path, clamp=clamp))
     assert readings.deformation == deformation
     assert readings.said_by == (f"Xcomment {clamp!r}" if deformation else "")
@@ -148,7 +148,7 @@ def test_torn_record_is_left_out_and_noted(tmp_path):
     assert len(readings.notes) == len(noted(readings.notes, "cut-short", f"Record {len(POINTS[0])}")) == 1
 
 
-def test_records_behind_an_event_of_a_binary_file_are_told(tmp_path):
+def test_records_behind_an_event_of_a_binary_file_are_reported(tmp_path):
     path = q800.write_binary(tmp_path, footer=b"")
     later = np.full(3 * len(q800.SIGNALS), 50.0, dtype="<f4")  # later than the last time, as data would be
     path.write_bytes(path.read_bytes() + later.tobytes())

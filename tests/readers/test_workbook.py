@@ -108,7 +108,7 @@ def test_sheets_of_several_temperatures_are_joined_and_others_refused(tmp_path):
         read_dma(twice)
 
 
-def test_the_name_of_a_sheet_may_tell_the_temperature(tmp_path):
+def test_the_name_of_a_sheet_may_show_the_temperature(tmp_path):
     sheets = {f"{T} °C": [HEADER[1:], [1, 5 - T / 20, 0.5], [2, 6 - T / 20, 0.6]] for T in (-10, 20)}
     sweeps = read_dma(write(tmp_path / "a.xlsx", sheets))
     assert sweeps.temperatures - 273.15 == pytest.approx([-10.0, 20.0])
@@ -218,7 +218,7 @@ def test_a_truth_value_is_no_number(tmp_path):
         read_dma(path)
 
 
-def test_a_hidden_sheet_with_moduli_is_told(tmp_path):
+def test_a_hidden_sheet_with_moduli_is_reported(tmp_path):
     import xlsxwriter
 
     path = tmp_path / "hidden.xlsx"
@@ -253,7 +253,7 @@ def test_more_cells_than_any_measurement_are_refused(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("python", ["", "/no/such/python"])
-def test_a_python_that_does_not_start_is_told(tmp_path, monkeypatch, python):
+def test_a_python_that_does_not_start_is_reported(tmp_path, monkeypatch, python):
     path = one_sheet(tmp_path)
     monkeypatch.setattr(sys, "executable", python)
     with refused("no-parser"):

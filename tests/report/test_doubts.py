@@ -65,8 +65,8 @@ def test_isotherms_left_out_are_said_in_what_was_asked(tree: xr.DataTree) -> Non
 def test_caption_claims_one_curve_only_as_far_as_it_was_tested(make_tree: Callable[..., xr.DataTree]) -> None:
     assert "one curve" not in captions(make_tree())["friction_master_curve"]
     note = Note("curves-apart", "The curves do not overlap.")
-    told = captions(make_tree(notes=json.dumps(records(["Else.", note]))))["friction_master_curve"]
-    assert told.endswith(note)
+    reported = captions(make_tree(notes=json.dumps(records(["Else.", note]))))["friction_master_curve"]
+    assert reported.endswith(note)
 
 
 @pytest.mark.parametrize(("origin", "said"), [("synthetic", True), ("measured", False)])

@@ -110,7 +110,7 @@ def test_legends_of_synthetic_data_call_nothing_measured(tree: xr.DataTree, monk
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("unrendered")
-def test_figures_that_cannot_be_written_are_told(tree: xr.DataTree, tmp_path: Path) -> None:
+def test_figures_that_cannot_be_written_are_reported(tree: xr.DataTree, tmp_path: Path) -> None:
     (tmp_path / "figures").write_text("a file where the folder should be")
     with pytest.raises(DataFileError, match="cannot be written"):
         report.draw_figures(tree, tmp_path / "figures")

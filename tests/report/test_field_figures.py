@@ -22,12 +22,14 @@ RUBBER = vf.Material.standard_linear_solid("3 MPa", "30 MPa", "1 ms")
 SPEEDS = (1e-3, 1.0, 1e3)  # m/s: slow, about the maximum, fast
 
 
-def fields_of(solution: Any, **told: Any) -> xr.Dataset:
+def fields_of(solution: Any, **reported: Any) -> xr.Dataset:
     fields = solution.to_dataset()
     fields.attrs = {}
     units = {"speed": "m/s", "temperature": "K", "load": "N"}
-    told = {"speed": solution.speed, "temperature": 303.15, "load": solution.load, **told}
-    return fields.assign_coords({name: ((), value, {"units": units.get(name, "1")}) for name, value in told.items()})
+    reported = {"speed": solution.speed, "temperature": 303.15, "load": solution.load, **reported}
+    return fields.assign_coords(
+        {name: ((), value, {"units": units.get(name, "1")}) for name, value in reported.items()}
+    )
 
 
 @pytest.fixture(scope="module")

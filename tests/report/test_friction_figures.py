@@ -126,7 +126,7 @@ def test_coulomb_friction_that_was_not_measured_is_refused(axes: Axes) -> None:
         report.plot_coulomb_friction(axes, curves(coulomb=False))
 
 
-def test_nothing_to_draw_is_told(axes: Axes) -> None:
+def test_nothing_to_draw_is_reported(axes: Axes) -> None:
     for plot in (report.plot_friction_curves, report.plot_friction_master_curve):
         with pytest.raises(vf.InputError, match="no friction to draw"):
             plot(axes)

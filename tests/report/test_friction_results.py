@@ -58,8 +58,8 @@ def check(tree: xr.DataTree, name: str) -> tuple[str, str]:
 def test_shift_factors_of_friction_are_judged_by_their_probability(
     tree: xr.DataTree, p_value: float, verdict: str
 ) -> None:
-    told = check(with_friction_shifts(tree, p_value), "Shift factors from friction")
-    assert told == (verdict, "The shift factors agree within their errors.")
+    reported = check(with_friction_shifts(tree, p_value), "Shift factors from friction")
+    assert reported == (verdict, "The shift factors agree within their errors.")
 
 
 def test_friction_does_not_test_the_rubber_identified_from_it(tree: xr.DataTree) -> None:

@@ -84,7 +84,7 @@ def test_page_has_every_part(tree: xr.DataTree, tmp_path: Path) -> None:
     _, page = write(tree, tmp_path)
     ids = page.attributes("id")
     assert len(ids) == len(set(ids))
-    assert {"asked", "answer", "checks", "figures", "tables", "reproduce"} <= set(ids)
+    assert {"scope", "answer", "checks", "figures", "tables", "reproduce"} <= set(ids)
     assert {f"figure-{name}" for name in ("friction_against_speed", "master_curve", "isotherms")} <= set(ids)
     assert page.count("img") == 10
     assert all(page.attributes("alt"))
@@ -275,7 +275,7 @@ def test_many_speeds_are_thinned_at_a_glance_only(make_tree: Callable[..., xr.Da
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("unrendered", "few_figures")
-def test_report_that_cannot_be_written_is_told(tree: xr.DataTree, tmp_path: Path) -> None:
+def test_report_that_cannot_be_written_is_reported(tree: xr.DataTree, tmp_path: Path) -> None:
     (tmp_path / "report.html").mkdir()
     with pytest.raises(DataFileError, match=r"report\.html: cannot be written \(.*director"):
         report.write_report(tree, tmp_path)

@@ -21,7 +21,7 @@ def test_failures_of_one_code_are_one_line() -> None:
     assert "and 14 more): the error is 0.0002, not 0.001." in line
 
 
-def test_few_failures_are_told_one_by_one() -> None:
+def test_few_failures_are_reported_one_by_one() -> None:
     assert grouped_failures([], 5) == []
     assert grouped_failures([Note("", "Something else."), Note("", "no.", "30 °C, 20 mm/s")], 5) == [
         "Something else.",

@@ -114,7 +114,7 @@ def test_errors_above_the_accuracy_are_pointed_out(make_study: Callable[..., xr.
     assert " 84 of 84 " in check.words
 
 
-def test_highest_friction_of_each_load_is_told_at_a_glance(make_study: Callable[..., xr.DataTree]) -> None:
+def test_highest_friction_of_each_load_is_reported_at_a_glance(make_study: Callable[..., xr.DataTree]) -> None:
     tree = make_study(STUDIES["loads"])
     glance = friction_at_a_glance(tree)
     assert glance is not None
@@ -211,8 +211,8 @@ def test_kept_fields_of_a_rough_surface_are_drawn_on_a_whole_period(
     if "fields" in found.children:
         del found["fields"]
     places = {name: (name, 1e-5 * np.arange(count)) for name, count in zip("xy", points, strict=True)}
-    told = {"seed": 2, "mean_pressure": 5e4, "temperature": 333.15, "speed": 0.1}
-    found["fields/1"] = xr.DataTree(xr.Dataset({"pressure": (("x", "y"), pressure)}, places | told))
+    reported = {"seed": 2, "mean_pressure": 5e4, "temperature": 333.15, "speed": 0.1}
+    found["fields/1"] = xr.DataTree(xr.Dataset({"pressure": (("x", "y"), pressure)}, places | reported))
     figure = contacts(found)
     assert figure is not None
     axes = figure.axes[0]

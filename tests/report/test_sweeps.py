@@ -118,7 +118,7 @@ def test_failed_cases_and_samples_do_not_count_as_solved(make_sweep: Make) -> No
     assert solved_cases(nothing) is None
 
 
-def test_results_told_case_by_case_are_laid_out_too(make_tree: Callable[..., xr.DataTree]) -> None:
+def test_results_reported_case_by_case_are_laid_out_too(make_tree: Callable[..., xr.DataTree]) -> None:
     friction = labelled(make_tree())
     assert friction is not None
     assert dict(friction.sizes) == {"temperature": 3, "speed": 7}

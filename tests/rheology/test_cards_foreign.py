@@ -60,20 +60,20 @@ def test_abaqus_card_in_megapascal(tmp_path):
     assert card.material.shift.log10("50 degC") == pytest.approx(-8.86 * 30 / 131.6)
 
 
-def test_abaqus_moduli_are_long_term_unless_told(tmp_path):
+def test_abaqus_moduli_are_long_term_unless_stated(tmp_path):
     card = opened(tmp_path, ABAQUS.replace(", MODULI=INSTANTANEOUS", ""), modulus_unit="MPa", time_unit="s")
     assert pytest.approx(60e6) == card.material.spectrum.E0
     assert card.material.spectrum.E_inf == pytest.approx(60e6 / 0.2)
 
 
-def test_abaqus_units_that_are_not_told_are_noted(tmp_path):
+def test_abaqus_units_that_are_not_stated_are_noted(tmp_path):
     card = opened(tmp_path, ABAQUS)
     assert card.material.spectrum.E_inf == pytest.approx(60.0)
     assert card.notes[0].startswith("The card does not state its units; Pa and s were assumed")
     assert card.notes[1] == "The reference temperature 20 has no unit; °C was assumed."
-    with pytest.warns(UserWarning, match="card: The ") as told:
+    with pytest.warns(UserWarning, match="card: The ") as caught:
         read_card(tmp_path / "card")
-    assert [str(one.message) for one in told] == [f"{tmp_path / 'card'}: {note}" for note in card.notes]
+    assert [str(one.message) for one in caught] == [f"{tmp_path / 'card'}: {note}" for note in card.notes]
 
 
 def test_abaqus_elastic_bulk_is_exact_and_its_poisson_ratio_noted(tmp_path):
@@ -134,7 +134,7 @@ def test_abaqus_arrhenius_has_its_own_gas_constant_and_zero(tmp_path):
     assert shift.log10("50 degC") == pytest.approx(expected)
 
 
-def test_abaqus_subroutines_and_other_keywords_are_told(tmp_path):
+def test_abaqus_subroutines_and_other_keywords_are_reported(tmp_path):
     text = ABAQUS.replace("*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=USER\n*MULLINS EFFECT\n1.1, 2., 0.1")
     card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s")
     assert card.material.shift is None
@@ -287,7 +287,7 @@ def test_ls_dyna_wlf_multiplies_time(tmp_path):
     assert "check the sign of A" in wrong.notes[0]
 
 
-def test_ls_dyna_long_format_is_told_by_keyword_or_deck(tmp_path):
+def test_ls_dyna_long_format_is_reported_by_keyword_or_deck(tmp_path):
     lines = [
         "".join(f"{one:>20}" for one in row)
         for row in (("7", "1.1e-9", "2000.0"), ("0",), ("1.0",), ("5.123456789012", "1000.0"))

@@ -168,7 +168,7 @@ def test_comsol_states_how_far_a_constant_bulk_modulus_is_off_at_a_low_poisson_r
     assert "at most 14 percent too stiff" in words(text, "% ")
 
 
-def test_comsol_branches_tell_the_bulk_moduli_in_their_comments(tmp_path):
+def test_comsol_branches_show_the_bulk_moduli_in_their_comments(tmp_path):
     text = written(tmp_path, rubber(poisson_ratio=0.25), "comsol-branches")
     said = words(text, "% ")
     # K = E/1.5 = (5/3) G
@@ -186,7 +186,7 @@ def test_an_incompressible_material_has_no_bulk_modulus_in_comsol(tmp_path):
     assert "Volumetric" not in text
 
 
-def test_a_bulk_modulus_changed_in_comsol_parameters_is_told(tmp_path):
+def test_a_bulk_modulus_changed_in_comsol_parameters_is_reported(tmp_path):
     text = written(tmp_path, rubber(), "comsol")
     assert open_card(tmp_path / "card").notes == ()
     (tmp_path / "card").write_text(re.sub(r"(?m)^K_2 \S+", "K_2 2[GPa]", text))
@@ -267,7 +267,7 @@ def test_formats_that_state_their_units_are_in_si_only(tmp_path, program):
         write_card(rubber(), tmp_path / "card", "abaqus", unit_system="psi")
 
 
-def test_damaged_units_of_a_card_are_told(tmp_path):
+def test_damaged_units_of_a_card_are_reported(tmp_path):
     text = written(tmp_path, rubber(), "abaqus", unit_system="MPa")
     pieces = re.findall(r"viscofric> \|(.*)\|", text)
     whole = "".join(pieces).replace('"unit_system":"MPa"', '"unit_system":"ksi"')

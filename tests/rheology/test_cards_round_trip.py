@@ -107,10 +107,10 @@ def test_a_table_of_shift_factors_becomes_a_law_where_one_is_asked_for(tmp_path,
 
 def test_what_a_card_leaves_out_is_warned_of(tmp_path):
     shifted = replace(rubber(), vertical_shift=DensityShift(298.15))
-    with pytest.warns(UserWarning, match="The card for abaqus") as told:
+    with pytest.warns(UserWarning, match="The card for abaqus") as caught:
         write_card(shifted, tmp_path / "card", "abaqus", domain="frequency")
-    assert codes(one.message.args[0] for one in told) == {"card-without-shift", "card-without-vertical-shift"}
-    assert all(one.filename == __file__ for one in told)
+    assert codes(one.message.args[0] for one in caught) == {"card-without-shift", "card-without-vertical-shift"}
+    assert all(one.filename == __file__ for one in caught)
 
 
 @pytest.mark.parametrize("program", ["abaqus", "comsol", "comsol-branches", "csv", "json"])
@@ -188,7 +188,7 @@ def test_a_glass_a_million_times_stiffer_than_the_rubber_keeps_its_plateau(tmp_p
         assert read_card(path).complex_modulus(OMEGA) == pytest.approx(material.complex_modulus(OMEGA), rel=1e-12)
 
 
-def test_sixty_modes_come_back_and_ls_dyna_tells_its_limit(tmp_path):
+def test_sixty_modes_come_back_and_ls_dyna_shows_its_limit(tmp_path):
     material = Material(prony(60).to_retardation(), None, 0.45)
     for program in ("abaqus", "ansys", "comsol", "csv", "json"):
         path = write_card(material, tmp_path / "card", program)
@@ -310,7 +310,7 @@ def test_a_poisson_ratio_changed_in_the_card_counts(tmp_path):
 
 
 @pytest.mark.parametrize("program", FINITE_ELEMENTS)
-def test_damaged_comments_are_told(tmp_path, program):
+def test_damaged_comments_are_reported(tmp_path, program):
     path = write_card(rubber(), tmp_path / "card", program, density=1100.0)
     lines = path.read_text().splitlines()
     first = next(index for index, line in enumerate(lines) if "viscofric>" in line)
@@ -403,7 +403,7 @@ def changed(tmp_path, change):
         (lambda one: one.update(poisson_ratio="x"), "cannot be made of"),
     ],
 )
-def test_a_wrong_material_file_is_told_what_is_wrong(tmp_path, change, says):
+def test_a_wrong_material_file_is_reported_with_its_fault(tmp_path, change, says):
     with pytest.raises(DataFileError, match=says):
         read_card(changed(tmp_path, change))
 

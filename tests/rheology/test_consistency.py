@@ -175,7 +175,7 @@ def test_a_drift_is_what_adds_up():
     assert drift([pair(0, -0.02), pair(1, -0.02), pair(3, -0.02), pair(4, -0.02)]) is None
 
 
-def test_distance_tells_which_isotherm_is_more_lossy():
+def test_distance_shows_which_isotherm_is_more_lossy():
     pair = sweeps(RUBBER.complex_modulus, 0.0, celsius=np.array([80.0, 90.0])).isotherms
     same = neighbour_distances(pair, np.zeros(2))[0]
     # Cubics over two decades follow this rubber to about a thousandth of a decade.
@@ -246,7 +246,7 @@ def test_a_foam_drifts_within_the_reproducibility_of_its_sweeps(real_data):
     assert np.all(away < 2.0 * fit.shift_factors.standard_errors + 1e-3)
 
 
-def test_eva_is_told_as_a_failure(real_data):
+def test_eva_is_reported_as_a_failure(real_data):
     check = check_superposition(of_file(real_data, "eva_shear.csv", "20 degC"))
     assert not check.holds
     assert check.figure_of_merit > 2.0

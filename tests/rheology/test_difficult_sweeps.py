@@ -54,7 +54,7 @@ def test_neighbours_without_overlap_are_counted():
     assert (quality.neighbours, quality.without_overlap, quality.gaps) == (2, 1, (0,))
 
 
-def test_gaps_between_neighbours_are_told():
+def test_gaps_between_neighbours_are_reported():
     # Steps at −30 and −20 °C exceed the two decades of a sweep: what the true law gives does not overlap.
     made = planted_sweeps(0, celsius=EXAMPLE_PROGRAMME)
     fit = vf.superpose(made.sweeps, "30 degC", shift=made.material.shift)
@@ -88,7 +88,7 @@ def ending_in_the_transition():
 
 
 @pytest.mark.parametrize("method", ["non-negative", pytest.param("regularised", marks=pytest.mark.slow), "sparse"])
-def test_a_glass_that_nothing_tells_is_no_result(method):
+def test_a_glass_that_nothing_shows_is_no_result(method):
     master = ending_in_the_transition()
     settings = {"modes": 8} if method == "sparse" else {}
     spectrum = fit_retardation_spectrum(master, method=method, **settings)
@@ -128,7 +128,7 @@ def test_words_about_plateaus_are_true(real_data, name):
         assert "glass-extrapolated" not in codes(quality.notes)
 
 
-def test_what_neighbours_miss_alike_is_told_from_noise():
+def test_what_neighbours_miss_alike_is_distinguished_from_noise():
     random = np.random.default_rng(3)
     isotherm = np.repeat(np.arange(10), 20)
     frequency = np.concatenate([np.linspace(0.5 * place, 0.5 * place + 2.0, 20) for place in range(10)])

@@ -20,14 +20,14 @@ def with_too_large_a_constant(factor, noise=0.01):
     return vf.superpose(sweeps, "30 degC", shift=vf.WLF(C1=factor * WLF.C1, C2=WLF.C2, reference=WLF.reference))
 
 
-def told(notes):
+def reported(notes):
     return [note for note in notes if codes([note]) == {"given-factors-wrong"}]
 
 
 @pytest.mark.parametrize("factor", [0.6, 1.4])
-def test_a_law_that_is_wrong_everywhere_alike_is_told_of(factor):
+def test_a_law_that_is_wrong_everywhere_alike_is_reported(factor):
     fit = with_too_large_a_constant(factor)
-    [note] = told(fit.notes)
+    [note] = reported(fit.notes)
     assert fit.check.holds  # which no shift along the frequency changes
     first = fit.check.sentences[0]
     assert first.code == "superposition-other-factors"
@@ -43,7 +43,7 @@ def test_a_law_that_is_wrong_everywhere_alike_is_told_of(factor):
 @pytest.mark.parametrize("noise", [0.0, 0.003, 0.03])
 def test_the_right_law_is_not_suspected(noise):
     fit = with_too_large_a_constant(1.0, noise)
-    assert told(fit.notes) == []
+    assert reported(fit.notes) == []
     assert fit.check.sentences[0].code == "superposition-holds"
     found = own_shifts([LogSweep.of(one) for one in fit.isotherms], fit.shift_factors.log10_values)
     # Each pair by itself gains one of some 50 degrees of freedom, and more where it overlaps little.
@@ -61,15 +61,15 @@ def test_misfits_of_straight_lines_are_those_by_hand():
     assert found.attainable < 0.0101
 
 
-def test_fixed_factors_that_are_wrong_are_told_of_and_right_ones_are_not():
+def test_fixed_factors_that_are_wrong_are_reported_and_right_ones_are_not():
     sweeps = planted_sweeps(4, 0.003, material=POLYMER).sweeps
     right = {kelvin: float(WLF.log10(kelvin)) for kelvin in sweeps.temperatures if kelvin != 303.15}
     wrong = {kelvin: 1.4 * value for kelvin, value in right.items()}
-    assert told(vf.superpose(sweeps, "30 degC", fixed=right).notes) == []
-    assert len(told(vf.superpose(sweeps, "30 degC", fixed=wrong).notes)) == 1
+    assert reported(vf.superpose(sweeps, "30 degC", fixed=right).notes) == []
+    assert len(reported(vf.superpose(sweeps, "30 degC", fixed=wrong).notes)) == 1
 
 
-def test_a_failure_of_superposition_and_wrong_factors_are_both_told():
+def test_a_failure_of_superposition_and_wrong_factors_are_both_reported():
     """E'' 40 % larger in every other sweep, and C1 too large."""
     made = planted_sweeps(4, 0.003, material=POLYMER).sweeps
     sweeps = [

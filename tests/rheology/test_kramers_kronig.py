@@ -115,6 +115,6 @@ def test_what_lies_beyond_the_measurement_counts_at_its_ends_only():
     assert not found.judged[-1]
 
 
-def test_a_short_curve_tells_nothing():
+def test_a_short_curve_shows_nothing():
     with refused("too-short"):
         kramers_kronig(curve(np.logspace(0, 1, 20)))

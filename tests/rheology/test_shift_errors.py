@@ -155,7 +155,7 @@ def test_offsets_beside_a_free_vertical_shift_keep_errors_where_they_are_found_t
 
 
 @pytest.mark.parametrize(("tied", "none"), [(False, 3.0), (True, 0.3)], ids=["b known", "b fitted"])
-def test_sweeps_that_tell_nothing_of_offsets_leave_them_as_likely_as_before(tied, none):
+def test_sweeps_that_show_nothing_of_offsets_leave_them_as_likely_as_before(tied, none):
     isotherms = 3
     found = estimated(1e-6 * np.eye(1 + 2 * isotherms), np.zeros(1 + 2 * isotherms), np.eye(1), tied=tied)
     assert found.sizes.probability.sum() == pytest.approx(1.0, abs=1e-12)
@@ -279,15 +279,15 @@ def plateau_gauge(size, reference):
 @pytest.mark.parametrize("hot", [True, False], ids=["hot end", "cold end"])
 def test_errors_grow_over_a_plateau_as_a_rate_that_wanders(hot):
     """The rate of change errs by BEND more in every step, also in the first: shifts by BEND √1, √5 = √(1 + 4), √14."""
-    told = -1.5 * np.arange(4.0)
+    reported = -1.5 * np.arange(4.0)
     if hot:
         place = plateau_gauge(7, 1), 0, 4
-        values, covariance = continued(told, *place), continued_covariance(np.zeros((4, 4)), *place)
+        values, covariance = continued(reported, *place), continued_covariance(np.zeros((4, 4)), *place)
         beyond, expected = slice(4, 7), -1.5 * np.arange(4.0, 7.0)
         shift = values - values[0]
     else:
         place = plateau_gauge(7, 5), 3, 7
-        values, covariance = continued(told, *place), continued_covariance(np.zeros((4, 4)), *place)
+        values, covariance = continued(reported, *place), continued_covariance(np.zeros((4, 4)), *place)
         values, covariance = values[::-1], covariance[::-1, ::-1]
         beyond, expected = slice(4, 7), 1.5 * np.arange(4.0, 7.0)
         shift = values - values[0]

@@ -50,7 +50,7 @@ def test_notes_are_saved_with_the_factors(tmp_path):
     assert found.reference == 293.15
 
 
-def test_table_without_uncertainty_is_told(tmp_path):
+def test_table_without_uncertainty_is_reported(tmp_path):
     assert any(
         "no uncertainty" in note for note in read_shift_factors(written(tmp_path, table("T_C,aT", 10**LOG10))).notes
     )
@@ -161,7 +161,7 @@ def test_rising_table_is_refused_unless_it_is_said_to_be_inverse(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ("", "holds no table"),
         ("T_C,log10_aT\n", "holds no table"),
@@ -179,12 +179,12 @@ def test_rising_table_is_refused_unless_it_is_said_to_be_inverse(tmp_path):
         ("# reference (degC): 80\nT_C,log_aT\n1,1\n2,0\n", "reference does not fit the table"),
     ],
 )
-def test_damaged_tables_are_told(tmp_path, text, told):
-    with pytest.raises(DataFileError, match=told):
+def test_damaged_tables_are_reported(tmp_path, text, reported):
+    with pytest.raises(DataFileError, match=reported):
         read_shift_factors(written(tmp_path, text))
 
 
-def test_file_that_cannot_be_written_is_told(tmp_path):
+def test_file_that_cannot_be_written_is_reported(tmp_path):
     factors = ShiftFactors(CELSIUS + 273.15, LOG10, 293.15)
     with refused("not-written", DataFileError):
         factors.save(tmp_path / "nowhere" / "saved.csv")

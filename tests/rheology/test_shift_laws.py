@@ -197,7 +197,7 @@ def test_standard_error_between_temperatures_is_carried_through_the_interpolatio
         table.standard_error("70 degC")
 
 
-def test_a_factor_corrected_by_hand_is_what_it_was_told():
+def test_a_factor_corrected_by_hand_is_what_it_was_given():
     covariance = 0.01 * (np.eye(4) + 0.5)
     celsius = ["0 degC", "30 degC", "60 degC", "100 degC"]
     table = ShiftFactors(celsius, [2.5, 0.0, -1.5, -2.5], "30 degC", covariance)

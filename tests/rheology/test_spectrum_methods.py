@@ -157,7 +157,7 @@ def test_fewer_modes_do_not_meet_the_error_asked_for(largest_error):
     assert joint(fewer) > largest_error
 
 
-def test_an_error_that_few_modes_cannot_meet_is_told():
+def test_an_error_that_few_modes_cannot_meet_is_reported():
     fitted = fit_retardation_spectrum(master_of(rubber()), method="sparse", modes=4, largest_error=0.005)
     assert len(fitted) == 4
     assert "4 modes leave a joint rms error of" in fitted.fit.notes[-1]
@@ -225,7 +225,7 @@ def test_melts_are_fitted_closely_or_refused_up_to_one_molar_mass(noise):
     assert refused == sorted(refused, reverse=True)  # no shorter chain is fitted where a longer one is refused
 
 
-def test_what_may_be_a_liquid_is_told_and_a_soft_rubber_is_not():
+def test_what_may_be_a_liquid_is_reported_and_a_soft_rubber_is_not():
     glassy = vf.synthetic_fluoroelastomer().spectrum  # from the middle of its glass transition on, where tan δ is 1.3
     doubtful = fit_retardation_spectrum(master_of(glassy, low=math.log10(2e6), high=12.0))
     assert "plateau-doubtful" in codes(doubtful.fit.notes)

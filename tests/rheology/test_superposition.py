@@ -223,7 +223,7 @@ def test_given_tables_keep_their_errors_and_their_range():
         vf.superpose(sweeps, "30 degC", shift=fit.shift_factors, fixed={"50 degC": -1.0})
 
 
-def test_given_factors_that_do_not_superpose_are_told_of():
+def test_given_factors_that_do_not_superpose_are_reported():
     sweeps = measured(WARM[:8], noise=0.001)
     values = planted(vf.superpose(sweeps, "30 degC"))
     values[6:] -= 0.5
@@ -381,7 +381,7 @@ def test_acrylic_overlaps_as_well_as_with_the_best_peer(real_data):
     assert elapsed < 0.5  # about 0.03 s of one core; a loaded machine may be slow
 
 
-def test_the_adhesives_hot_plateau_is_told_of(real_data):
+def test_the_adhesives_hot_plateau_is_reported(real_data):
     fit = vf.superpose(vf.read_dma(real_data / "dma" / "adhesive_ems_ca.csv", deformation="tension"), "25 degC")
     [note] = [note for note in fit.notes if codes([note]) == {"alpha-not-identified"}]
     assert "to 100.0 °C" in note

@@ -54,7 +54,7 @@ def test_modes_are_fitted_once_and_move_with_the_temperature() -> None:
     assert material.at(330.0).complex_modulus(1e5) == pytest.approx(there.complex_modulus(1e5), rel=1e-2)
 
 
-def test_what_stands_for_the_table_is_told_with_its_error() -> None:
+def test_what_stands_for_the_table_is_reported_with_its_error() -> None:
     material = vf.Material(table(SHARP, -1, 7))
     fit = material.modes_at().fit
     assert fit is not None
@@ -107,7 +107,7 @@ def test_tables_that_no_solid_has_are_refused() -> None:
         short.modes_at()
 
 
-def test_a_contact_faster_than_its_table_is_told() -> None:
+def test_a_contact_faster_than_its_table_is_reported() -> None:
     material = vf.Material(table(SHARP, -1, 2))
 
     def warnings(speed: float, material: vf.Material = material) -> str:

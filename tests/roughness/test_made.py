@@ -102,7 +102,7 @@ def test_lines_of_an_isotropic_surface_have_half_its_mean_square_slope():
     assert found[0] == pytest.approx(found[1], rel=0.1)
 
 
-def test_lines_tell_the_spectrum_of_an_isotropic_surface():
+def test_lines_show_the_spectrum_of_an_isotropic_surface():
     spectrum = vf.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=128.0, shortest=6.0, rms_slope=1.0)
     surface = vf.surface_from_spectrum(spectrum, shape=(512, 512), spacing=1.0, seed=5)
     found = vf.line_spectrum(surface).isotropic()

@@ -93,7 +93,7 @@ def test_friction_under_vanishing_loads_does_not_depend_on_them(speed):
     road = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.3)
 
     def friction(pressure: float, accuracy: float) -> float:
-        told = vf.persson_theory(
+        reported = vf.persson_theory(
             FLUOROELASTOMER,
             road,
             speeds=speed,
@@ -102,7 +102,7 @@ def test_friction_under_vanishing_loads_does_not_depend_on_them(speed):
             gamma=1.0,
             accuracy=accuracy,
         )
-        return float(told.friction_coefficient[0, 0])
+        return float(reported.friction_coefficient[0, 0])
 
     exact = friction(1e-4, 1e-6)
     for pressure in (1e-4, 1.0):  # the second is 3e-6 from the limit

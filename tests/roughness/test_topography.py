@@ -179,7 +179,7 @@ def test_rms_slope_is_that_of_the_waves():
     assert line.rms_slope == pytest.approx(2.0 * np.pi / np.sqrt(2.0), rel=1e-3)
 
 
-def test_history_tells_all_steps_in_their_order_and_nothing_changes_in_place():
+def test_history_shows_all_steps_in_their_order_and_nothing_changes_in_place():
     scan = vf.Topography(waves((2, 1)), (1.0 / N, 1.0 / M), name="cast")
     made = scan.inverted().remove("mean").window().keep_wavelengths(shortest=0.1)
     assert [step.split(":")[0] for step in made.history] == [

@@ -122,7 +122,7 @@ def test_friction_is_kept_where_only_its_band_fails(tmp_path: Path, monkeypatch:
     assert any("1 of 2 cases" in note for note in results.notes)
 
 
-def test_too_few_samples_are_told(tmp_path: Path) -> None:
+def test_too_few_samples_are_reported(tmp_path: Path) -> None:
     with pytest.raises(vf.StudyError) as caught:
         load_study(write(tmp_path, samples=5))
     assert (caught.value.field, caught.value.mistakes[0].code) == ("uncertainty.draws", "value")

@@ -172,7 +172,7 @@ def test_friction_curves_are_compared_with_results(tmp_path: Path) -> None:
     assert not vf.compare_results(off, results).equal
 
 
-def test_what_cannot_be_paired_is_told(tmp_path: Path) -> None:
+def test_what_cannot_be_paired_is_reported(tmp_path: Path) -> None:
     one = made_results(tmp_path / "a")
     cold = made(tmp_path / "b", made_sweep(temperatures=[253.15]))
     with refused("no-common-cases"):

@@ -103,7 +103,7 @@ def test_the_same_results_make_the_same_files(tmp_path: Path) -> None:
         assert once == again
 
 
-def test_more_cases_than_a_sheet_has_rows_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_more_cases_than_a_sheet_has_rows_are_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(export, "MOST_ROWS", 10)
     with refused("too-many-rows"):
         made(tmp_path).to_excel(tmp_path / "all.xlsx")

@@ -78,7 +78,7 @@ def test_shift_factors_of_friction_stand_beside_those_of_the_modulus(results: St
     assert found.attrs["slope"] == pytest.approx(1.0, abs=4.0 * found.attrs["slope_error"])
 
 
-def test_agreement_is_told_point_by_point_and_on_the_master_curve(results: StudyResults) -> None:
+def test_agreement_is_reported_point_by_point_and_on_the_master_curve(results: StudyResults) -> None:
     over, along = json.loads(results.tree["agreement"].attrs["sentences"])
     assert over.startswith("Over 15 points")
     assert along.startswith("On the master curve, over 15 points")  # none lies outside
@@ -119,10 +119,10 @@ def test_coulomb_friction_on_thin_rubber_is_warned_of(results: StudyResults) -> 
 def test_the_report_says_so(results: StudyResults) -> None:
     from viscofric.report.texts.checks import all_checks
 
-    told = {check.name: check.verdict for check in all_checks(results.tree)}
-    assert told["Half-space"] == "look at this"
-    assert told["Pressure independent of shear"] == "look at this"
-    assert told["Shift factors from friction"] == "passed"
+    reported = {check.name: check.verdict for check in all_checks(results.tree)}
+    assert reported["Half-space"] == "look at this"
+    assert reported["Pressure independent of shear"] == "look at this"
+    assert reported["Shift factors from friction"] == "passed"
 
 
 def test_measured_points_are_solved_with_the_elastic_ball_of_the_study(tmp_path: Path) -> None:

@@ -153,7 +153,7 @@ def test_results_are_labelled_with_units_and_provenance(results: StudyResults) -
                 assert np.all(np.isfinite(variable.values.astype(float)))
 
 
-def test_left_out_isotherms_and_small_strain_are_told(results: StudyResults) -> None:
+def test_left_out_isotherms_and_small_strain_are_reported(results: StudyResults) -> None:
     assert "left out" in results.tree.attrs["notes"]
     assert any("small strain" in warning for warning in results.warnings)
     assert results.failures == ()
@@ -216,7 +216,7 @@ def test_real_acrylic_friction_is_that_of_an_independent_solution(real_data: Pat
 
 
 @pytest.mark.slow
-def test_contacts_wider_than_the_ball_are_told_and_the_others_kept(real_data: Path, tmp_path: Path) -> None:
+def test_contacts_wider_than_the_ball_are_reported_and_the_others_kept(real_data: Path, tmp_path: Path) -> None:
     results = run_study(_real_study(real_data, tmp_path, "25 N", 2))
     # At 0.1 mm/s the rubber is too soft at 30 and 60 °C, but not at 0 °C, nor at 10 m/s.
     assert results.tree["prediction"]["failed"].values.tolist() == [[0, 0], [1, 0], [1, 0]]
@@ -296,7 +296,7 @@ def test_moduli_measured_in_shear_become_tensile_with_the_given_poisson_ratio(tm
     assert results.tree["spectrum"].attrs["E0"] == pytest.approx(2.6 * in_tension, rel=1e-9)
 
 
-def test_a_file_that_tells_neither_tension_nor_shear_needs_it_told(tmp_path: Path) -> None:
+def test_a_file_that_states_neither_tension_nor_shear_needs_it_stated(tmp_path: Path) -> None:
     path = _small_study(tmp_path, deformation="")
     check_study(load_study(path), path)  # its header says E'
     text = (EXAMPLE / "dma.csv").read_text(encoding="utf-8")
@@ -307,7 +307,7 @@ def test_a_file_that_tells_neither_tension_nor_shear_needs_it_told(tmp_path: Pat
 
 
 @pytest.mark.slow
-def test_contacts_beyond_the_measured_frequencies_are_told(tmp_path: Path) -> None:
+def test_contacts_beyond_the_measured_frequencies_are_reported(tmp_path: Path) -> None:
     results = run_study(_small_study(tmp_path, speed='speed = ["100 mm/s", "1e8 m/s"]'))
     assert results.tree["prediction"]["within_measured_frequencies"].values.tolist() == [1, 0]
     assert "friction_lower" not in results.tree["prediction"]  # no samples were asked for
@@ -315,13 +315,13 @@ def test_contacts_beyond_the_measured_frequencies_are_told(tmp_path: Path) -> No
     assert "beyond-measured" in {warning.code for warning in results.warnings}
 
 
-def test_temperatures_without_shift_factor_are_told_before_anything_is_solved(tmp_path: Path) -> None:
+def test_temperatures_without_shift_factor_are_reported_before_anything_is_solved(tmp_path: Path) -> None:
     with pytest.raises(vf.InputError, match="outside the measured"):
         run_study(_small_study(tmp_path, temperature='temperature = ["90 degC", "400 degC"]'))
     assert not list(tmp_path.glob("study.results/cases/*.json"))
 
 
-def test_unwritable_output_is_told_before_anything_is_solved(tmp_path: Path) -> None:
+def test_unwritable_output_is_reported_before_anything_is_solved(tmp_path: Path) -> None:
     (tmp_path / "taken").write_text("a file")
     with refused("is-file", vf.DataFileError):
         run_study(_small_study(tmp_path), output=tmp_path / "taken")

@@ -67,13 +67,13 @@ def test_results_of_a_rubber_alone_have_no_data_set(tmp_path: Path) -> None:
         (b"\x89HDF\r\n\x1a\n", "damaged"),
     ],
 )
-def test_what_is_no_results_file_is_told(tmp_path: Path, content: bytes, code: str) -> None:
+def test_what_is_no_results_file_is_reported(tmp_path: Path, content: bytes, code: str) -> None:
     (tmp_path / "results.nc").write_bytes(content)
     with refused(code, DataFileError):
         vf.open_results(tmp_path)
 
 
-def test_a_netcdf_file_of_others_is_told(tmp_path: Path) -> None:
+def test_a_netcdf_file_of_others_is_reported(tmp_path: Path) -> None:
     xarray.Dataset({"a": 1.0}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
     with refused("not-results", DataFileError):
         vf.open_results(tmp_path / "other.nc")
@@ -98,12 +98,12 @@ def test_inputs_beside_the_run_file_are_named_from_there(tmp_path: Path) -> None
     assert list(json.loads(input_hashes([file], elsewhere))) == [file.as_posix()]
 
 
-def test_a_place_tells_no_more_digits_than_matter() -> None:
+def test_a_place_shows_no_more_digits_than_matter() -> None:
     """Temperature and speed of measured points are means of readings: 89.9995 °C, 19.9996 mm/s."""
     assert place(SimpleNamespace(temperature=363.1495, speed=0.0199996)) == "90 °C, 20 mm/s"
 
 
-def test_a_place_tells_all_that_varies(tmp_path: Path) -> None:
+def test_a_place_shows_all_that_varies(tmp_path: Path) -> None:
     sweep = made_sweep(materials=("NBR", "EPDM"), speeds=(0.02, 20.0))
     assert place_in(sweep, 0) == "30 °C, 20 mm/s, NBR, 10 N, radius 5 mm"
     assert place_in(sweep, len(sweep.cases) - 1) == "90 °C, 20 m/s, EPDM, 25 N, radius 10 mm"
@@ -115,7 +115,7 @@ def test_a_place_tells_all_that_varies(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("wrong", [1.5, None, [], {}, b"x", object(), True])
-def test_what_is_no_name_of_a_file_is_told(tmp_path: Path, wrong: Any) -> None:
+def test_what_is_no_name_of_a_file_is_reported(tmp_path: Path, wrong: Any) -> None:
     made = made_results(tmp_path, stored=False)
     for verb in (vf.open_results, vf.load_study, vf.run_study, partial(vf.compare_results, made)):
         with pytest.raises(InputError, match="is not the name of a file"):
@@ -125,7 +125,7 @@ def test_what_is_no_name_of_a_file_is_told(tmp_path: Path, wrong: Any) -> None:
             vf.compare_results(made, made, tolerance=wrong)
 
 
-def test_missing_results_are_told_and_what_helps(tmp_path: Path) -> None:
+def test_missing_results_are_reported_and_what_helps(tmp_path: Path) -> None:
     with refused("no-results", DataFileError):
         vf.open_results(tmp_path)
     (tmp_path / "cases").mkdir()
@@ -175,7 +175,7 @@ def test_a_changed_number_is_noticed(whole: bytes, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="folders are writable to all here")
-def test_results_that_cannot_be_written_are_told(tmp_path: Path) -> None:
+def test_results_that_cannot_be_written_are_reported(tmp_path: Path) -> None:
     made = made_results(tmp_path / "made")
     (tmp_path / "made").chmod(0o500)
     try:

@@ -115,7 +115,7 @@ def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path
     assert not rubber(catalogue="pvb interlayer").from_friction
 
 
-def test_two_names_of_one_temperature_are_told() -> None:
+def test_two_names_of_one_temperature_are_reported() -> None:
     with pytest.raises(InputError) as caught:
         material_of({"dma": "a.csv", "fixed_shift_factors": {"0 degC": 1.0, "273.15 K": 2.0}, **REFERENCE})
     assert (caught.value.field, caught.value.code) == ("fixed_shift_factors", "value")

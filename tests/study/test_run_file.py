@@ -117,7 +117,7 @@ formats = ["csv", "zarr"]
     assert (study.outputs.fields, study.outputs.formats) == ("none", ("csv", "zarr"))
 
 
-def test_all_mistakes_are_told_at_once() -> None:
+def test_all_mistakes_are_reported_at_once() -> None:
     text = GOOD.replace('"25 N"', '"25 mm"').replace("[indenter]", "[indentr]").replace("points = 3", "points = 1")
     with pytest.raises(StudyError) as caught:
         parse_study(text, Path("study.toml"))

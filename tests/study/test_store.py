@@ -75,7 +75,7 @@ def test_a_case_under_the_key_of_another_is_not_taken(tmp_path: Path) -> None:
     assert store.get("a") is None
 
 
-def test_cases_without_a_checksum_are_told_from_damaged_ones(tmp_path: Path) -> None:
+def test_cases_without_a_checksum_are_distinguished_from_damaged_ones(tmp_path: Path) -> None:
     store = CaseStore(tmp_path)
     (tmp_path / "old.json").write_text(json.dumps(RECORD.values()))
     store.put("cut", RECORD)
@@ -98,7 +98,7 @@ def test_every_file_of_the_solver_counts_however_deep_it_lies(tmp_path: Path) ->
     assert found == {"/a.py": b"a.py", "/one/b.py": b"one/b.py", "/one/two/c.py": b"one/two/c.py"}
 
 
-def test_unwritable_folder_is_told_in_a_sentence(tmp_path: Path) -> None:
+def test_unwritable_folder_is_reported_in_a_sentence(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("not a folder")
     with refused("not-written", DataFileError):
         write_atomically(tmp_path / "file" / "a.json", b"{}")

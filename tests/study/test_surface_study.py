@@ -93,7 +93,7 @@ def test_every_number_is_that_of_the_contact_solved_by_itself(results: StudyResu
     assert last["lateral_friction_coefficient"].item() == alone.lateral_friction_coefficient
 
 
-def test_results_tell_of_the_surface(results: StudyResults) -> None:
+def test_results_show_of_the_surface(results: StudyResults) -> None:
     attributes = results.tree.attrs
     assert attributes["indenter"].startswith("self-affine rough surface (32 × 32 points, period 0.32 mm, rms height ")
     assert attributes["surface_rms_slope"] == pytest.approx(0.2, rel=1e-12)
@@ -216,7 +216,7 @@ def test_sheared_layers_and_directions_are_those_of_the_solver() -> None:
     assert record.warnings == solution.warnings
 
 
-def test_check_tells_how_much_it_would_be(tmp_path: Path) -> None:
+def test_check_shows_how_much_it_would_be(tmp_path: Path) -> None:
     text = STUDY.replace("points = 32", "points = 512")
     found = check_study(parse_study(text, tmp_path / "study.toml"), tmp_path / "study.toml")
     assert found.expected.solves == 8

@@ -188,7 +188,7 @@ def test_check_fails_where_the_engine_is_wrong(name: str, monkeypatch: pytest.Mo
     assert seen
 
 
-def test_names_are_told_apart_and_all_is_said() -> None:
+def test_names_are_distinguished_and_all_is_said() -> None:
     assert len(set(NAMES)) == len(NAMES)
     assert not set(NAMES) & {check.group for check in CHECKS}
     for check in CHECKS:

@@ -52,7 +52,7 @@ def test_every_table_and_figure_has_its_place(pages: ModuleType) -> None:
 
 
 @pytest.mark.slow
-def test_every_check_is_told_with_its_source_reason_and_worst_comparison(pages: ModuleType) -> None:
+def test_every_check_is_reported_with_its_source_reason_and_worst_comparison(pages: ModuleType) -> None:
     rows = [cells(line) for line in pages.summary(outcomes()).splitlines()[2:]]
     assert [row[0] for row in rows] == [f"`{name}`" for name in CHEAP]
     for row, outcome in zip(rows, outcomes(), strict=True):
@@ -62,11 +62,11 @@ def test_every_check_is_told_with_its_source_reason_and_worst_comparison(pages: 
         assert int(row[2]) == len(outcome.comparisons)
         # two digits are printed
         assert float(row[4]) == pytest.approx(outcome.worst.error, rel=0.05)
-    told = pages.reasons(outcomes()).splitlines()
-    assert told == [f"- `{outcome.check.name}`: {outcome.check.reason}" for outcome in outcomes()]
+    reported = pages.reasons(outcomes()).splitlines()
+    assert reported == [f"- `{outcome.check.name}`: {outcome.check.reason}" for outcome in outcomes()]
 
 
-def test_line_contacts_are_told_beside_their_closed_form(pages: ModuleType) -> None:
+def test_line_contacts_are_reported_beside_their_closed_form(pages: ModuleType) -> None:
     ratio, memory = MODULUS_RATIOS[1], MEMORY_LENGTHS[4]
     found = InHertzUnits.of(solve_cylinder(one_time(ratio, memory), accuracy=ACCURACY))
     exact = pages.hunter(ratio, memory)

@@ -52,21 +52,21 @@ class Desk:
     """
 
     def __init__(self, folder: Path) -> None:
-        self.told: list[tuple[str, dict[str, Any]]] = []
-        self.context = Context(*(folder / name for name in ("files", "downloads", "cache")), self._tell)
+        self.reported: list[tuple[str, dict[str, Any]]] = []
+        self.context = Context(*(folder / name for name in ("files", "downloads", "cache")), self._keep)
         for place in (self.context.files, self.context.downloads, self.context.cache):
             place.mkdir()
 
-    def _tell(self, event: str, message: dict[str, Any]) -> None:
-        self.told.append((event, message))
+    def _keep(self, event: str, message: dict[str, Any]) -> None:
+        self.reported.append((event, message))
 
     def run(self, job: ModuleType, study: dict[str, Any], **options: Any) -> dict[str, Any]:
         """Run a job from nothing, and return its result."""
-        self.told.clear()
+        self.reported.clear()
         found: dict[str, Any] = job.run(study, job.Options(**options), self.context)
         return found
 
     @property
     def parts(self) -> list[dict[str, Any]]:
         """Parts of the result of the last job, in their order."""
-        return [message["part"] for event, message in self.told if event == "part"]
+        return [message["part"] for event, message in self.reported if event == "part"]

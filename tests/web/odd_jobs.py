@@ -24,7 +24,7 @@ class Options(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     do: Literal[
-        "rest", "insist", "hold", "grow", "die", "fail", "leak", "refuse", "solve", "share", "tell", "print", "write"
+        "rest", "insist", "hold", "grow", "die", "fail", "leak", "refuse", "solve", "share", "report", "print", "write"
     ]
     amount: float = 0.0
 
@@ -103,7 +103,7 @@ def pause(seconds: float) -> None:
     time.sleep(seconds)
 
 
-def tell(amount: float, context: Context) -> dict[str, Any]:
+def report(amount: float, context: Context) -> dict[str, Any]:
     """Say a lot."""
     for number in range(1_000):
         context.progress(number, 1_000, f"{number}")
@@ -138,7 +138,7 @@ ODD: dict[str, Callable[[float, Context], dict[str, Any]]] = {
     "refuse": refuse,
     "solve": solve,
     "share": share,
-    "tell": tell,
+    "report": report,
     "print": print_,
     "write": write,
 }

@@ -243,15 +243,15 @@ def test_body_that_does_not_come_is_given_up() -> None:
         await asyncio.sleep(30.0)
         return {}
 
-    told: list[dict[str, object]] = []
+    reported: list[dict[str, object]] = []
 
     async def send(message: dict[str, object]) -> None:
-        told.append(message)
+        reported.append(message)
 
     scope = {"type": "http", "path": "/api/jobs/check", "headers": []}
     run_apart(Limits(application, lambda path: 10, pause=0.05)(scope, silence, send))  # type: ignore[arg-type]
-    assert told[0]["status"] == 408
-    assert json.loads(told[1]["body"]) == {"message": "Nothing of the body came for 0.05 s."}  # type: ignore[arg-type]
+    assert reported[0]["status"] == 408
+    assert json.loads(reported[1]["body"]) == {"message": "Nothing of the body came for 0.05 s."}  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

@@ -58,10 +58,10 @@ class Bench:
         """Begin a job and let go of it; return the process that had it."""
         async with aclosing(self.run(*arguments, **more)) as lines:
             async for line in lines:
-                told = json.loads(line)
-                if told["event"] == "part":
+                reported = json.loads(line)
+                if reported["event"] == "part":
                     await asyncio.sleep(after)
-                    return int(told["part"]["process"])
+                    return int(reported["part"]["process"])
         raise AssertionError("the job did not begin")
 
     async def idle(self, within: float) -> float:
@@ -96,12 +96,12 @@ def bench(tmp_path: Path) -> Iterator[Callable[..., Any]]:
     assert ended(started_by(os.getpid(), "viscofric.web.child"), within=LONG)
 
 
-def test_job_is_queued_started_told_of_and_answered(bench: Callable[..., Any]) -> None:
+def test_job_is_queued_started_reported_and_answered(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
-        told = await bench.all("tell", 10)
-        assert [one["event"] for one in told[:3]] == ["queued", "started", "part"]
-        assert told[-1]["result"] == {"text": "x" * 10, "not a number": None, "numbers": [1, 2.5]}
-        progress = [one for one in told if one["event"] == "progress"]
+        reported = await bench.all("report", 10)
+        assert [one["event"] for one in reported[:3]] == ["queued", "started", "part"]
+        assert reported[-1]["result"] == {"text": "x" * 10, "not a number": None, "numbers": [1, 2.5]}
+        progress = [one for one in reported if one["event"] == "progress"]
         assert progress[0] == {"event": "progress", "done": 0, "total": 1_000, "label": "0"}
         assert len(progress) < 100  # of a thousand: a browser could not show more
 
@@ -130,9 +130,9 @@ def test_no_job_is_begun_with_files_that_are_not_the_pages(bench: Callable[..., 
     async def work(bench: Bench) -> None:
         for table, key, name in [("surface", "file", "..\\x"), ("measurement", "mtm", "/x"), ("material", "dma", "**")]:
             lines = bench.children.run("odd", {table: {key: name}}, {"do": "rest"}, bench.folder / "a")
-            told = [json.loads(line) async for line in lines]
-            assert [one["event"] for one in told] == ["queued", "started", "error"]
-            assert told[-1]["field"] == f"{table}.{key}"
+            reported = [json.loads(line) async for line in lines]
+            assert [one["event"] for one in reported] == ["queued", "started", "error"]
+            assert reported[-1]["field"] == f"{table}.{key}"
 
     bench(work)
 
@@ -148,12 +148,12 @@ def test_memory_time_files_and_answers_have_bounds(bench: Callable[..., Any]) ->
     async def work(bench: Bench) -> None:
         assert "not enough memory" in (await bench.last("grow", 1100 * MB, kind="narrow"))["message"]
         begun = time.monotonic()
-        told = await bench.all("rest", 30.0, kind="short")
-        assert "took longer than" in told[-1]["message"]
+        reported = await bench.all("rest", 30.0, kind="short")
+        assert "took longer than" in reported[-1]["message"]
         assert time.monotonic() - begun < LONG
-        assert ended([one["part"]["process"] for one in told if one["event"] == "part"], within=LONG)
+        assert ended([one["part"]["process"] for one in reported if one["event"] == "part"], within=LONG)
         assert "File too large" in (await bench.last("write", 201))["message"]
-        assert "more than a browser is handed" in (await bench.last("tell", 60e6))["message"]
+        assert "more than a browser is handed" in (await bench.last("report", 60e6))["message"]
         assert (await bench.last("grow", 100 * MB, kind="narrow"))["event"] == "result"
 
     bench(work)
@@ -267,10 +267,10 @@ def test_processes_of_a_process_end_with_it(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
         async with aclosing(bench.run("share", 30.0)) as lines:
             async for line in lines:
-                told = json.loads(line)
-                if told["event"] == "part":
+                reported = json.loads(line)
+                if reported["event"] == "part":
                     break
-            process = told["part"]["process"]
+            process = reported["part"]["process"]
             while len(started_by(process)) < 2:
                 await asyncio.sleep(0.02)
             own = started_by(process)
@@ -286,10 +286,10 @@ def test_process_ends_when_its_input_closes_whatever_it_does(bench: Callable[...
     async def work(bench: Bench) -> None:
         async with aclosing(bench.run("share", 30.0)) as lines:
             async for line in lines:
-                told = json.loads(line)
-                if told["event"] == "part":
+                reported = json.loads(line)
+                if reported["event"] == "part":
                     break
-            process = told["part"]["process"]
+            process = reported["part"]["process"]
             while len(started_by(process)) < 2:
                 await asyncio.sleep(0.02)
             own = started_by(process)

@@ -186,7 +186,7 @@ def test_missing_extra_is_named_in_a_sentence(tmp_path: Path, missing: str) -> N
         (["--host", "no such host"], "cannot be served at no such host"),
     ],
 )
-def test_what_cannot_be_served_is_told_in_a_sentence(arguments: list[str], words: str) -> None:
+def test_what_cannot_be_served_is_reported_in_a_sentence(arguments: list[str], words: str) -> None:
     done = CliRunner().invoke(main, ["web", "--no-browser", *arguments])
     assert done.exit_code == 1
     assert words in done.stderr

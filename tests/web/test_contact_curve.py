@@ -19,7 +19,7 @@ from web.contact_studies import BALL, ROUGH, Desk
 if TYPE_CHECKING:
     from pathlib import Path
 
-#: Numbers are told to six digits.
+#: Numbers have six digits.
 ROUNDING = 1e-5
 
 
@@ -80,7 +80,7 @@ def test_a_rubber_made_of_sweeps_has_the_bands_and_doubts_of_the_run_file(desk: 
     assert any("240 °C the law extrapolates" in sentence for sentence in answer["warnings"])
 
 
-def test_points_come_before_the_end_and_are_then_what_was_told(desk: Desk) -> None:
+def test_points_come_before_the_end_and_are_then_what_was_given(desk: Desk) -> None:
     speeds = {"from": "1 mm/s", "to": "1 m/s", "points": 20}
     study = {**BALL, "conditions": {**BALL["conditions"], "speed": speeds, "temperature": "60 degC"}}
     with pytest.MonkeyPatch.context() as patch:
@@ -91,14 +91,14 @@ def test_points_come_before_the_end_and_are_then_what_was_told(desk: Desk) -> No
     assert len(parts) > 10
     # A few at a time: the first of them after two contacts.
     assert 0 < len(parts[0]["cases"]) < 10
-    told: dict[int, tuple[float, bool]] = {}
+    reported: dict[int, tuple[float, bool]] = {}
     for part in parts:
-        told |= {at: pair for at, *pair in zip(part["cases"], part["friction"], part["known"], strict=True)}  # type: ignore[misc]
-    assert sorted(told) == list(range(20))
-    for at, (friction, known) in told.items():
+        reported |= {at: pair for at, *pair in zip(part["cases"], part["friction"], part["known"], strict=True)}  # type: ignore[misc]
+    assert sorted(reported) == list(range(20))
+    for at, (friction, known) in reported.items():
         # Within the accuracy where it was said to be; drafts lie between contacts a factor of e² apart.
         assert friction == pytest.approx(answer["friction"][at], rel=0.01 if known else 0.2)
-    progress = [message["done"] for event, message in desk.told if event == "progress"]
+    progress = [message["done"] for event, message in desk.reported if event == "progress"]
     assert progress == sorted(progress)
     assert progress[-1] <= 20
 

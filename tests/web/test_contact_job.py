@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 LIGHT = 200_000  # bytes of an answer, so that a slider can ask for many
-#: Numbers are told to six digits.
+#: Numbers have six digits.
 ROUNDING = 1e-5
 
 
@@ -177,7 +177,7 @@ def test_one_of_several_loads_is_solved(desk: Desk) -> None:
         (True, 1e-9, 333.15, ["2πv/λ of its waves lie beyond"]),  # slow, but within for its shortest waves
     ],
 )
-def test_extrapolated_rubber_is_told_where_the_study_tells_it(
+def test_extrapolated_rubber_is_reported_where_the_study_reports_it(
     desk: Desk, surface: bool, speed: float, temperature: float, said: list[str]
 ) -> None:
     copyfile(EXAMPLE, desk.context.files / "dma.csv")
@@ -199,7 +199,7 @@ def test_what_cannot_be_solved_is_one_sentence(desk: Desk) -> None:
         desk.run(contact, BALL, speed=0.1, temperature=20.0)
 
 
-def test_rubber_is_told_at_the_contacts_frequency(desk: Desk) -> None:
+def test_rubber_is_reported_at_the_contacts_frequency(desk: Desk) -> None:
     answer = desk.run(contact, BALL, speed=0.1, temperature=333.15, stages="coarse")
     frequency = 2.0 * 0.1 / (value(answer, "front") + value(answer, "rear"))
     assert value(answer, "frequency") == pytest.approx(frequency, rel=ROUNDING)

@@ -69,16 +69,16 @@ def test_everything_a_result_holds_becomes_json() -> None:
     assert found["set"] == [1, 3]
 
 
-def test_progress_is_told_no_more_often_than_a_browser_shows_but_its_end_always() -> None:
-    told: list[Any] = []
-    context = Context(Path(), Path(), Path(), lambda event, message: told.append((event, message)))
+def test_progress_is_reported_no_more_often_than_a_browser_shows_but_its_end_always() -> None:
+    reported: list[Any] = []
+    context = Context(Path(), Path(), Path(), lambda event, message: reported.append((event, message)))
     for done in range(1, 10_001):
         context.progress(done, 10_000, "at work")
-    assert told[0][1]["done"] == 1
-    assert told[-1] == ("progress", {"done": 10_000, "total": 10_000, "label": "at work"})
-    assert len(told) < 100
+    assert reported[0][1]["done"] == 1
+    assert reported[-1] == ("progress", {"done": 10_000, "total": 10_000, "label": "at work"})
+    assert len(reported) < 100
     context.part({"x": 1})
-    assert told[-1] == ("part", {"part": {"x": 1}})
+    assert reported[-1] == ("part", {"part": {"x": 1}})
 
 
 def test_every_key_of_a_run_file_that_names_files_is_known() -> None:

@@ -63,7 +63,7 @@ def test_packed_run_file_has_its_data_with_it_and_is_the_same_each_time(desk: De
     assert (desk.context.downloads / "study.zip").read_bytes() == first
 
 
-def test_run_file_is_told_with_its_cases_its_files_and_what_is_wrong(desk: Desk) -> None:
+def test_run_file_is_reported_with_its_cases_its_files_and_what_is_wrong(desk: Desk) -> None:
     sound = desk.run(export_run_file, SWEEPS)
     assert tomllib.loads(sound["text"]) == SWEEPS
     assert (sound["problems"], sound["cases"], sound["files"]) == ([], 2, ["dma.csv"])
@@ -89,8 +89,8 @@ def test_run_file_that_was_taken_away_can_be_brought_back(desk: Desk) -> None:
         desk.run(open_run_file, {}, text="[material]\nthis is no TOML")
     with pytest.raises(StudyError, match="too deeply for a run file"):
         desk.run(open_run_file, {}, text=f"deep{'.x' * 20_000} = 1")
-    for name, told in [("/", ""), ("..", ".."), ("x" * 300, "x" * 300), ("a\\u0000b", "a\0b"), ("[", "[")]:
-        assert desk.run(open_run_file, {}, text=f'material.dma = "{name}"')["missing"] == [told]
+    for name, reported in [("/", ""), ("..", ".."), ("x" * 300, "x" * 300), ("a\\u0000b", "a\0b"), ("[", "[")]:
+        assert desk.run(open_run_file, {}, text=f'material.dma = "{name}"')["missing"] == [reported]
 
 
 @pytest.mark.parametrize("form", ["abaqus", "ansys", "comsol", "json", "csv"])
@@ -105,7 +105,7 @@ def test_card_holds_the_rubber_of_the_page(form: str, desk: Desk) -> None:
     np.testing.assert_allclose(card.complex_modulus(omega), page.complex_modulus(omega), rtol=1e-6)
 
 
-def test_what_a_program_cannot_take_is_told_in_a_sentence(desk: Desk) -> None:
+def test_what_a_program_cannot_take_is_reported_in_a_sentence(desk: Desk) -> None:
     with pytest.raises(InputError, match=r"LS-DYNA takes at most 18 terms.*fit it with at most 17"):
         desk.run(export_card, BALL, format="ls-dyna", poisson_ratio=0.499, density="1800 kg/m^3")
     with pytest.raises(InputError, match="density"):
@@ -140,7 +140,7 @@ def test_whole_study_has_the_numbers_of_page_and_command_line_and_takes_up_where
     shutil.copytree(stored.folder / "cases", desk.context.cache / "study" / "study.results" / "cases")
     found = desk.run(export_study, SWEEPS, workers=1)
     assert (found["cases"], found["failed"], found["synthetic"]) == (2, 0, True)
-    labels = [message["label"] for event, message in desk.told if event == "progress"]
+    labels = [message["label"] for event, message in desk.reported if event == "progress"]
     assert any(label.startswith("solving contacts") for label in labels)
     assert labels[-1] == "drawing figures and report"
 

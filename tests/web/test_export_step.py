@@ -47,8 +47,11 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
     tab.until("page.state.state.get('title') === 'Friction of a synthetic fluoroelastomer'")
 
     # the end of a run, without the minute that its report takes
-    told = [{"event": "progress", "done": 1, "total": 2, "label": "solving"}, {"event": "result", "result": _FINISHED}]
-    body = "".join(json.dumps(one) + "\n" for one in told)
+    reported = [
+        {"event": "progress", "done": 1, "total": 2, "label": "solving"},
+        {"event": "result", "result": _FINISHED},
+    ]
+    body = "".join(json.dumps(one) + "\n" for one in reported)
     page.route("**/api/jobs/export-study", lambda route: route.fulfill(body=body))
     page.get_by_role("button", name="Run the whole study").click()
     link = page.get_by_role("link", name="report.html")

@@ -85,7 +85,7 @@ def test_what_cannot_be_compared_is_refused(context: Context, more: dict[str, An
         done("agreement", context, {**CURVES, **more})
 
 
-def test_friction_alone_tells_the_planted_shift_factors(context: Context) -> None:
+def test_friction_alone_shows_the_planted_shift_factors(context: Context) -> None:
     found = done("master", context, {"measurement": {"curves": "curves.csv"}}, beside=False)
     assert found["by_rubber"] is None
     assert found["known"] is None

@@ -39,15 +39,15 @@ def identified(context: Context, heard: list[dict[str, Any]]) -> dict[str, Any]:
 def test_the_planted_modulus_lies_in_the_band(identified: dict[str, Any]) -> None:
     band, modulus = identified["identified"], identified["modulus"]
     omega = np.array(modulus["angular_frequency"])
-    told = (omega >= band["low"]) & (omega <= band["high"])
+    reported = (omega >= band["low"]) & (omega <= band["high"])
     assert band["decades"] > 2.0
     for part in ("storage", "loss"):
-        planted, low, high = (np.array(values)[told] for values in (
+        planted, low, high = (np.array(values)[reported] for values in (
             identified["known"][part], modulus[f"{part}_lower"], modulus[f"{part}_upper"]
         ))  # fmt: skip
         # A band of 95 % at each frequency; neighbours err together, and the contacts are solved to 5 %.
         assert np.mean((planted > low) & (planted < high)) > 0.6
-        np.testing.assert_allclose(np.array(modulus[part])[told], planted, rtol=0.15)
+        np.testing.assert_allclose(np.array(modulus[part])[reported], planted, rtol=0.15)
 
 
 def test_the_anchor_is_the_rubbers_own_modulus(identified: dict[str, Any]) -> None:
@@ -57,7 +57,7 @@ def test_the_anchor_is_the_rubbers_own_modulus(identified: dict[str, Any]) -> No
     assert identified["family"] == []
 
 
-def test_shift_factors_and_fit_are_told_at_all_temperatures(identified: dict[str, Any]) -> None:
+def test_shift_factors_and_fit_are_reported_at_all_temperatures(identified: dict[str, Any]) -> None:
     assert identified["factors"]["found"]
     assert len(identified["factors"]["temperature"]) == len(identified["fit"]) == 5
     assert identified["rms"] < 0.03
@@ -98,13 +98,13 @@ def test_a_rubber_from_friction_is_no_witness_of_friction(context: Context, iden
         ({**ANCHOR, "of": "half_width", "size": "1 kg", "speed": "1 m/s", "load": "25 N"}, "'1 kg'"),
     ],
 )
-def test_an_anchor_that_cannot_be_used_is_told(context: Context, anchor: dict[str, Any], words: str) -> None:
+def test_an_anchor_that_cannot_be_used_is_reported(context: Context, anchor: dict[str, Any], words: str) -> None:
     with pytest.raises(JobError, match=words) as refused:
         done("identify", context, CURVES, anchor=anchor)
     assert refused.value.field == "anchor"
 
 
-def test_what_is_missing_is_told(context: Context) -> None:
+def test_what_is_missing_is_reported(context: Context) -> None:
     with pytest.raises(JobError, match="indenter: is missing") as refused:
         done("identify", context, {"measurement": CURVES["measurement"]}, beside=False)
     assert refused.value.field == "indenter"

@@ -32,10 +32,10 @@ def test_traction_runs_are_recognised_and_called_synthetic(example: dict[str, An
     assert example["table"] == {"mtm": "mtm.csv"}
     assert example["runs"]
     assert example["synthetic"]
-    told = {one["name"]: one["value"] for one in example["recognised"]}
-    assert told["readings"] == "960"
-    assert told["temperatures"] == "30.0, 60.0 and 90.0 °C"
-    assert told["sign configurations"].startswith("all four (I: 240 readings")
+    reported = {one["name"]: one["value"] for one in example["recognised"]}
+    assert reported["readings"] == "960"
+    assert reported["temperatures"] == "30.0, 60.0 and 90.0 °C"
+    assert reported["sign configurations"].startswith("all four (I: 240 readings")
 
 
 def test_separated_friction_is_that_of_the_library(example: dict[str, Any], context: Context) -> None:
@@ -128,7 +128,7 @@ def test_files_that_are_no_measurement_are_refused(
         ({}, "measurement: there is none"),
     ],
 )
-def test_wrong_tables_are_told_with_their_field(context: Context, table: dict[str, Any], words: str) -> None:
+def test_wrong_tables_are_reported_with_their_field(context: Context, table: dict[str, Any], words: str) -> None:
     with pytest.raises(StudyError, match=words):
         done("measured", context, {"measurement": table})
 
@@ -154,27 +154,27 @@ def test_the_librarys_advice_becomes_the_pages(tmp_path: Path) -> None:
     unsteady = vf.TractionRuns(
         **{**columns, "load": np.r_[np.full(20, 10.0), np.geomspace(11.0, 25.0, 20)]}, step=np.repeat([1, 2], 20)
     )
-    told = [
+    reported = [
         refusal(lambda: vf.separate(runs)),
         refusal(lambda: vf.separate(drifting)),
         refusal(lambda: vf.separate(unsteady)),
         refusal(lambda: runs.select(except_steps=(1,))),
         refusal(lambda: vf.shift_friction(replace(curves(), load=np.linspace(5.0, 25.0, len(curves()))))),
     ]
-    assert all("--" not in one and "shell" not in one and "Python" not in one for one in told), told
-    assert "“Zero of the force cell”" in told[0]
-    assert "“Gap between temperatures”: " in told[1]
-    assert "“Steps to leave out”: 2" in told[2]
-    assert "“Steps to leave out”: 1" in told[3]
-    assert "give a ball" in told[4]
+    assert all("--" not in one and "shell" not in one and "Python" not in one for one in reported), reported
+    assert "“Zero of the force cell”" in reported[0]
+    assert "“Gap between temperatures”: " in reported[1]
+    assert "“Steps to leave out”: 2" in reported[2]
+    assert "“Steps to leave out”: 1" in reported[3]
+    assert "give a ball" in reported[4]
 
 
 def test_exports_of_instruments_are_recognised(real_data: Path, context: Context) -> None:
     for path in sorted((real_data / "mtm").glob("demo*.txt")):
         (context.files / path.name).write_bytes(path.read_bytes())
         found = done("measured", context, STUDY, files=[path.name])
-        told = {one["name"]: one["value"] for one in found["recognised"]}
-        assert "PCS Instruments" in told["recognised as"]
+        reported = {one["name"]: one["value"] for one in found["recognised"]}
+        assert "PCS Instruments" in reported["recognised as"]
         assert found["steps"]
         # None of them was run in both directions of slip, which the page must say in its own words.
         assert found["refusal"]

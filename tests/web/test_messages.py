@@ -32,22 +32,22 @@ def written(folder: Path, *lines: str) -> Path:
 )
 def test_what_a_file_leaves_open_is_asked_on_the_page(head: str, place: str, field: str, tmp_path: Path) -> None:
     path = written(tmp_path, head, *_ROWS)
-    with pytest.raises(vf.ViscofricError) as told:
+    with pytest.raises(vf.ViscofricError) as caught:
         make_rubber(MaterialTable.model_validate({"dma": str(path), "reference_temperature": "30 degC"}))
-    words = told.value.words("page")
+    words = caught.value.words("page")
     assert place in words
     assert "modulus_unit" not in words
     assert "deformation=" not in words
-    assert told.value.field == field
+    assert caught.value.field == field
 
 
 def test_files_of_the_other_kind_are_sent_to_their_step(tmp_path: Path) -> None:
-    with pytest.raises(vf.ViscofricError) as told:
+    with pytest.raises(vf.ViscofricError) as caught:
         vf.read_dma(written(tmp_path, *_TESTS))
-    assert told.value.words("page").endswith("; drop it under “Measurement”.")
-    with pytest.raises(vf.ViscofricError) as told:
+    assert caught.value.words("page").endswith("; drop it under “Measurement”.")
+    with pytest.raises(vf.ViscofricError) as caught:
         vf.read_mtm(written(tmp_path, "T (degC),f (Hz),storage modulus (MPa),loss modulus (MPa)", *_ROWS))
-    assert told.value.words("page").endswith("; drop it at the step “Data”.")
+    assert caught.value.words("page").endswith("; drop it at the step “Data”.")
 
 
 def test_every_field_of_the_page_that_a_remedy_names_is_there() -> None:

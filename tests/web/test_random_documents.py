@@ -14,7 +14,7 @@ from web.contact_studies import Desk
 if TYPE_CHECKING:
     from pathlib import Path
 
-#: Numbers are told to six digits.
+#: Numbers have six digits.
 ROUNDING = 1e-5
 _NAMES = ("friction_coefficient", "load", "indentation", "contact_area", "front", "rear", "half_width", "max_pressure")
 
@@ -67,15 +67,15 @@ def drawn(seed: int) -> Drawn:
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_jobs_tell_what_the_package_finds(seed: int, tmp_path: Path) -> None:
+def test_jobs_show_what_the_package_finds(seed: int, tmp_path: Path) -> None:
     desk, case = Desk(tmp_path), drawn(seed)
     solved = vf.solve_steady(case.rubber, case.indenter, **case.more)
     where = {"speed": case.more["speed"], "temperature": case.more["temperature"]}
     answer = desk.run(contact, case.document, stages="sharp", **where)
     for name in _NAMES:
         expected = float(getattr(solved, name))
-        told = answer["numbers"][name]["value"]
-        assert told is None if expected == float("inf") else told == pytest.approx(expected, rel=ROUNDING), name
+        reported = answer["numbers"][name]["value"]
+        assert reported is None if expected == float("inf") else reported == pytest.approx(expected, rel=ROUNDING), name
     error = answer["numbers"]["friction_coefficient"]["error"]
     assert error == pytest.approx(solved.diagnostics.friction_error, rel=ROUNDING)
     assert set(solved.warnings) <= set(answer["warnings"])

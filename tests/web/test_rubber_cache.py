@@ -114,17 +114,17 @@ def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspa
         ({"file": "rubber.json"}, r"^material\.file: 'rubber\.json' is not one of the page's files"),
     ],
 )
-def test_what_is_wrong_is_told_with_its_field(workspace: Context, material: dict[str, Any], sentence: str) -> None:
+def test_what_is_wrong_is_reported_with_its_field(workspace: Context, material: dict[str, Any], sentence: str) -> None:
     with pytest.raises(StudyError, match=sentence):
         rubbers.made_rubber({"material": material}, workspace)
 
 
 def test_errors_name_files_without_the_folder_of_the_page(workspace: Context) -> None:
     (workspace.files / "notes.txt").write_text("nothing of use\n")
-    with pytest.raises(DataFileError) as told:
+    with pytest.raises(DataFileError) as caught:
         rubbers.made_rubber({"material": {**SWEEPS, "dma": "notes.txt"}}, workspace)
-    assert str(told.value).startswith("notes.txt")
-    assert str(workspace.files) not in str(told.value)
+    assert str(caught.value).startswith("notes.txt")
+    assert str(workspace.files) not in str(caught.value)
 
 
 def test_a_damaged_file_in_the_cache_is_made_anew(workspace: Context) -> None:

@@ -43,11 +43,11 @@ def test_shift_factors_and_their_bars_are_those_of_superposition(rubber: Any, fi
 
 
 def test_isotherms_are_moved_by_their_factors(rubber: Any, fit: vf.Superposition) -> None:
-    for told, one, shift in zip(
+    for reported, one, shift in zip(
         rubber["shift"]["isotherms"], fit.isotherms, fit.shift_factors.log10_values, strict=True
     ):
-        np.testing.assert_allclose(told["reduced_frequency"], one.angular_frequency * 10.0**shift, rtol=1e-5)
-        np.testing.assert_allclose(told["storage"], one.storage_modulus, rtol=5e-6)
+        np.testing.assert_allclose(reported["reduced_frequency"], one.angular_frequency * 10.0**shift, rtol=1e-5)
+        np.testing.assert_allclose(reported["storage"], one.storage_modulus, rtol=5e-6)
     assert [one["temperature"] for one in rubber["shift"]["isotherms"] if one["is_reference"]] == [303.15]
 
 
@@ -57,7 +57,7 @@ def test_laws_are_compared_and_the_one_used_is_marked(rubber: Any, fit: vf.Super
     compared = fit.shift_factors.compare_laws()
     assert [kind for kind, one in laws.items() if one["chosen"]] == [compared.chosen.kind]
     assert laws["wlf"]["aic"] == pytest.approx(compared.rows[0].aic if compared.rows[0].kind == "wlf" else 0, rel=5e-6)
-    low, high = laws["wlf"]["limits"]["answers"]
+    low, high = laws["wlf"]["limits"]["valid"]
     fitted = laws["wlf"]["limits"]["fitted"]
     assert low < fitted[0] < fitted[1] < high
     assert laws["wlf"]["line"]["temperature"][0] == pytest.approx(low, abs=0.1)
@@ -108,12 +108,12 @@ def test_band_holds_the_planted_rubber(rubber: Any) -> None:
 
 
 def test_answer_without_bands_comes_first(workspace: Context) -> None:
-    told: list[tuple[str, dict[str, Any]]] = []
+    reported: list[tuple[str, dict[str, Any]]] = []
     context = Context(
-        workspace.files, workspace.downloads, workspace.cache, lambda event, what: told.append((event, what))
+        workspace.files, workspace.downloads, workspace.cache, lambda event, what: reported.append((event, what))
     )
     answer = done("rubber", context, {**SWEEPS, "shift": "wlf"}, uncertainty=DRAWS)
-    (part,) = [what["part"] for event, what in told if event == "part"]
+    (part,) = [what["part"] for event, what in reported if event == "part"]
     assert "band" not in part
     assert part["shift"] == answer["shift"]
     assert done("rubber", workspace, SWEEPS, options={"bands": False})["band"] is None
@@ -191,7 +191,7 @@ def test_other_kinds_of_spectrum(workspace: Context, more: dict[str, Any], spars
     assert not sparse or len(found["spectrum"]["modes"]["tau"]) <= 8
 
 
-def test_vertical_shift_is_told(workspace: Context) -> None:
+def test_vertical_shift_is_reported(workspace: Context) -> None:
     free = done("rubber", workspace, {**SWEEPS, "vertical_shift": "free"}, options={"bands": False})
     vertical = free["shift"]["vertical"]
     assert vertical["fitted"] is True

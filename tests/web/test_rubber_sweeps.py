@@ -34,7 +34,7 @@ def table(head: str, temperatures: tuple[float, ...] = (20.0, 30.0), spoil: dict
     return "\n".join([head, *rows, ""])
 
 
-def test_synthetic_example_is_told_as_the_reader_takes_it(workspace: Context) -> None:
+def test_synthetic_example_is_reported_as_the_reader_takes_it(workspace: Context) -> None:
     found = done("sweeps", workspace, {"dma": "dma.csv"})
     sweeps = read_dma(EXAMPLE)
     assert found["source"] == "dma"
@@ -46,10 +46,10 @@ def test_synthetic_example_is_told_as_the_reader_takes_it(workspace: Context) ->
     assert found["reference"] == 303.15
     assert found["asks"] == []
     assert found["flagged"] == []
-    for told, read in zip(found["isotherms"], sweeps.isotherms, strict=True):
+    for reported, read in zip(found["isotherms"], sweeps.isotherms, strict=True):
         # numbers are sent with six digits
-        np.testing.assert_allclose(told["angular_frequency"], read.angular_frequency, rtol=5e-6)
-        np.testing.assert_allclose(told["loss_tangent"], read.loss_modulus / read.storage_modulus, rtol=5e-6)
+        np.testing.assert_allclose(reported["angular_frequency"], read.angular_frequency, rtol=5e-6)
+        np.testing.assert_allclose(reported["loss_tangent"], read.loss_modulus / read.storage_modulus, rtol=5e-6)
 
 
 def test_left_out_readings_and_outliers_are_flagged_with_their_place(workspace: Context) -> None:
@@ -76,28 +76,28 @@ def test_tension_or_shear_is_asked_where_no_file_says_it(workspace: Context) -> 
 
 def test_unit_that_is_missing_is_asked_at_its_field(workspace: Context) -> None:
     (workspace.files / "bare.csv").write_text(table("T (degC),f (Hz),E',E''"))
-    with pytest.raises(JobError, match=r"^bare\.csv: ") as told:
+    with pytest.raises(JobError, match=r"^bare\.csv: ") as caught:
         done("sweeps", workspace, {"dma": "bare.csv"})
-    assert (told.value.code, told.value.field) == ("no-unit", "material.modulus_unit")
+    assert (caught.value.code, caught.value.field) == ("no-unit", "material.modulus_unit")
     found = done("sweeps", workspace, {"dma": "bare.csv", "modulus_unit": "MPa"})
     assert found["asks"] == ["modulus_unit"]
 
 
 def test_temperature_that_is_missing_is_asked_at_its_field(workspace: Context) -> None:
     (workspace.files / "sweep.csv").write_text(table("f (Hz),E' (MPa),E'' (MPa)", (20.0,)))
-    with pytest.raises(JobError) as told:
+    with pytest.raises(JobError) as caught:
         done("sweeps", workspace, {"dma": "sweep.csv"})
-    assert (told.value.code, told.value.field) == ("no-temperature", "material.temperature")
+    assert (caught.value.code, caught.value.field) == ("no-temperature", "material.temperature")
     found = done("sweeps", workspace, {"dma": "sweep.csv", "temperature": "20 degC"})
     assert found["asks"] == ["temperature"]
     assert found["isotherms"][0]["temperature"] == 293.15
 
 
-def test_what_is_no_sweep_is_told_by_its_name_alone(workspace: Context) -> None:
+def test_what_is_no_sweep_is_reported_by_its_name_alone(workspace: Context) -> None:
     (workspace.files / "letter.txt").write_text("Dear colleagues,\n")
-    with pytest.raises(JobError, match=r"^letter\.txt: ") as told:
+    with pytest.raises(JobError, match=r"^letter\.txt: ") as caught:
         done("sweeps", workspace, {"dma": "letter.txt"})
-    assert told.value.field == "material.dma"
+    assert caught.value.field == "material.dma"
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_what_is_no_sweep_is_told_by_its_name_alone(workspace: Context) -> None:
         ("VHB 4910", False, "Chester"),
     ],
 )
-def test_catalogue_tells_its_sources(workspace: Context, name: str, synthetic: bool, words: str) -> None:
+def test_catalogue_shows_its_sources(workspace: Context, name: str, synthetic: bool, words: str) -> None:
     found = done("sweeps", workspace, {"catalogue": name})
     assert found["source"] == "catalogue"
     assert found["synthetic"] is synthetic

@@ -102,11 +102,11 @@ def test_data_file_with_the_name_of_the_run_file_is_refused(name: str, tmp_path:
         study_of(changed(material={"file": name}), tmp_path)
 
 
-def test_a_fresh_page_tells_the_synthetic_rubber_from_published_ones() -> None:
-    told = start()
-    synthetic = {one["name"]: one["synthetic"] for one in told["catalogue"]}
+def test_a_fresh_page_distinguishes_the_synthetic_rubber_from_published_ones() -> None:
+    reported = start()
+    synthetic = {one["name"]: one["synthetic"] for one in reported["catalogue"]}
     assert synthetic.pop("synthetic fluoroelastomer")
     assert len(synthetic) >= 1
     assert not any(synthetic.values())
-    assert all(one["description"] for one in told["catalogue"])
+    assert all(one["description"] for one in reported["catalogue"])
     assert start({"title": "mine"})["study"] == {"title": "mine"}

@@ -56,8 +56,8 @@ def test_from_a_dma_file_to_a_run_file_that_repeats_it(
     repeated = run_again(packed, tmp_path / "elsewhere")
     assert repeated.shape == (2, 3)
     # both know friction to the requested accuracy, so that they differ by twice that at most
-    told = np.reshape(curve["friction"], (2, 3))
-    assert told == pytest.approx(repeated, rel=2 * _ACCURACY)
+    reported = np.reshape(curve["friction"], (2, 3))
+    assert reported == pytest.approx(repeated, rel=2 * _ACCURACY)
 
 
 def rubber_of(tab: Tab, path: Path) -> None:

@@ -135,19 +135,19 @@ def test_workspace_that_rested_longest_makes_room(temporary: Path, monkeypatch: 
 def test_workspace_with_a_job_at_work_makes_no_room(temporary: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "_MOST_WORKSPACES", 2)
 
-    async def told() -> AsyncIterator[bytes]:
+    async def reported() -> AsyncIterator[bytes]:
         yield b"queued"
         yield b"started"
 
     async def work() -> None:
         with closing(Workspaces()) as spaces:
             first, second = spaces.get("first-workspace"), spaces.get("second-workspace")
-            async with aclosing(first.while_at_work(told())) as lines:
+            async with aclosing(first.while_at_work(reported())) as lines:
                 assert await anext(lines) == b"queued"
                 spaces.get("third-workspace")
                 assert first.folder.exists()
                 assert not second.folder.exists()
-                third = spaces.get("third-workspace").while_at_work(told())
+                third = spaces.get("third-workspace").while_at_work(reported())
                 async with aclosing(third):
                     await anext(third)
                     with pytest.raises(InputError, match="2 tabs are at work"):

@@ -1,4 +1,4 @@
-"""``viscofric check``: whether anything is wrong with a run file, and how much it asks for; or with stored results."""
+"""``viscofric check``: whether anything is wrong with a run file, and how many cases it has; or with stored results."""
 
 from __future__ import annotations
 

@@ -70,20 +70,20 @@ class NamedIndenter(NamedTuple):
     record: dict[str, Any]
 
 
-def chosen_indenter(asked: dict[str, Any]) -> NamedIndenter:
+def chosen_indenter(parameters: dict[str, Any]) -> NamedIndenter:
     """Return the indenter that the options name."""
-    given = [name for name in SHAPES if asked[name] is not None]
+    given = [name for name in SHAPES if parameters[name] is not None]
     if len(given) != 1:
         if not given:
             raise click.UsageError(f"nothing says what the indenter is; give {', '.join(map(option, SHAPES))}.")
         raise click.UsageError(f"{' and '.join(map(option, given))} are both given; there is one indenter.")
     (shape,) = given
     if shape in ("height_map", "profile"):
-        return _mapped(shape, asked)
+        return _mapped(shape, parameters)
     for name in ("spacing", "height_unit"):
-        if asked[name] is not None:
+        if parameters[name] is not None:
             raise click.UsageError(f"{option(name)} is for --height-map and --profile only.")
-    return _simple(shape, asked[shape])
+    return _simple(shape, parameters[shape])
 
 
 def _simple(shape: str, text: str) -> NamedIndenter:
@@ -113,16 +113,16 @@ def _simple(shape: str, text: str) -> NamedIndenter:
     return NamedIndenter(round_one, f"{noun} of radius {length(radius)}", {"shape": shape, "radius": radius})
 
 
-def _mapped(shape: str, asked: dict[str, Any]) -> NamedIndenter:
+def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     from viscofric.contact.indenters.height_map import HeightMap, Profile
     from viscofric.errors import InputError
     from viscofric.readers.topography.tables import read_heights
 
-    path: Path = asked[shape]
-    if asked["spacing"] is None:
+    path: Path = parameters[shape]
+    if parameters["spacing"] is None:
         raise click.UsageError(f"{option(shape)} needs --spacing, the distance of its heights, such as '5 um'.")
-    heights = read_heights(path, asked["height_unit"] or "m")
-    steps = tuple(part.strip() for part in asked["spacing"].split(","))
+    heights = read_heights(path, parameters["height_unit"] or "m")
+    steps = tuple(part.strip() for part in parameters["spacing"].split(","))
     if shape == "profile" and (min(heights.shape) > 1 or len(steps) > 1):
         raise click.UsageError(f"--profile is one column of heights with one spacing; {path} holds a map.")
     try:
@@ -170,24 +170,24 @@ def contact_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def inputs_of(asked: dict[str, Any]) -> list[Path]:
+def inputs_of(parameters: dict[str, Any]) -> list[Path]:
     """Return the files that rubber and indenter are read from."""
-    rubber = [] if asked["material"] is None else [Path(asked["material"])]
-    shapes = [path for path in (asked["height_map"], asked["profile"]) if path is not None]
-    return [path for path in (*rubber, *asked["dma"], *shapes) if path.is_file()]
+    rubber = [] if parameters["material"] is None else [Path(parameters["material"])]
+    shapes = [path for path in (parameters["height_map"], parameters["profile"]) if path is not None]
+    return [path for path in (*rubber, *parameters["dma"], *shapes) if path.is_file()]
 
 
-def contact_settings(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of `solve_steady` that the options ask for."""
-    if asked["indenter_poisson_ratio"] is not None and asked["indenter_modulus"] is None:
+def contact_settings(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the settings of `solve_steady` of the options."""
+    if parameters["indenter_poisson_ratio"] is not None and parameters["indenter_modulus"] is None:
         raise click.UsageError("--indenter-poisson-ratio is for --indenter-modulus only; a rigid indenter has none.")
-    ratio = asked["indenter_poisson_ratio"]
+    ratio = parameters["indenter_poisson_ratio"]
     return {
-        "direction": chosen_direction(asked["direction"]),
-        "indenter_modulus": asked["indenter_modulus"],
+        "direction": chosen_direction(parameters["direction"]),
+        "indenter_modulus": parameters["indenter_modulus"],
         "indenter_poisson_ratio": 0.3 if ratio is None else float(ratio),
-        "accuracy": asked["accuracy"],
-        "backend": asked["backend"],
+        "accuracy": parameters["accuracy"],
+        "backend": parameters["backend"],
     }
 
 

@@ -87,7 +87,7 @@ def command(
     out: Path | None,
     picture: Path | None,
     as_json: bool,
-    **asked: Any,
+    **parameters: Any,
 ) -> None:
     """Predict viscoelastic friction against speed, at one or several temperatures.
 
@@ -97,16 +97,16 @@ def command(
     check_ending(out, "--out", CSV)
     for target in (out, picture):
         if target is not None:
-            refuse_to_overwrite(target, inputs_of(asked))
+            refuse_to_overwrite(target, inputs_of(parameters))
     with reported_errors():
         from viscofric.cli.progress import contact_bar
         from viscofric.friction.prediction import predict_friction
 
         velocities = [speed for text in speeds for speed in _speeds(text, points)]
-        rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
+        rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
         kelvins = _kelvins(rubber.material, temperatures)
-        settings = contact_settings(asked) | {"layer": chosen_layer(asked)}
-        samples = _samples(rubber, asked["samples"])
+        settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
+        samples = _samples(rubber, parameters["samples"])
         name = in_contact(shape.words, rubber, settings["layer"])
         with contact_bar("Contacts", quiet=as_json) as bar:
             curves = predict_friction(
@@ -114,14 +114,14 @@ def command(
                 shape.indenter,
                 speeds=velocities,
                 temperatures=kelvins,
-                load=asked["load"],
+                load=parameters["load"],
                 samples=samples,
-                workers=asked["workers"],
+                workers=parameters["workers"],
                 progress=bar,
                 **settings,
             )
         if as_json:
-            click.echo(json.dumps(_record(curves, rubber, shape.record, asked), indent=2, ensure_ascii=False))
+            click.echo(json.dumps(_record(curves, rubber, shape.record, parameters), indent=2, ensure_ascii=False))
         elif out != DASH:
             _print(name, rubber, curves)
         print_notes(curves.notes)
@@ -147,7 +147,7 @@ def _speeds(text: str, points: int) -> list[float]:
 
 
 def _kelvins(material: Material, texts: tuple[str, ...]) -> list[float]:
-    """Return the temperatures asked for, K; of a rubber at one temperature only, the one it is said to have."""
+    """Return the requested temperatures, K; of a rubber at one temperature only, the one it is said to have."""
     from viscofric.units import positive
 
     given = [positive(one.strip(), "K", "--temperature") for text in texts for one in text.split(",")]
@@ -163,7 +163,7 @@ def _kelvins(material: Material, texts: tuple[str, ...]) -> list[float]:
 def _at_one_temperature(material: Material, kelvins: list[float]) -> Material:
     """Return a rubber without shift factors as one at the temperature that it is said to have.
 
-    Any law does, as it is asked for nothing but its reference, where it is one.
+    Any law does, since only its reference is requested, where it is one.
     """
     if material.shift is not None:
         return material
@@ -186,12 +186,12 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
 
 
 def _record(
-    curves: FrictionCurves, rubber: NamedRubber, indenter: dict[str, Any], asked: dict[str, Any]
+    curves: FrictionCurves, rubber: NamedRubber, indenter: dict[str, Any], parameters: dict[str, Any]
 ) -> dict[str, Any]:
     from viscofric.report.texts.friction import friction_record
 
-    names = ("layer", "sliding_base", *contact_settings(asked), "load", "samples", "workers")
-    inputs = {"material": rubber.record(None), "indenter": indenter} | {name: asked[name] for name in names}
+    names = ("layer", "sliding_base", *contact_settings(parameters), "load", "samples", "workers")
+    inputs = {"material": rubber.record(None), "indenter": indenter} | {name: parameters[name] for name in names}
     return friction_record(curves, inputs)
 
 

@@ -45,7 +45,7 @@ class Source(click.Path):
         super().__init__(path_type=Path, allow_dash=True)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path of what is to be read."""
+        """Return the path of the file to read."""
         found = super().convert(value, param, ctx)
         return _kept_input(ctx) if found == DASH and ctx is not None else found
 

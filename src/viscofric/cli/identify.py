@@ -54,9 +54,11 @@ def anchor_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def check_anchor(asked: dict[str, Any]) -> str | None:
+def check_anchor(parameters: dict[str, Any]) -> str | None:
     """Return which modulus or size the anchor is of, or None without one."""
-    given = {name for name in ("modulus", *_SIZES, *_OF_MODULUS, *_OF_SIZE, "error") if _of(asked, name) is not None}
+    given = {
+        name for name in ("modulus", *_SIZES, *_OF_MODULUS, *_OF_SIZE, "error") if _of(parameters, name) is not None
+    }
     what = [name for name in ("modulus", *_SIZES) if name in given]
     if not what:
         if given:
@@ -74,23 +76,23 @@ def check_anchor(asked: dict[str, Any]) -> str | None:
     return what[0]
 
 
-def make_anchor(asked: dict[str, Any], what: str, load_unit: str) -> Anchor:
-    """Return the anchor that was asked for and checked; a load is in N, or of a line contact in N/m."""
+def make_anchor(parameters: dict[str, Any], what: str, load_unit: str) -> Anchor:
+    """Return the requested anchor, which was checked; a load is in N, or of a line contact in N/m."""
     from viscofric.friction.identification.anchors import ContactAnchor, ModulusAnchor
     from viscofric.units import positive, to_si
 
-    options: dict[str, Any] = {} if asked["anchor_error"] is None else {"error": asked["anchor_error"]}
+    options: dict[str, Any] = {} if parameters["anchor_error"] is None else {"error": parameters["anchor_error"]}
     if what == "modulus":
-        return ModulusAnchor(_of(asked, "modulus"), *(_of(asked, name) for name in _OF_MODULUS), **options)
-    options |= {name: _of(asked, name) for name in _OF_SIZE}
+        return ModulusAnchor(_of(parameters, "modulus"), *(_of(parameters, name) for name in _OF_MODULUS), **options)
+    options |= {name: _of(parameters, name) for name in _OF_SIZE}
     options["load"] = positive(options["load"], load_unit, "--anchor-load")
     if what == "area":
-        return ContactAnchor(contact_area=to_si(_of(asked, "area"), "m**2", "--anchor-area"), **options)
-    return ContactAnchor(**{what: _of(asked, what)}, **options)
+        return ContactAnchor(contact_area=to_si(_of(parameters, "area"), "m**2", "--anchor-area"), **options)
+    return ContactAnchor(**{what: _of(parameters, what)}, **options)
 
 
-def _of(asked: dict[str, Any], name: str) -> Any:
-    return asked[f"anchor_{name}"]
+def _of(parameters: dict[str, Any], name: str) -> Any:
+    return parameters[f"anchor_{name}"]
 
 
 def _typed(name: str) -> str:
@@ -149,7 +151,7 @@ def command(
     beside: str | None,
     synthetic: bool,
     as_json: bool,
-    **asked: Any,
+    **parameters: Any,
 ) -> None:
     """Infer the modulus and the shift factors from friction data.
 
@@ -163,7 +165,7 @@ def command(
             refuse_to_overwrite(target, sources)
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
-    settings, anchor = settings_of(asked), check_anchor(asked)
+    settings, anchor = settings_of(parameters), check_anchor(parameters)
     with reported_errors():
         from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.cli.progress import contact_bar
@@ -171,14 +173,14 @@ def command(
         from viscofric.friction.identification.identify import identify_material
         from viscofric.report.texts.inverse import identification_record
 
-        shape = chosen_indenter(asked)
+        shape = chosen_indenter(parameters)
         known = None if beside is None else find_rubber(beside)
-        options = {name: asked[name] for name in _SETTINGS}
-        options |= _prior(asked)
+        options = {name: parameters[name] for name in _SETTINGS}
+        options |= _prior(parameters)
         if anchor is not None:
-            options["anchor"] = make_anchor(asked, anchor, shape.indenter.geometry.load_unit)
-        if asked["shift"] is not None:
-            options["shift"], _ = shifts(asked["shift"])
+            options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
+        if parameters["shift"] is not None:
+            options["shift"], _ = shifts(parameters["shift"])
         curves = friction_curves(sources, settings)
         with contact_bar("Shift factors", quiet=as_json) as bar:
 
@@ -188,7 +190,7 @@ def command(
             found = identify_material(curves, indenter=shape.indenter, progress=show, **options)
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
-            inputs |= chosen(asked) | settings
+            inputs |= chosen(parameters) | settings
             record = identification_record(found, inputs)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False, default=str))
         else:
@@ -198,24 +200,24 @@ def command(
             click.echo(written, err=as_json)
 
 
-def chosen(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return what was asked for besides the indenter and the separation, each under its name; the rest is None."""
+def chosen(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the parameters other than those of the indenter and the separation; those not given are None."""
     names = (*_SETTINGS, "shift", "prior", "prior_band", "prior_error")
-    return {name: asked[name] for name in asked if name in names or name.startswith("anchor_")}
+    return {name: parameters[name] for name in parameters if name in names or name.startswith("anchor_")}
 
 
-def _prior(asked: dict[str, Any]) -> dict[str, Any]:
+def _prior(parameters: dict[str, Any]) -> dict[str, Any]:
     """Return what is known of the rubber beforehand, as settings."""
-    if asked["prior"] is None:
-        if asked["prior_band"] is not None:
+    if parameters["prior"] is None:
+        if parameters["prior_band"] is not None:
             raise click.UsageError("--prior-band is the band of a --prior, which is not given.")
         return {}
     from viscofric.cli.rubber_options import find_rubber
     from viscofric.units import angular_frequency
 
-    prior: dict[str, Any] = {"prior": find_rubber(asked["prior"]), "prior_error": asked["prior_error"]}
-    if asked["prior_band"] is not None:
-        ends = asked["prior_band"].split(",")
+    prior: dict[str, Any] = {"prior": find_rubber(parameters["prior"]), "prior_error": parameters["prior_error"]}
+    if parameters["prior_band"] is not None:
+        ends = parameters["prior_band"].split(",")
         if len(ends) != 2:
             raise click.BadParameter("give two frequencies: '0.1 Hz,10 Hz'.", param_hint="--prior-band")
         prior["prior_band"] = tuple(angular_frequency(end.strip(), "--prior-band") for end in ends)

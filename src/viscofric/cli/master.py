@@ -61,7 +61,7 @@ Example:
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 def command(
-    sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any
+    sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
 ) -> None:
     """Shift the friction curves of several temperatures onto a master curve, and find α(T) from friction alone.
 
@@ -74,15 +74,15 @@ def command(
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, sources)
-    settings = settings_of(asked)
+    settings = settings_of(parameters)
     with reported_errors():
         from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.report.texts.inverse import law_of, shift_record
 
         curves = friction_curves(sources, settings)
-        known, vertical = (None, None) if asked["known"] is None else shifts(asked["known"])
-        master = _shifted(curves, known, vertical, asked)
-        law, why, refused = law_of(master, asked["law"])
+        known, vertical = (None, None) if parameters["known"] is None else shifts(parameters["known"])
+        master = _shifted(curves, known, vertical, parameters)
+        law, why, refused = law_of(master, parameters["law"])
         if refused:
             click.echo(f"Note: {refused}", err=True)
         agreement = _agreement(master, known)
@@ -90,8 +90,8 @@ def command(
             raise click.ClickException(f"{out} is not written: friction determines no shift factors.")
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources]}
-            inputs |= {"shift": asked["known"]} | {
-                name: asked[name] for name in ("reference", "law", "ball", "level_error")
+            inputs |= {"shift": parameters["known"]} | {
+                name: parameters[name] for name in ("reference", "law", "ball", "level_error")
             }
             record = shift_record(master, law, agreement, inputs | settings) | {"law_explanation": why or None}
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
@@ -103,15 +103,15 @@ def command(
 
 
 def _shifted(
-    curves: FrictionCurves, known: ShiftLaw | None, vertical: VerticalShift | None, asked: dict[str, Any]
+    curves: FrictionCurves, known: ShiftLaw | None, vertical: VerticalShift | None, parameters: dict[str, Any]
 ) -> FrictionMasterCurve:
     """Shift friction curves by their own factors, or by those of the modulus where they have none."""
     from viscofric.contact.indenters.shapes import Ball
     from viscofric.errors import SuperpositionError
     from viscofric.friction.shifting.shift import shift_friction
 
-    reference = asked["reference"]
-    options: dict[str, Any] = {"indenter": None if asked["ball"] is None else Ball(asked["ball"])}
+    reference = parameters["reference"]
+    options: dict[str, Any] = {"indenter": None if parameters["ball"] is None else Ball(parameters["ball"])}
     if options["indenter"] is not None:
         options["vertical_shift"] = vertical
     elif vertical is not None:
@@ -122,7 +122,7 @@ def _shifted(
         )
     try:
         about = known.reference if reference is None and known is not None else reference
-        return shift_friction(curves, reference=about, level_error=asked["level_error"], **options)
+        return shift_friction(curves, reference=about, level_error=parameters["level_error"], **options)
     except SuperpositionError as error:
         if known is None:
             raise

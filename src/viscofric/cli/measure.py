@@ -43,7 +43,7 @@ Example:
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
 def command(
-    runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **asked: Any
+    runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
 ) -> None:
     """Separate viscoelastic from Coulomb friction in RUNS, files of a mini-traction machine (MTM, ETM).
 
@@ -56,7 +56,7 @@ def command(
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, runs)
-    settings = settings_of(asked)
+    settings = settings_of(parameters)
     with reported_errors():
         from viscofric.cli.friction_sources import separated
         from viscofric.report.texts.friction import friction_record

@@ -91,45 +91,47 @@ class NamedRubber(NamedTuple):
         }
 
 
-def chosen_rubber(asked: dict[str, Any]) -> NamedRubber:
+def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
     """Return the rubber that the options name."""
-    single = [name for name in _SINGLE if asked[name] is not None]
-    given = [name for name in ("material", "dma") if asked[name]] + single[:1]
+    single = [name for name in _SINGLE if parameters[name] is not None]
+    given = [name for name in ("material", "dma") if parameters[name]] + single[:1]
     if len(given) > 1:
         raise click.UsageError(
             f"{option(given[0])} and {option(given[1])} are both given; the rubber comes from one of them."
         )
-    if given == ["material"] and asked["poisson_ratio"] is not None:
+    if given == ["material"] and parameters["poisson_ratio"] is not None:
         raise click.UsageError("--material and --poisson-ratio are both given; the rubber comes from one of them.")
     for name in ("reference", "deformation", "synthetic"):
-        if asked[name] and given != ["dma"]:
+        if parameters[name] and given != ["dma"]:
             raise click.UsageError(f"{option(name)} is for --dma only.")
     if given == ["material"]:
-        return _named(str(asked["material"]))
+        return _named(str(parameters["material"]))
     if given == ["dma"]:
-        return _of_sweeps(asked)
+        return _of_sweeps(parameters)
     if len(single) < len(_SINGLE):
         raise click.UsageError("nothing says what the rubber is; give --material, --dma, or --E0, --E-inf and --tau.")
     from viscofric.rheology.material import Material
 
-    ratio = 0.5 if asked["poisson_ratio"] is None else asked["poisson_ratio"]
-    material = Material.standard_linear_solid(asked["rubber_modulus"], asked["glass_modulus"], asked["tau"], ratio)
+    ratio = 0.5 if parameters["poisson_ratio"] is None else parameters["poisson_ratio"]
+    material = Material.standard_linear_solid(
+        parameters["rubber_modulus"], parameters["glass_modulus"], parameters["tau"], ratio
+    )
     return NamedRubber(material, material.name, False)
 
 
-def _of_sweeps(asked: dict[str, Any]) -> NamedRubber:
+def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
     from viscofric.study.rubber import make_rubber
     from viscofric.study.run_file.study import material_of
 
-    if asked["reference"] is None:
+    if parameters["reference"] is None:
         raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
-    wanted = {"dma": [str(path) for path in asked["dma"]], "reference_temperature": asked["reference"]}
-    wanted |= {name: asked[name] for name in ("deformation", "poisson_ratio") if asked[name] is not None}
+    wanted = {"dma": [str(path) for path in parameters["dma"]], "reference_temperature": parameters["reference"]}
+    wanted |= {name: parameters[name] for name in ("deformation", "poisson_ratio") if parameters[name] is not None}
     made = make_rubber(material_of(wanted))
     print_notes(made.notes)
-    first, *more = asked["dma"]
+    first, *more = parameters["dma"]
     name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")
-    return NamedRubber(made.material, name, asked["synthetic"], made)
+    return NamedRubber(made.material, name, parameters["synthetic"], made)
 
 
 def _named(name: str) -> NamedRubber:
@@ -152,15 +154,15 @@ def _named(name: str) -> NamedRubber:
     return NamedRubber(material, material.name or f"the rubber of {Path(name).name}", synthetic)
 
 
-def chosen_layer(asked: dict[str, Any]) -> Layer | None:
-    """Return the layer that the options ask for; none for a half-space."""
-    if asked["layer"] is None:
-        if asked["sliding_base"]:
+def chosen_layer(parameters: dict[str, Any]) -> Layer | None:
+    """Return the layer of the options; none for a half-space."""
+    if parameters["layer"] is None:
+        if parameters["sliding_base"]:
             raise click.UsageError("--sliding-base is for --layer only; a half-space has no base.")
         return None
     from viscofric.contact.bodies import Layer
 
-    return Layer(asked["layer"], not asked["sliding_base"])
+    return Layer(parameters["layer"], not parameters["sliding_base"])
 
 
 def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:

@@ -68,12 +68,12 @@ def separation_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def settings_of(asked: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of `viscofric.cli.friction_sources.separated` among what was asked for."""
+def settings_of(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the settings of `viscofric.cli.friction_sources.separated` among the parameters of a command."""
     for name in ("zero", "coulomb"):
-        if asked[f"{name}_error"] is not None and asked[name] is None:
+        if parameters[f"{name}_error"] is not None and parameters[name] is None:
             raise click.UsageError(f"--{name}-error is the standard error of --{name}, which is not given.")
-    coulomb: Any = asked["coulomb"]
+    coulomb: Any = parameters["coulomb"]
     if coulomb is not None and coulomb != "constant":
         try:
             coulomb = float(coulomb)
@@ -81,17 +81,19 @@ def settings_of(asked: dict[str, Any]) -> dict[str, Any]:
             raise click.BadParameter(
                 f"{coulomb!r}: must be a coefficient, such as 0.05, or the word 'constant'.", param_hint="--coulomb"
             ) from None
-        if asked["coulomb_error"] is not None:
-            coulomb = (coulomb, asked["coulomb_error"])
-    elif asked["coulomb_error"] is not None:
+        if parameters["coulomb_error"] is not None:
+            coulomb = (coulomb, parameters["coulomb_error"])
+    elif parameters["coulomb_error"] is not None:
         raise click.UsageError("--coulomb-error goes with a number, not with 'constant'.")
     return {
-        "zero": asked["zero"] if asked["zero_error"] is None else (asked["zero"], asked["zero_error"]),
+        "zero": parameters["zero"]
+        if parameters["zero_error"] is None
+        else (parameters["zero"], parameters["zero_error"]),
         "coulomb": coulomb,
-        "outliers": "leave out" if asked["leave_out_outliers"] else "keep",
-        "speed_tolerance": asked["speed_tolerance"],
-        "temperature_tolerance": asked["temperature_tolerance"],
-        "except_steps": _steps(asked["except_steps"]),
+        "outliers": "leave out" if parameters["leave_out_outliers"] else "keep",
+        "speed_tolerance": parameters["speed_tolerance"],
+        "temperature_tolerance": parameters["temperature_tolerance"],
+        "except_steps": _steps(parameters["except_steps"]),
     }
 
 

@@ -77,7 +77,7 @@ Example:
 @click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
 @click.option("--picture", type=_FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
 @click.option("-o", "--output", type=_FILE, help="Write pressure and displacement (.nc or .csv).")
-def command(as_json: bool, picture: Path | None, output: Path | None, **asked: Any) -> None:
+def command(as_json: bool, picture: Path | None, output: Path | None, **parameters: Any) -> None:
     """Solve one steady contact of an indenter that slides or rolls over rubber.
 
     Quantities carry their unit. Every result has its estimated discretisation error.
@@ -86,25 +86,25 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **asked: A
     check_ending(output, "--output", _FIELDS)
     for target in (picture, output):
         if target is not None:
-            refuse_to_overwrite(target, inputs_of(asked))
-    if (asked["load"] is None) == (asked["indentation"] is None):
+            refuse_to_overwrite(target, inputs_of(parameters))
+    if (parameters["load"] is None) == (parameters["indentation"] is None):
         raise click.UsageError("give either --load or --indentation, one of them.")
     with reported_errors():
         from viscofric.contact.steady import solve_steady
 
-        rubber, shape = chosen_rubber(asked), chosen_indenter(asked)
-        settings = {name: asked[name] for name in _SETTINGS} | contact_settings(asked)
-        settings["layer"] = chosen_layer(asked)
-        settings["window"] = asked["window"] and [length.strip() for length in asked["window"].split(",")]
+        rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
+        settings = {name: parameters[name] for name in _SETTINGS} | contact_settings(parameters)
+        settings["layer"] = chosen_layer(parameters)
+        settings["window"] = parameters["window"] and [length.strip() for length in parameters["window"].split(",")]
         began = time.perf_counter()
-        solution = solve_steady(rubber.material, shape.indenter, speed=_speed(asked["speed"]), **settings)
+        solution = solve_steady(rubber.material, shape.indenter, speed=_speed(parameters["speed"]), **settings)
         seconds = time.perf_counter() - began
         solution = replace(solution, warnings=(*solution.warnings, *_beyond_known(rubber, solution)))
         name = in_contact(shape.words, rubber, settings["layer"])
         if as_json:
             from viscofric.report.texts.contact import contact_record
 
-            record = contact_record(_inputs(asked, rubber, shape, solution), solution, seconds)
+            record = contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
         else:
             _print(name, rubber, solution, seconds)
@@ -139,32 +139,35 @@ def _beyond_known(rubber: NamedRubber, solution: ContactSolution) -> tuple[str, 
 
 
 def _inputs(
-    asked: dict[str, Any], rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution
+    parameters: dict[str, Any], rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution
 ) -> dict[str, Any]:
-    """Return what was asked for, in SI units; an infinite speed is the word."""
+    """Return the request, in SI units; an infinite speed is the word."""
     from viscofric.units import to_si
 
-    modulus, layer = asked["indenter_modulus"], chosen_layer(asked)
+    modulus, layer = parameters["indenter_modulus"], chosen_layer(parameters)
     elastic = None
     if modulus is not None:
-        elastic = {"modulus": to_si(modulus, "Pa"), "poisson_ratio": contact_settings(asked)["indenter_poisson_ratio"]}
+        elastic = {
+            "modulus": to_si(modulus, "Pa"),
+            "poisson_ratio": contact_settings(parameters)["indenter_poisson_ratio"],
+        }
     return {
         "material": rubber.record(solution.temperature),
         "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
         "indenter": shape.record | {"elastic": elastic},
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
         "direction": list(solution.direction),
-        "held": "load" if asked["load"] is not None else "indentation",
-        "load": solution.load if asked["load"] is not None else None,
-        "indentation": solution.indentation if asked["indentation"] is not None else None,
+        "held": "load" if parameters["load"] is not None else "indentation",
+        "load": solution.load if parameters["load"] is not None else None,
+        "indentation": solution.indentation if parameters["indentation"] is not None else None,
         "temperature": solution.temperature,
-        "accuracy": asked["accuracy"],
-        "tolerance": asked["tolerance"],
-        "finest": asked["finest"],
-        "grid": asked["grid"],
-        "window": asked["window"] and [to_si(length.strip(), "m") for length in asked["window"].split(",")],
-        "backend": asked["backend"],
-        "derivatives": asked["derivatives"],
+        "accuracy": parameters["accuracy"],
+        "tolerance": parameters["tolerance"],
+        "finest": parameters["finest"],
+        "grid": parameters["grid"],
+        "window": parameters["window"] and [to_si(length.strip(), "m") for length in parameters["window"].split(",")],
+        "backend": parameters["backend"],
+        "derivatives": parameters["derivatives"],
     }
 
 

@@ -44,10 +44,10 @@ def command(study: Path | None, port: int, host: str, no_browser: bool) -> None:
                 err=True,
             )
 
-        def tell(address: str, actual: int) -> None:
+        def print_address(address: str, actual: int) -> None:
             if port not in (0, actual):
                 click.echo(f"Note: port {port} is taken; the page is at {actual}.", err=True)
             click.echo(f"page {address}\nCtrl-C ends it.")
 
-        serve(host, port, study=document, files=files, browser=not no_browser, on_start=tell)
+        serve(host, port, study=document, files=files, browser=not no_browser, on_start=print_address)
     click.echo("The page is closed.")

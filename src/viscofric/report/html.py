@@ -17,7 +17,7 @@ from viscofric.report.results import group, is_synthetic, notes, rubbers, senten
 from viscofric.report.texts.checks import all_checks, counted
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.texts.numbers import typeset
-from viscofric.report.texts.study import grouped_failures, inputs, key_numbers, what_was_asked
+from viscofric.report.texts.study import grouped_failures, inputs, key_numbers, scope
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -99,7 +99,7 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
         "synthetic": is_synthetic(tree),
         "created": _moment(attrs.get("created", "")),
         "version": attrs.get("viscofric_version", ""),
-        "asked": what_was_asked(tree),
+        "scope": scope(tree),
         "inputs": inputs(tree),
         "key_numbers": key_numbers(tree),
         "glance": friction_at_a_glance(tree),
@@ -126,7 +126,7 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
     }
 
 
-#: Figures that stand beside the answer.
+#: Figures beside the key numbers.
 _ANSWER = ("friction_against_speed", "friction_sweep", "friction_map")
 
 
@@ -180,5 +180,5 @@ def _moment(text: str) -> str:
 
 
 def _printable(value: Any) -> Any:
-    """Leave out control characters, which HTML forbids, of what is not yet markup."""
+    """Leave out control characters, which HTML forbids, of text that is not yet markup."""
     return re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]", "", value) if type(value) is str else value

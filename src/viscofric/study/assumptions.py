@@ -44,12 +44,12 @@ def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:
     ]
 
 
-def assumption_checks(contacts: Contacts, asked: Solved, at_points: Solved) -> list[AssumptionCheck]:
+def assumption_checks(contacts: Contacts, requested: Solved, at_points: Solved) -> list[AssumptionCheck]:
     """Check thickness, small strain and warming of all contacts, and return the worst check of each kind."""
     if contacts.study.indenter is None:
-        return _surface_checks(contacts.study, asked.of_records)
+        return _surface_checks(contacts.study, requested.of_records)
     alike: dict[object, list[tuple[IndenterCase, Record]]] = {}
-    for case, record in zip(asked.of_records, asked.records, strict=True):
+    for case, record in zip(requested.of_records, requested.records, strict=True):
         alike.setdefault(case.alike, []).append((case, record))
     found: dict[str, AssumptionCheck] = {}
     # The largest contact first: if the thickness is unknown, it is the worst.

@@ -98,8 +98,8 @@ class Contacts:
             of = self.sweep if cases is self.sweep.cases else None
             parts.append(Solved(cases, tuple(found[: len(cases)]), of))
             del found[: len(cases)]
-        asked, at_points, along = parts
-        return asked, at_points, along
+        requested, at_points, along = parts
+        return requested, at_points, along
 
     def _plan(self) -> Plan:
         solver, kept = self.study.solver, self.study.outputs.fields

@@ -179,9 +179,9 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
-    asked, at_points, along = contacts.results()
-    failures = list(dict.fromkeys(one.note for part in (asked, at_points, along) for one in part.failures))
-    if not asked.records:
+    requested, at_points, along = contacts.results()
+    failures = list(dict.fromkeys(one.note for part in (requested, at_points, along) for one in part.failures))
+    if not requested.records:
         raise StudyError(f"no case could be solved; the first one failed: {failures[0]}", code="nothing-solved")
     groups, about = material_groups(
         [rubber_groups(one.rubber, one.bands.samples) for one in rubbers], [one.rubber.attributes for one in rubbers]
@@ -193,11 +193,11 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
 
     groups["/prediction"] = prediction(
         contacts.sweep,
-        asked.outcomes,
-        within=within(asked),
-        curves=band_columns(rubbers, asked.of_records, asked.records),
+        requested.outcomes,
+        within=within(requested),
+        curves=band_columns(rubbers, requested.of_records, requested.records),
     )
-    groups |= field_groups(contacts.sweep, asked.outcomes)
+    groups |= field_groups(contacts.sweep, requested.outcomes)
     if along.records:
         curves = rubbers[0].bands.curves(along.records)
         groups["/prediction_master"] = master_prediction(along.records, along.cases[0].geometry, within(along), curves)
@@ -206,7 +206,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
             pairs = zip(at_points.cases, points, strict=True)
             inside = [one is not None and rubbers[0].is_within(case, one) for case, one in pairs]
             groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
-    checked = assumption_checks(contacts, asked, at_points)
+    checked = assumption_checks(contacts, requested, at_points)
     groups |= assumptions(checked)
     tree = xarray.DataTree.from_dict(groups)
     notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
@@ -219,7 +219,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
             [
                 *doubtful,
                 *said,
-                *doubts((asked, at_points, along), rubbers),
+                *doubts((requested, at_points, along), rubbers),
                 *assumption_warnings(checked),
                 *_missed_accuracy(groups["/prediction"], study),
             ]

@@ -67,7 +67,7 @@ class StudyRubber:
         return None if fit is None else fit.frequency_range
 
     def is_within(self, case: Case, record: Record) -> bool:
-        """Whether a contact's frequencies, reduced by α(T), were measured, as far as is known.
+        """Whether a contact's frequencies, reduced by α(T), were measured, where that is known.
 
         They are v/a for an indenter, and 2πv/λ for the shortest and the longest wavelength of a rough surface.
         """
@@ -80,8 +80,8 @@ class StudyRubber:
 
     def doubts(self, temperatures: Sequence[float]) -> list[Note]:
         """Return notes about extrapolation, and about curves that do not lie on the master curve."""
-        asked = np.array(temperatures)
-        beyond = asked[np.asarray(self.shift.extrapolates(asked))]
+        requested = np.array(temperatures)
+        beyond = requested[np.asarray(self.shift.extrapolates(requested))]
         spectrum = self.material.spectrum
         fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
         # The warnings of a predefined material are reported nowhere else.
@@ -115,7 +115,7 @@ class StudyRubber:
 
 
 def all_within(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Record]) -> list[bool]:
-    """Return for each solved case whether its frequencies were measured, as far as is known."""
+    """Return for each solved case whether its frequencies were measured, where that is known."""
     return [rubbers[case.material].is_within(case, record) for case, record in zip(cases, records, strict=True)]
 
 

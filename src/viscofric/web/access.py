@@ -11,10 +11,10 @@ from functools import cache
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qs
 
-from viscofric.web.answers import answer, headers_of, refuse, with_headers
+from viscofric.web.replies import headers_of, refuse, reply, with_headers
 
 if TYPE_CHECKING:
-    from viscofric.web.answers import App, Receive, Scope, Send
+    from viscofric.web.replies import App, Receive, Scope, Send
 
 _HOST = re.compile(r"(?P<name>\[[^\[\]]+\]|[^:\[\]]+)(?::(?P<port>\d{1,5}))?")
 _EVERYWHERE = {"0.0.0.0", "::", ""}
@@ -96,7 +96,7 @@ class Door:
 
 
 class Access:
-    """Lets in only requests of the user's own page, and gives every answer the headers that keep it private."""
+    """Lets in only requests of the user's own page, and gives every reply the headers that keep it private."""
 
     def __init__(self, app: App, door: Door) -> None:
         self.app, self.door = app, door
@@ -135,19 +135,19 @@ class Access:
         """Hand out the cookie and lead to the page.
 
         A link on another page (a terminal in a browser) makes the browser hold back the cookie from a redirection,
-        but not from what this answer itself asks for.
+        but not from what this reply itself requests.
         """
         cookie = f"{self.door.cookie}={self.door.token}; Path=/; HttpOnly; SameSite=Strict"
         more = [(b"set-cookie", cookie.encode()), (b"content-type", b"text/html; charset=utf-8")]
         if headers.get("sec-fetch-site") == "cross-site":
-            await answer(
+            await reply(
                 send,
                 200,
                 b'<!doctype html><title>viscofric</title><a href="/">viscofric</a>',
                 [*more, (b"refresh", b"0; url=/")],
             )
         else:
-            await answer(send, 303, b"", [*more, (b"location", b"/")])
+            await reply(send, 303, b"", [*more, (b"location", b"/")])
 
 
 def _cookie(headers: dict[str, str], name: str) -> str:
@@ -161,5 +161,5 @@ def _cookie(headers: dict[str, str], name: str) -> str:
 
 @cache
 def _own_names() -> set[str]:
-    """Return the names of this machine; asked for once, as the network may answer slowly."""
+    """Return the names of this machine; looked up once, as the network may be slow."""
     return {socket.gethostname().lower(), socket.getfqdn().lower()}

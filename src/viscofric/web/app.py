@@ -40,7 +40,7 @@ _ANY_NAME = Annotated[str, InAddress(min_length=1, max_length=1_000)]
 
 
 class Refusal(BaseModel):
-    """Why a request was not answered, in one sentence."""
+    """Why a request was refused, in one sentence."""
 
     message: str
     field: str | None = None
@@ -94,7 +94,7 @@ def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict
         default_response_class=PlainJSON,
         responses={422: {"model": Refusal}, 413: {"model": Refusal}, 400: {"model": Refusal}},
     )
-    _tell_plainly(api)
+    _refuse_in_one_sentence(api)
     _page(api, study)
     _files(api)
     _jobs(api, children)
@@ -106,8 +106,8 @@ def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict
     return Access(Limits(api, largest), door)
 
 
-def _tell_plainly(api: FastAPI) -> None:
-    """Have every refusal be one sentence."""
+def _refuse_in_one_sentence(api: FastAPI) -> None:
+    """Make every refusal one sentence."""
 
     @api.exception_handler(RequestValidationError)
     async def wrong(request: Request, error: RequestValidationError) -> Response:
@@ -145,7 +145,7 @@ def _static(request: Request, name: str) -> Response:
     file = static_file(name)
     if file is None:
         raise HTTPException(404, "There is no such file.")
-    # kept by the browser, but asked for each time: the answer is 304 unless another viscofric serves other files
+    # kept by the browser, but requested each time: the reply is 304 unless another viscofric serves other files
     headers = {"etag": file.tag, "cache-control": "no-cache", "vary": "accept-encoding"}
     if file.tag in request.headers.get("if-none-match", ""):
         return Response(status_code=304, headers=headers)

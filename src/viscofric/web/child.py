@@ -1,6 +1,6 @@
 """A process that computes for the page: jobs come on its standard input, and it ends when that closes.
 
-Each line of the input is a JSON object: a job, or the wish to have one cancelled.  Each answer is a line with the job's
+Each line of the input is a JSON object: a job, or the wish to have one cancelled.  Each reply is a line with the job's
 number, the event, whether this process stays after it, and a number of bytes, and then as many bytes of JSON.
 `viscofric.web.children` is the other end.
 """
@@ -52,9 +52,9 @@ def main(parent: int, warm: Iterable[str] = WARM) -> None:
         Modules that it imports before the first of them.
     """
     _end_with(parent)
-    orders, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    orders, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     _keep_from_jobs()
-    desk = Desk(answers)
+    desk = Desk(replies)
     threading.Thread(target=desk.listen, args=(orders,), daemon=True).start()
     for module in warm:
         import_module(module)
@@ -94,15 +94,15 @@ def _keep_from_jobs() -> None:
 
 
 class Desk:
-    """Where jobs come in and answers go out, each by a thread of its own, so that an interrupt splits no answer."""
+    """Where jobs come in and replies go out, each by a thread of its own, so that an interrupt splits no reply."""
 
-    def __init__(self, answers: BinaryIO) -> None:
+    def __init__(self, replies: BinaryIO) -> None:
         self.jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
-        self._answers: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._replies: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._at_work: int | None = None  # number of the job that may be interrupted
         self._cancelled: set[int] = set()
-        threading.Thread(target=self._write, args=(answers,), daemon=True).start()
+        threading.Thread(target=self._write, args=(replies,), daemon=True).start()
 
     def listen(self, orders: BinaryIO) -> None:
         """Take in jobs and wishes to cancel them; end everything once nobody can wish any more."""
@@ -117,12 +117,12 @@ class Desk:
                     _thread.interrupt_main()
         end_all()
 
-    def _write(self, answers: BinaryIO) -> None:
+    def _write(self, replies: BinaryIO) -> None:
         while True:
-            message = self._answers.get()
+            message = self._replies.get()
             try:
-                answers.write(message)
-                answers.flush()
+                replies.write(message)
+                replies.flush()
             except OSError:  # nobody reads any more
                 end_all()
             if not message:
@@ -133,10 +133,10 @@ class Desk:
         body = _json({"event": event, **message})
         if len(body) > LARGEST_MESSAGE:
             raise ViscofricError(
-                f"The answer has {len(body) / 1e6:.0f} MB, more than a browser is handed "
+                f"The reply has {len(body) / 1e6:.0f} MB, more than a browser is handed "
                 f"({LARGEST_MESSAGE / 1e6:.0f} MB); ask for fewer points."
             )
-        self._answers.put(f"{number} {event} {'stays' if stays else 'ends'} {len(body)}\n".encode() + body)
+        self._replies.put(f"{number} {event} {'stays' if stays else 'ends'} {len(body)}\n".encode() + body)
 
     def work(self, job: dict[str, Any]) -> None:
         """Do a job and send its result or its error."""
@@ -153,7 +153,7 @@ class Desk:
             stays = not isinstance(error, MemoryError)
             self.send(number, "error", _error_of(error, Path(job["folder"]) / "files"), stays)
         if not stays:
-            self._answers.put(b"")
+            self._replies.put(b"")
             threading.Event().wait()
 
     @contextlib.contextmanager

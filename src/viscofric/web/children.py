@@ -290,7 +290,7 @@ class Children:
     def _keep_spare(self) -> None:
         """Have a process in store that nobody has used yet, so that the next job need not wait for one to start.
 
-        There are two from the beginning: the page asks for a curve and for one contact at once.
+        There are two from the beginning: the page requests a curve and for one contact at once.
         """
         if len(self._all) < _FROM_THE_BEGINNING or not any(child.key is None for child in self._idle):
             self.start()
@@ -305,7 +305,7 @@ class Children:
         """Have a process give up its job; end it if it does not."""
         try:
             asyncio.get_running_loop().run_in_executor(None, child.order, {"cancel": child.number})
-            # one that still loads answers as soon as it has
+            # one that is still loading replies once it has loaded
             async with asyncio.timeout(_SOFT if child.ready else _LONGEST_START):
                 while (await child.messages.get()).event not in _LAST:
                     pass

@@ -5,12 +5,12 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING, Any
 
-from viscofric.web.answers import headers_of, refuse
+from viscofric.web.replies import headers_of, refuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable, MutableMapping
 
-    from viscofric.web.answers import App, Receive, Scope, Send
+    from viscofric.web.replies import App, Receive, Scope, Send
 
 LARGEST_STUDY = 4_000_000  # bytes, of a job's body
 _BODY_PAUSE = 20.0  # s without a byte of a body that was announced
@@ -42,14 +42,14 @@ class Limits:
             await refuse(scope, send, 413, words)
             return
         body = _Body(receive, most, self.pause)
-        answered = _Answered(send)
+        replied = _Replied(send)
         try:
-            await self.app(scope, body.receive, answered.send)
+            await self.app(scope, body.receive, replied.send)
         except _TooLarge:
-            if not answered.begun:
+            if not replied.begun:
                 await refuse(scope, send, 413, words)
         except _TooSlow:
-            if not answered.begun:
+            if not replied.begun:
                 await refuse(scope, send, 408, f"Nothing of the body came for {self.pause:g} s.")
 
 
@@ -81,7 +81,7 @@ class _Body:
         return message
 
 
-class _Answered:
+class _Replied:
     def __init__(self, send: Send) -> None:
         self._send, self.begun = send, False
 

@@ -108,14 +108,14 @@ def serve(
         children.start()  # at once: it loads NumPy and the contact engine while this process loads the server
         stack.callback(children.close)
         workspaces = stack.enter_context(contextlib.closing(Workspaces(files)))
-        # the browser starts meanwhile, too: what it asks waits at the socket
+        # the browser starts meanwhile, too: its requests wait at the socket
         if on_start is not None:
             on_start(door.address, door.port)
         if browser:
             threading.Thread(target=webbrowser.open, args=(door.invite(),), daemon=True).start()
         server = _server(door, children, study, workspaces)
         stopping += [lambda: setattr(server, "should_exit", True), children.stop]
-        if stopping.asked:  # and the exception was lost: Python drops those raised where it collects garbage
+        if stopping.requested:  # and the exception was lost: Python drops those raised where it collects garbage
             raise KeyboardInterrupt
         server.run(sockets=[listening])
 
@@ -132,7 +132,7 @@ def _server(door: Door, children: Children, study: dict[str, Any] | None, worksp
     class Server(uvicorn.Server):
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
             children.attach()
-            asyncio.get_running_loop().run_in_executor(None, start, study)  # loads what its first answer takes
+            asyncio.get_running_loop().run_in_executor(None, start, study)  # loads what its first reply needs
             await super().startup(sockets)
 
         @contextlib.contextmanager
@@ -156,9 +156,9 @@ def _server(door: Door, children: Children, study: dict[str, Any] | None, worksp
 
 
 class _Stopping(list["Callable[[], object]"]):
-    """What is called when the program is to stop, and whether it was asked to."""
+    """What is called when the program is to stop, and whether a signal arrived."""
 
-    asked = False
+    requested = False
 
 
 @contextlib.contextmanager
@@ -167,7 +167,7 @@ def _stopped_by_signals() -> Iterator[_Stopping]:
     stopping = _Stopping()
 
     def stop(number: int, frame: FrameType | None) -> None:
-        stopping.asked = True
+        stopping.requested = True
         if not stopping:
             raise KeyboardInterrupt
         for call in stopping:

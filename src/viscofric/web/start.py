@@ -1,4 +1,4 @@
-"""What a fresh page shows: a study of the synthetic rubber, the catalogue, and how much may be asked for."""
+"""What a fresh page shows: a study of the synthetic rubber, the catalogue, and the limits of requests."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FIRST_STUDY: dict[str, Any] = {
 
 
 def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
-    """Return what the page asks for before anything else.
+    """Return what the page requests first.
 
     Parameters
     ----------

@@ -128,7 +128,7 @@ class Workspaces:
         self.root = Path(tempfile.mkdtemp(prefix=_PREFIX))
         self._lock = _locked(self.root)
         self._known: dict[str, Workspace] = {}
-        self._one_at_a_time = threading.Lock()  # a fresh tab asks for several things at once
+        self._one_at_a_time = threading.Lock()  # a fresh tab requests several things at once
 
     def get(self, key: str) -> Workspace:
         """Return the workspace of a tab, a new one if need be; the one that rested longest makes room for it.

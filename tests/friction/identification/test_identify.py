@@ -196,7 +196,7 @@ def test_a_part_of_the_modulus_known_beforehand_fixes_the_level() -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
-def test_errors_that_are_too_small_are_enlarged_and_told() -> None:
+def test_errors_that_are_too_small_are_enlarged_and_reported() -> None:
     curves = closed_form_curves(*WARM)
     scattered = curves.viscoelastic * (1.0 + 0.03 * np.random.default_rng(2).standard_normal(len(curves)))
     noisy = replace(curves, viscoelastic=scattered, viscoelastic_error=0.005 * scattered)
@@ -226,8 +226,8 @@ def test_nothing_is_identified_from_friction_that_no_rubber_makes(friction, expe
     found = vf.identify_material(curves, anchor=planted_anchor(), shift=RUBBER.shift, **FEW)
     assert codes(found.notes) == expected
     assert [one.decades for one in (found.identified, found.identified_storage, found.identified_loss)] == [0.0] * 3
-    told = codes(vf.shift_friction(curves, shift=RUBBER.shift).notes)
-    assert told == expected & {"too-steep", "constant-friction"}  # on one curve, but not of a rubber
+    reported = codes(vf.shift_friction(curves, shift=RUBBER.shift).notes)
+    assert reported == expected & {"too-steep", "constant-friction"}  # on one curve, but not of a rubber
 
 
 @pytest.mark.slow
@@ -246,7 +246,7 @@ def test_coulomb_friction_on_compressible_rubber_is_noted(poisson_ratio: float, 
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
-def test_residuals_that_follow_each_other_are_told() -> None:
+def test_residuals_that_follow_each_other_are_reported() -> None:
     """A cold curve that lies 5 % above the warm ones, as after a change of sample: missed, but not by scatter."""
     curves = closed_form_curves(*WARM)
     made = curves.viscoelastic * np.where(curves.temperature == REFERENCE, 1.05, 1.0)
@@ -258,7 +258,7 @@ def test_residuals_that_follow_each_other_are_told() -> None:
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
-def test_anchors_that_contradict_or_fix_nothing_are_told() -> None:
+def test_anchors_that_contradict_or_fix_nothing_are_reported() -> None:
     curves = closed_form_curves(REFERENCE)
     both = [planted_anchor(), vf.ModulusAnchor("30 MPa", 10.0, REFERENCE, error=1e-3)]
     assert "it contradicts the friction or itself" in str(vf.identify_material(curves, anchor=both, **FEW))

@@ -208,7 +208,7 @@ def test_points_of_a_ball_at_two_loads_are_those_of_one() -> None:
         usable_points(replace(both, load_unit="N/m"), profile, None, 1e-4)
 
 
-def test_points_that_cannot_be_used_are_told() -> None:
+def test_points_that_cannot_be_used_are_reported() -> None:
     speed = np.geomspace(0.02, 0.2, 8)
     curves = curves_of(speed, np.full(8, 300.0), np.full(8, 0.01), 1e-4)
     negative = replace(curves, viscoelastic=np.where(speed == speed[2], -1e-3, 0.01))

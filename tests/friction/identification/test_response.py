@@ -99,12 +99,12 @@ def test_friction_of_a_hardly_viscoelastic_solid_is_the_sum_of_its_modes(indente
     assert np.all(found.log_C > 0.0)
 
 
-def test_progress_is_told() -> None:
-    told = []
+def test_progress_is_reported() -> None:
+    reported = []
     friction_response(
-        rubber(), 0.5, CYLINDER, [0.1, 1.0], 100.0, accuracy=0.1, progress=lambda *done: told.append(done)
+        rubber(), 0.5, CYLINDER, [0.1, 1.0], 100.0, accuracy=0.1, progress=lambda *done: reported.append(done)
     )
-    assert told == [(1, 2), (2, 2)]
+    assert reported == [(1, 2), (2, 2)]
 
 
 def test_failed_contact_is_named() -> None:

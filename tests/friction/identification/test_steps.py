@@ -84,7 +84,7 @@ def test_what_does_not_settle_is_refused(monkeypatch: pytest.MonkeyPatch) -> Non
     assert len(bent.squares) == 3
 
 
-def test_contacts_that_fail_everywhere_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_contacts_that_fail_everywhere_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     Bent(monkeypatch, failing=100)
     with pytest.raises(ConvergenceError, match=r"^not solved\.$"):
         vf.identify_material(known_to_a_hundredth(), **SETTINGS)

@@ -154,7 +154,7 @@ def document(
         steps.append({"Id": one, "Name": f"Frequency sweep - {number}"})
         rows += [{**{keys[n]: cell(n, p, unit) for n in names}, "Results Step Id": one} for p in points_of_step]
     classes = {"Processed": "Latest", "Original": "Unmodified"}
-    told = {"Id": classes.get(section, "Unmodified"), "Description": "Data may include user edits"}
+    reported = {"Id": classes.get(section, "Unmodified"), "Description": "Data may include user edits"}
     return {
         "Schema": {"Url": "https://software.tainstruments.com/schemas/TRIOSJSONExportSchema"},
         "Operators": [{"Name": "nobody"}],
@@ -166,7 +166,7 @@ def document(
         },
         "Analyses": [],
         "Results": {
-            section: {"Classification": told, "ResultsSteps": steps, "ColumnHeaders": headers, "Rows": rows},
+            section: {"Classification": reported, "ResultsSteps": steps, "ColumnHeaders": headers, "Rows": rows},
         },
     }
 

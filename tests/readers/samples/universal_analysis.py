@@ -78,10 +78,10 @@ def header(signals, clamp=CLAMP, separator="\t", method="Temp Step / Freq Sweep"
     return ["CLOSED", *(f"{tag}{separator}{value}" for tag, value in lines)]
 
 
-def text_lines(signals=SIGNALS, events=(0, 5), comma=False, of=points, **told) -> list[str]:
+def text_lines(signals=SIGNALS, events=(0, 5), comma=False, of=points, **reported) -> list[str]:
     """Return the lines of a text export, with rows of events before the points of the numbers given."""
     values = columns(of)
-    lines = [*header(signals, **told), "StartOfData"]
+    lines = [*header(signals, **reported), "StartOfData"]
     for k in range(len(values["Time (min)"])):
         if k in events:
             lines.append("\t".join(["-1.0000000", *["0.0000000"] * (len(signals) - 1)]))
@@ -96,11 +96,11 @@ def write_text(folder: Path, encoding="utf-16", name="q800.txt", **how) -> Path:
     return path
 
 
-def binary(signals=SIGNALS, closed=True, footer=b"\x07\x00footer", of=points, **told) -> bytes:
+def binary(signals=SIGNALS, closed=True, footer=b"\x07\x00footer", of=points, **reported) -> bytes:
     """Return a binary file: header in UTF-16, marker, records, a record with negative time, and some bytes more."""
     values = columns(of)
     records = np.array([values[name] for name in signals], dtype="<f4").T
-    head = "\r\n".join(header(signals, separator=" ", **told)).encode("utf-16-le")
+    head = "\r\n".join(header(signals, separator=" ", **reported)).encode("utf-16-le")
     end = np.full(len(signals), -1.0, dtype="<f4").tobytes() + footer if closed else b""
     return b"\xff\xfe" + head + b"\r\0\n\0\f\0" + b"\x01" + records.tobytes() + end
 

@@ -78,7 +78,7 @@ def test_accuracy_is_kept_and_no_case_is_lost(modes: list[tuple[float, float]], 
 
 
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-3])
-def test_errors_that_are_told_are_within_the_accuracy(accuracy: float) -> None:
+def test_errors_that_are_reported_are_within_the_accuracy(accuracy: float) -> None:
     """Those of the nodes are nearly as large as they may be, and interpolating adds to them."""
     random = np.random.default_rng(0)
     for _ in range(5):
@@ -93,9 +93,9 @@ def test_errors_that_are_told_are_within_the_accuracy(accuracy: float) -> None:
             curve.advance(found)
         seen = list(curve.alone)
         for one in curve.closed:
-            told = curve.between(one).found
-            errors = np.hypot(told.from_nodes[:, FRICTION], told.between[:, FRICTION])
-            assert np.all(errors <= accuracy * told.values[:, FRICTION])
+            reported = curve.between(one).found
+            errors = np.hypot(reported.from_nodes[:, FRICTION], reported.between[:, FRICTION])
+            assert np.all(errors <= accuracy * reported.values[:, FRICTION])
             seen += one.cases.tolist()
         assert sorted(seen) == list(range(len(PLACES)))
 

@@ -21,10 +21,10 @@ CASES = [
 
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-3])
 def test_contacts_of_a_curve_are_foreseen(accuracy: float) -> None:
-    told = estimate(CASES, [SLS], accuracy=accuracy)
+    reported = estimate(CASES, [SLS], accuracy=accuracy)
     took = sum(map(len, carry_out(plan_cases(CASES, [SLS], accuracy=accuracy))))
-    assert told.cases == len(CASES)
-    assert 0.6 * took <= told.solves <= 1.6 * took  # rough, and said to be
+    assert reported.cases == len(CASES)
+    assert 0.6 * took <= reported.solves <= 1.6 * took  # rough, and said to be
 
 
 def test_every_case_counts_where_each_is_solved() -> None:
@@ -39,7 +39,7 @@ def test_members_of_a_posterior_have_a_curve_each() -> None:
     assert estimate(more, [SLS]).solves == pytest.approx(3 * one, abs=1)  # rounded
 
 
-def test_what_takes_more_is_told_to_take_more() -> None:
+def test_what_takes_more_is_reported_to_take_more() -> None:
     plain = estimate(CASES, [SLS])
     assert plain.seconds > 0.0
     assert estimate(CASES, [SLS], sensitive=True).seconds > 1.5 * plain.seconds

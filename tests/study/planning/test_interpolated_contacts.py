@@ -91,7 +91,7 @@ def test_accuracy_is_kept_over_twelve_decades(material: vf.Material, slowest: fl
 
 
 @pytest.mark.slow
-def test_sensitivity_of_an_interpolated_contact_tells_what_its_own_would() -> None:
+def test_sensitivity_of_an_interpolated_contact_shows_what_its_own_would() -> None:
     material = vf.Material(
         vf.RetardationSpectrum(1e6, 1e7, [4e-7, 5e-7], [1e-4, 1e-2]), shift=vf.Arrhenius(80e3, reference=303.15)
     )
@@ -103,18 +103,18 @@ def test_sensitivity_of_an_interpolated_contact_tells_what_its_own_would() -> No
     assert isinstance(one, Record)
     assert one.interpolated
     (task,) = plan_cases([cases[11]], [material], accuracy=1e-2, sensitive=True, each=True).wanted()
-    told, own = one.sensitivity, solve(task).sensitivity
-    assert told is not None
+    reported, own = one.sensitivity, solve(task).sensitivity
+    assert reported is not None
     assert own is not None
-    np.testing.assert_allclose(told.log_tau, own.log_tau, atol=1e-9)
+    np.testing.assert_allclose(reported.log_tau, own.log_tau, atol=1e-9)
     # Both have the errors of contacts solved to 1 %, of which the differences along g are the larger part.
-    np.testing.assert_allclose(told.slope, own.slope, atol=0.02 * np.abs(own.slope).max())
+    np.testing.assert_allclose(reported.slope, own.slope, atol=0.02 * np.abs(own.slope).max())
     for name in ("friction", "compliance_part", "glass", "load", "frequency"):
-        assert getattr(told, name) == pytest.approx(getattr(own, name), rel=0.02), name
+        assert getattr(reported, name) == pytest.approx(getattr(own, name), rel=0.02), name
     # A rubber that is the same has the same friction, whatever the rest.
-    assert told.friction == one.friction_coefficient
+    assert reported.friction == one.friction_coefficient
     own_modes = (
-        told.at(np.log(task.arguments["modes"].tau)) @ task.arguments["modes"].C
-        + told.glass / task.arguments["modes"].E_inf
+        reported.at(np.log(task.arguments["modes"].tau)) @ task.arguments["modes"].C
+        + reported.glass / task.arguments["modes"].E_inf
     )
-    assert own_modes == pytest.approx(told.compliance_part, rel=1e-9)
+    assert own_modes == pytest.approx(reported.compliance_part, rel=1e-9)

@@ -101,7 +101,7 @@ def test_line_contacts_are_recorded_too() -> None:
     assert Record.from_values(json.loads(json.dumps(record.values()))) == record
 
 
-def test_what_lies_between_solved_contacts_is_told_before_the_end() -> None:
+def test_what_lies_between_solved_contacts_is_reported_before_the_end() -> None:
     speeds = np.geomspace(1e-3, 10.0, 60)
     plan = plan_cases([case_of(float(speed)) for speed in speeds], [SLS], accuracy=1e-2)
     first, second, *others = plan.wanted()

@@ -83,7 +83,7 @@ def command(
     card_law: CardLaw | None,
     samples: int,
     synthetic: bool,
-    **asked: Any,
+    **parameters: Any,
 ) -> None:
     """Fit a material to DMA FILES: shift factors, master curve, spectrum, figures and a report.
 
@@ -91,7 +91,7 @@ def command(
     """
     if samples < 0:
         raise click.BadParameter("must not be below zero.", param_hint="--samples")
-    if asked["master_curve"] and len(files) > 1:
+    if parameters["master_curve"] and len(files) > 1:
         raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
     with reported_errors():
         from viscofric.report import write_figures_and_report
@@ -99,12 +99,13 @@ def command(
 
         folder = files[0].with_suffix(".material") if output is None else output
         results, rubber, written = run_material(
-            _table(files, asked),
+            _table(files, parameters),
             folder,
-            title=asked["name"] or f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if files[1:] else ""),
+            title=parameters["name"]
+            or f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if files[1:] else ""),
             command=_command(
                 files,
-                {**asked, "card": cards, "card_law": card_law, "samples": samples}
+                {**parameters, "card": cards, "card_law": card_law, "samples": samples}
                 | {"output": output, "synthetic": synthetic},
             ),
             samples=samples,
@@ -141,22 +142,22 @@ def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw
     return True
 
 
-def _table(files: tuple[Path, ...], asked: dict[str, Any]) -> MaterialTable:
-    """Check what was asked for as a run file's [material] is checked."""
+def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable:
+    """Check the parameters as a run file's [material] is checked."""
     from viscofric.study.run_file.study import material_of
 
-    values: dict[str, Any] = {"reference_temperature": asked["reference"]}
-    if asked["master_curve"]:
+    values: dict[str, Any] = {"reference_temperature": parameters["reference"]}
+    if parameters["master_curve"]:
         values["master_curve"] = str(files[0])
     else:
         values["dma"] = [str(path) for path in files]
-    if asked["fix"]:
-        pairs = [_fixed(text) for text in asked["fix"]]
+    if parameters["fix"]:
+        pairs = [_fixed(text) for text in parameters["fix"]]
         values["fixed_shift_factors"] = dict(pairs)
         if len(values["fixed_shift_factors"]) < len(pairs):
             raise click.BadParameter("holds one temperature twice.", param_hint="--fix")
     defaults = {option.name: option.default for option in command.params}
-    for name, value in asked.items():
+    for name, value in parameters.items():
         if name not in ("reference", "fix", "master_curve") and value not in (None, (), defaults.get(name)):
             values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
     return material_of(values)
@@ -172,11 +173,11 @@ def _fixed(text: str) -> tuple[str, float]:
         ) from None
 
 
-def _command(files: tuple[Path, ...], asked: dict[str, Any]) -> str:
+def _command(files: tuple[Path, ...], parameters: dict[str, Any]) -> str:
     """Return the command that does the same again, without what is the default anyway."""
     defaults = {option.name: option.default for option in command.params}
     words = ["viscofric", "material", "fit", *map(str, files)]
-    for name, value in asked.items():
+    for name, value in parameters.items():
         if value in (None, (), False, defaults.get(name)):
             continue
         option = f"--{name.replace('_', '-')}"

@@ -156,7 +156,7 @@ def trace_dma(
     ]
     _insist_on_different(sources)
     readings = [_read(source) for source in sources]
-    if modulus_unit is not None and not any(one.unit_is_asked for one in readings):
+    if modulus_unit is not None and not any(one.lacks_unit for one in readings):
         raise InputError(
             f"modulus_unit = {modulus_unit!r}: the files state the units of their moduli; leave it out.",
             code="unit-not-needed",

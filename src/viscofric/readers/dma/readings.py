@@ -53,7 +53,7 @@ class Readings:
     strain_amplitude: Array | None = None  # fraction (0.01 is 1 %), NaN if unknown
     step: Integers | None = None  # of the instrument's programme
     notes: tuple[str, ...] = ()
-    unit_is_asked: bool = False  # the moduli have no unit but the user's
+    lacks_unit: bool = False  # the moduli have no unit but the user's
 
     def __len__(self) -> int:
         return len(self.temperature)

@@ -77,11 +77,11 @@ def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
     axes.grid(visible=False)
     axes.set_xlabel(_label_along(solution))
     axes.set_ylabel(f"across $y$ ({unit.name})")
-    _tell_motion(axes, solution)
+    _draw_motion(axes, solution)
     return mesh
 
 
-def _tell_motion(axes: Axes, solution: ContactSolution) -> None:
+def _draw_motion(axes: Axes, solution: ContactSolution) -> None:
     """Draw an arrow that shows where the indenter goes."""
     if solution.speed == 0.0:
         return

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 _MOST_CELLS = 200  # along an edge of a map; more do not show
-_MARGIN = 1.12  # of what is shown, over the largest contact
+_MARGIN = 1.12  # of the shown region, over the largest contact
 #: Share of the loaded cells below the end of the colours: a few cells at a sharp edge do not darken all others.
 _SHARE_SHOWN = 0.995
 _MILLI, _MEGA = 1e-3, 1e6

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 FIELDS = "fields"
-#: Coordinates of a case, in the order in which they are told.
+#: Coordinates of a case, in the order in which they are listed.
 _CONDITIONS = (*VARIED, "temperature", "speed")
 #: How far behind and ahead of the contact a trail is looked at, over the contact's length.
 _TRAIL = 2.5
@@ -29,7 +29,7 @@ _SAME = 1e-9  # relative
 
 
 class Shown(NamedTuple):
-    """A contact with the conditions that it was solved at, as far as they are known (SI, by name)."""
+    """A contact with the conditions that it was solved at, where they are known (SI, by name)."""
 
     contact: Contact
     conditions: dict[str, Any]
@@ -47,7 +47,9 @@ def shown_contacts(tree: xr.DataTree) -> list[Shown]:
     found = _kept(tree)
     if not found:
         return []
-    speed, friction = (np.array([float(told.get(name, math.nan)) for _, told in found]) for name in _CHOSEN_BY)
+    speed, friction = (
+        np.array([float(conditions.get(name, math.nan)) for _, conditions in found]) for name in _CHOSEN_BY
+    )
     if not np.isfinite(speed).any():
         chosen = {0: ""}
     else:
@@ -87,17 +89,17 @@ def _kept(tree: xr.DataTree) -> list[tuple[xr.Dataset, dict[str, Any]]]:
             fields = fields.expand_dims(y=[0.0], axis=1)
         if not {"pressure", "x", "y"} <= set(fields.variables) or not (fields["pressure"].values > 0.0).any():
             continue
-        told = {name: _told(fields, name) for name in (*_CONDITIONS, "friction_coefficient")}
-        told = {name: value for name, value in told.items() if value is not None}
+        conditions = {name: _stated(fields, name) for name in (*_CONDITIONS, "friction_coefficient")}
+        conditions = {name: value for name, value in conditions.items() if value is not None}
         if "mean_pressure" in fields.variables:  # of a rough surface: `pressure` is the field
-            told["pressure"] = _told(fields, "mean_pressure")
-        if "friction_coefficient" not in told and cases is not None:
-            told["friction_coefficient"] = _friction_of(cases, told)
-        kept.append((fields, told))
+            conditions["pressure"] = _stated(fields, "mean_pressure")
+        if "friction_coefficient" not in conditions and cases is not None:
+            conditions["friction_coefficient"] = _friction_of(cases, conditions)
+        kept.append((fields, conditions))
     return kept
 
 
-def _told(fields: xr.Dataset, name: str) -> Any:
+def _stated(fields: xr.Dataset, name: str) -> Any:
     """Return what fields say of their case: a scalar among their variables or attributes."""
     value = fields[name].values if name in fields.variables else fields.attrs.get(name)
     if value is None or np.size(value) != 1:
@@ -105,10 +107,10 @@ def _told(fields: xr.Dataset, name: str) -> Any:
     return np.ravel(value)[0].item() if isinstance(value, np.ndarray | np.generic) else value
 
 
-def _friction_of(cases: xr.Dataset, told: dict[str, Any]) -> float:
+def _friction_of(cases: xr.Dataset, conditions: dict[str, Any]) -> float:
     """Return the friction coefficient of the case with these conditions, NaN if there is none."""
     same = np.ones(cases.sizes["case"], dtype=bool)
-    for name, value in told.items():
+    for name, value in conditions.items():
         if name in cases.variables and cases[name].dims == ("case",):
             column = cases[name].values
             same &= column == value if isinstance(value, str) else np.isclose(column, value, rtol=_SAME, atol=0.0)
@@ -117,17 +119,17 @@ def _friction_of(cases: xr.Dataset, told: dict[str, Any]) -> float:
 
 
 def _varied(found: list[tuple[xr.Dataset, dict[str, Any]]]) -> set[str]:
-    """Return which conditions differ among the contacts, and those that are always told."""
-    differ = {name for name in _CONDITIONS if len({str(told.get(name)) for _, told in found}) > 1}
+    """Return which conditions differ among the contacts, and those that are always listed."""
+    differ = {name for name in _CONDITIONS if len({str(conditions.get(name)) for _, conditions in found}) > 1}
     return differ | {"temperature", "speed"}
 
 
-def _contact(fields: xr.Dataset, told: dict[str, Any], title: str, named: set[str]) -> Contact:
-    words = [_in_words(fields, name, told[name]) for name in _CONDITIONS if name in told and name in named]
+def _contact(fields: xr.Dataset, conditions: dict[str, Any], title: str, named: set[str]) -> Contact:
+    words = [_in_words(fields, name, conditions[name]) for name in _CONDITIONS if name in conditions and name in named]
     pressure = fields["pressure"].transpose("x", "y").values.astype(float)
     none = np.full(pressure.shape, np.nan)
     displacement = fields["displacement"].transpose("x", "y").values.astype(float) if "displacement" in fields else none
-    friction = float(told.get("friction_coefficient", math.nan))
+    friction = float(conditions.get("friction_coefficient", math.nan))
     return Contact(title, ", ".join(words), friction, *_places(fields), pressure, displacement)
 
 
@@ -157,7 +159,7 @@ def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
     Returns
     -------
     list of ((n,) array, (n,) array)
-        Place (m) and displacement (m) into the solid.  Only as far as the kept fields reach where the results do not
+        Place (m) and displacement (m) into the solid.  Only within the kept fields where the results do not
         hold what it takes to look farther: of layers, of several rubbers, and of rubbers that they do not describe.
 
     Notes
@@ -220,7 +222,7 @@ def _merged(contact: Contact) -> tuple[Array, Array, Array]:
 
 
 def _shift_factor(tree: xr.DataTree, kelvin: float) -> float | None:
-    """Return α(T) as the study took it, None where the results do not tell."""
+    """Return α(T) as the study took it, None where the results do not contain it."""
     from viscofric.report.data import law_of
 
     factors, law = group(tree, "shift_factors"), law_of(group(tree, "shift_law"))

@@ -135,8 +135,8 @@ def friction_against_speed(tree: xr.DataTree) -> Figure | None:
 def friction_sweep(tree: xr.DataTree) -> Figure | None:
     """Friction over the axes of a study: where more than speed and temperature varies, or the speed does not."""
     friction = labelled(tree)
-    told = group(tree, "measurement") is not None and varied(tree) <= _CURVES
-    return None if friction is None or told or _is_plain(tree) else sweep_figure(friction)
+    drawn_as_curves = group(tree, "measurement") is not None and varied(tree) <= _CURVES
+    return None if friction is None or drawn_as_curves or _is_plain(tree) else sweep_figure(friction)
 
 
 def _is_plain(tree: xr.DataTree) -> bool:
@@ -155,7 +155,7 @@ _CURVES = {"speed", "temperature"}
 
 
 def _few_curves(prediction: xr.Dataset, measurement: xr.Dataset | None) -> xr.Dataset:
-    """Leave out temperatures where there are more lines than can be told apart, and loads other than the measured."""
+    """Leave out temperatures where there are too many lines to distinguish, and loads other than the measured."""
     temperature, load = (values(prediction, name) for name in ("temperature", "load"))
     nominal = nominal_temperatures(temperature)
     kept, shown = set(thinned(nominal.size, MOST_LINES)), np.ones(temperature.size, dtype=bool)
@@ -211,7 +211,7 @@ def contacts(tree: xr.DataTree) -> Figure | None:
         return None
     each = [contact for contact, _ in shown]
     if is_rough(tree):
-        return rough_contacts_figure(each, [float(told.get("direction", 0.0)) for _, told in shown])
+        return rough_contacts_figure(each, [float(conditions.get("direction", 0.0)) for _, conditions in shown])
     return contacts_figure(each)
 
 

@@ -235,7 +235,7 @@ def _unit(cases: xr.Dataset, name: str) -> str:
 
 
 def _varied_columns(cases: xr.Dataset) -> list[Column]:
-    """Return columns of what else varies; names of rubbers stand before them."""
+    """Return columns of the other quantities that vary; names of rubbers stand before them."""
     found = []
     for name in VARIED:
         if name == "load" or name not in cases or len(np.unique(cases[name].values)) < 2:

@@ -1,4 +1,4 @@
-"""What a study was asked, and its results in key numbers."""
+"""The scope of a study, and its results in key numbers."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Input(NamedTuple):
     value: str
 
 
-def what_was_asked(tree: xr.DataTree) -> list[str]:
+def scope(tree: xr.DataTree) -> list[str]:
     """Say the inputs of the study in sentences."""
     attrs = tree.attrs
     said = []
@@ -188,7 +188,7 @@ class KeyNumber(NamedTuple):
 
 
 def key_numbers(tree: xr.DataTree) -> list[KeyNumber]:
-    """Return the answer's most important numbers."""
+    """Return the most important numbers of the results."""
     found = [*_friction_numbers(tree), *_shift_numbers(tree), *_modulus_numbers(tree)]
     for rubber, branch in rubbers(tree)[:_MOST_RUBBERS]:
         found += [item._replace(name=f"{item.name}, {rubber}") for item in _modulus_numbers(branch)]

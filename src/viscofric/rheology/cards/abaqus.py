@@ -132,7 +132,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
         bulk = None if bulk is None else bulk / _left(shares[1], viscoelastic.row)
     poisson = 0.5 if bulk is None else (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
     if not instantaneous:
-        shear, bulk = _told(shear, bulk, poisson, content)
+        shear, bulk = _as_stated(shear, bulk, poisson, content)
     stated = number_of(content, "E0")
     long_term = None if stated is None else stated / (2.0 * (1.0 + poisson))
     series = relative_series(shear, shares[0], times, long_term)
@@ -209,7 +209,7 @@ def _left(shares: list[float], row: int) -> float:
     return left
 
 
-def _told(
+def _as_stated(
     shear: float, bulk: float | None, poisson: float, content: dict[str, Any] | None
 ) -> tuple[float, float | None]:
     """Return the instantaneous moduli of the comments where they are those of the card, to the last digit."""

@@ -1,1 +1,1 @@
-"""Contacts that a study asks for: what all have in common, those of an indenter, and those of a rough surface."""
+"""The contacts of a study: what all have in common, those of an indenter, and those of a rough surface."""

@@ -87,7 +87,7 @@ def body_of(tables: Mapping[str, Any]) -> Any:
 
 
 def coordinates(tables: Mapping[str, Any]) -> dict[str, Values]:
-    """Return all coordinates with their values, in the order of the axes, as far as the (valid) tables give them."""
+    """Return all coordinates with their values, in the order of the axes, where the (valid) tables give them."""
     known: dict[str, Values] = {}
     if "material" in tables:
         known["material"] = tuple(material.name for material in tables["material"])

@@ -121,14 +121,14 @@ class Curve:
             if self._failed & {one.low, one.high, one.middle}:
                 self._leave_alone(one.cases)
             elif one.middle in self._nodes:
-                foretold = self._foretells(one, before)
-                halves += [(half, foretold) for half in self._halves(one)]
+                predicted = self._predicts(one, before)
+                halves += [(half, predicted) for half in self._halves(one)]
             else:
                 halves.append((one, False))
         known = sorted(self._nodes)
         self._open = []
-        for one, foretold in halves:
-            if foretold and self._agrees(one, known):
+        for one, predicted in halves:
+            if predicted and self._agrees(one, known):
                 self.closed.append(one)
             else:
                 self._refine(one, one.cases)
@@ -193,7 +193,7 @@ class Curve:
         errors = np.array([self._nodes[node].errors for node in chosen.nodes])
         return interpolate(chosen, STEP, places, values, errors, self._logarithmic)
 
-    def _foretells(self, one: Interval, known: list[int]) -> bool:
+    def _predicts(self, one: Interval, known: list[int]) -> bool:
         """Whether friction at the midpoint agrees with the value predicted by the earlier nodes."""
         chosen = stencil(one.low, one.high, known, FURTHEST)
         expected = self._at(chosen, np.array([STEP * one.middle]))

@@ -109,9 +109,9 @@ class Plan:
         if isinstance(task, Failure):
             self.settle(number, task)
         else:
-            self.ask(task, partial(self.settle, number))
+            self.request(task, partial(self.settle, number))
 
-    def ask(self, task: Task, callback: Callable[[Outcome], None]) -> None:
+    def request(self, task: Task, callback: Callable[[Outcome], None]) -> None:
         """Request the solution of a task; `callback` gets the outcome, at once if it is known."""
         if task.key in self._known:
             callback(self._known[task.key])
@@ -153,15 +153,15 @@ class _FamilyPlan:
     def go_on(self) -> None:
         """Request the next wave, or settle all cases if there is none."""
         self._wave = {}
-        asked = self._curve.wanted
+        requested = self._curve.wanted
         rubbers, settings = self._plan.rubbers, self._plan.settings
-        for place in asked:
+        for place in requested:
             task = rubbers.node_task(self._family, math.exp(STEP * place), settings)
-            self._plan.ask(task, partial(self._hear, place))
-        if not asked:
+            self._plan.request(task, partial(self._receive, place))
+        if not requested:
             self._settle()
 
-    def _hear(self, place: int, outcome: Outcome) -> None:
+    def _receive(self, place: int, outcome: Outcome) -> None:
         rubbers, accuracy = self._plan.rubbers, self._plan.settings.accuracy
         self._wave[place] = None if isinstance(outcome, Failure) else self._family.node(outcome, rubbers, accuracy)
         if len(self._wave) == len(self._curve.wanted):

@@ -216,7 +216,7 @@ def compare_results(
     first, second : StudyResults, FrictionCurves, str or Path
         Results, their folder or file, or friction curves, or a table of these (CSV).
     tolerance : float, optional
-        Largest relative difference that counts as none: 0 asks for the same digits.  Without it, differences within
+        Largest relative difference that counts as none: 0 requires the same digits.  Without it, differences within
         twice the combined stated errors count as none (within the accuracy, of variables without a stated error).
 
     Returns

@@ -55,7 +55,7 @@ _WITHIN = "within_measured_frequencies"
 _FLAGS = {"interpolated": 0, _WITHIN: -1}
 # Numbers of a record that are coordinates of a sweep.
 _PLACES = ("speed", "temperature", "load", "pressure")
-# Meaning of what is not a number of a record: bands and flags, and coordinates.
+# Meaning of values that are no numbers of a record: bands and flags, and coordinates.
 _OTHER: dict[str, Meaning] = {
     "friction_material_error": ("1", "standard error of the friction coefficient that the rubber's uncertainty leaves"),
     "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),

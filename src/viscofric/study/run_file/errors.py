@@ -26,12 +26,12 @@ def problems(error: ValidationError, values: object, tables: Mapping[str, type[B
     found = error.errors()
     # Pydantic also reports a list with wrong entries as empty: report the entries only.
     inside = {problem["loc"][:depth] for problem in found for depth in range(len(problem["loc"]))}
-    told_once = [problem for problem in found if problem["loc"] not in inside or problem["type"] != "too_short"]
+    kept = [problem for problem in found if problem["loc"] not in inside or problem["type"] != "too_short"]
     # A misspelt key is missing, too: report it as unknown only.
     unknown = [problem["loc"] for problem in found if problem["type"] == "extra_forbidden"]
     meant = {(*loc[:-1], near) for loc in unknown for near in _near(str(loc[-1]), keys(_table(loc[:-1], tables)))}
-    told_once = [problem for problem in told_once if problem["type"] != "missing" or problem["loc"] not in meant]
-    return list(dict.fromkeys(_problem(problem, values, tables) for problem in told_once))
+    kept = [problem for problem in kept if problem["type"] != "missing" or problem["loc"] not in meant]
+    return list(dict.fromkeys(_problem(problem, values, tables) for problem in kept))
 
 
 def wrong_tables(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> StudyError:

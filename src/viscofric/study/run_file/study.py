@@ -124,16 +124,16 @@ class Study(Table):
 
     @property
     def applied_uncertainty(self) -> UncertaintyTable:
-        """[uncertainty] as far as it applies: linearised bands exist for indenters only."""
+        """[uncertainty] where it applies: linearised bands exist for indenters only."""
         return self.uncertainty if self.indenter else self.uncertainty.model_copy(update={"draws": 0})
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """What the study asks for in vain."""
+        """Requests of the study that have no effect."""
         return () if self.indenter or self.uncertainty.draws == 0 else (_NO_BANDS,)
 
     def sweep(self) -> Sweep:
-        """Return all cases that the study asks for, with their axes."""
+        """Return all cases of the study, with their axes."""
         return sweep_of(self._tables)
 
 

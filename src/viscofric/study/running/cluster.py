@@ -76,7 +76,7 @@ class Dask(Executor):
         self._client: Any = None
 
     def __enter__(self) -> Self:
-        """Connect to the scheduler, or start jobs; raise `InputError` if there is no answer."""
+        """Connect to the scheduler, or start jobs; raise `InputError` if there is no reply."""
         with contextlib.ExitStack() as opened:
             address: Any = self._where
             self._insist_on_batch_system()

@@ -154,7 +154,7 @@ def _locked(folder: Path) -> Iterator[None]:
 def _opened(path: Path) -> IO[bytes]:
     """Open the lock, but never the target of a link of its name: it is emptied."""
     flags = os.O_RDWR | os.O_CREAT | os.O_APPEND
-    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):  # as far as the system has them
+    for name in ("O_NOFOLLOW", "O_NONBLOCK", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT"):  # where the system has them
         flags |= getattr(os, name, 0)
     with _writing(path):
         file = os.fdopen(os.open(path, flags, 0o666), "r+b", buffering=0)
@@ -217,7 +217,7 @@ def _parsed(text: bytes) -> dict[str, object]:
 
 
 def _holder(path: Path) -> str:
-    """Return the holder of a lock in words, as far as it is known."""
+    """Return the holder of a lock in words, where it is known."""
     try:
         held = _parsed(path.read_bytes())
     except OSError:  # not readable on Windows

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from viscofric.study.running.running import Event
     from viscofric.web.jobs.context import Context
 
-#: Tables of the run file that the comparison rests on; what else is asked for is of other steps.
+#: Tables of the run file that the comparison rests on; other tables belong to other steps.
 _TABLES = ("material", "indenter", "surface", "layer", "measurement", "solver", "uncertainty", "data_origin")
 #: Predicted lines reach so far beyond the measured speeds, as a factor, with so many points.
 _BEYOND, _POINTS = 1.25, 25
@@ -78,10 +78,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, report)
     # What is to be said of the rubber and of the measurement, other steps say.
     rubber = contacts.rubbers[0]
-    answer = _answer(tree_of(contacts)) | {"notes": texts(rubber.bands.notes)}
+    reply = _reply(tree_of(contacts)) | {"notes": texts(rubber.bands.notes)}
     if rubber.rubber.from_friction:
-        answer["warnings"] = [CIRCULAR, *answer["warnings"]]
-    numbers: dict[str, Any] = plain(answer)
+        reply["warnings"] = [CIRCULAR, *reply["warnings"]]
+    numbers: dict[str, Any] = plain(reply)
     return numbers
 
 
@@ -91,7 +91,7 @@ def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options
 
     from viscofric.report.results import nominal_temperatures
 
-    asked = {name: study[name] for name in _TABLES if name in study}
+    requested = {name: study[name] for name in _TABLES if name in study}
     conditions = {
         "load": f"{float(np.median(curves.load)):.9g} {curves.load_unit}",
         "speed": {
@@ -105,12 +105,12 @@ def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options
     thickness = study.get("conditions", {}).get("thickness")
     if thickness is not None:
         conditions["thickness"] = thickness
-    solver = {**asked.get("solver", {}), "cases": "curves"}
+    solver = {**requested.get("solver", {}), "cases": "curves"}
     if options.accuracy is not None:
         solver["accuracy"] = options.accuracy
-    uncertainty = {**asked.get("uncertainty", {}), "members": 0}
+    uncertainty = {**requested.get("uncertainty", {}), "members": 0}
     return {
-        **asked,
+        **requested,
         "conditions": conditions,
         "solver": solver,
         "uncertainty": uncertainty,
@@ -118,32 +118,32 @@ def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options
     }
 
 
-def _contacts(asked: dict[str, Any], curves: FrictionCurves, context: Context) -> Contacts:
-    """Return the contacts to solve, of those asked for and those measured."""
+def _contacts(requested: dict[str, Any], curves: FrictionCurves, context: Context) -> Contacts:
+    """Return the contacts to solve, of the requested and the measured conditions."""
     from viscofric.study.contacts import Contacts
     from viscofric.study.measurement import Measurement
     from viscofric.web.jobs.rubbers import study_rubber
     from viscofric.web.study_text import study_of
 
-    _, checked = study_of(asked, context.files)
-    rubber = study_rubber(asked, context, checked.conditions.temperature)
+    _, checked = study_of(requested, context.files)
+    rubber = study_rubber(requested, context, checked.conditions.temperature)
     ball: Any = checked.sweep().cases[0]
     measured = Measurement(curves, rubber.material, ball.indenter, float(checked.conditions.load[0]))
     return Contacts(checked, [rubber], measured)
 
 
-def _answer(tree: xarray.DataTree) -> dict[str, Any]:
+def _reply(tree: xarray.DataTree) -> dict[str, Any]:
     from viscofric.report.data import predicted
     from viscofric.report.results import group, notes, reference_temperature, sentences
     from viscofric.report.sweeps import cases_of
     from viscofric.report.texts.checks import friction_checks
     from viscofric.report.texts.friction_tables import agreement_table
     from viscofric.report.texts.study import AGREEMENT, key_numbers
-    from viscofric.web.jobs.friction_data import by_temperature, drawn_line, texts, told_table
+    from viscofric.web.jobs.friction_data import by_temperature, drawn_line, table_record, texts
 
-    asked, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
-    assert asked is not None
-    lines = predicted(cases_of(asked))
+    requested, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
+    assert requested is not None
+    lines = predicted(cases_of(requested))
     kinds = {"friction": lines.friction, "lower": lines.lower, "upper": lines.upper, "extrapolated": lines.extrapolated}
     about = [number for number in key_numbers(tree) if number.name == AGREEMENT]
     said = [] if agreement is None else sentences(agreement.attrs, "sentences")
@@ -156,7 +156,7 @@ def _answer(tree: xarray.DataTree) -> dict[str, Any]:
         "along": at_reference,
         "sentences": texts(said),
         "key": [number._asdict() for number in about],
-        "table": told_table(agreement_table(tree)),
+        "table": table_record(agreement_table(tree)),
         "checks": [{"name": one.name, "verdict": one.verdict, "words": one.words} for one in friction_checks(tree)],
         "band": lines.has_band,
         **{name: texts(notes(tree.attrs, name)) for name in ("warnings", "failures")},

@@ -8,16 +8,16 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.study.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
-from viscofric.web.jobs.contact_pictures import Asked, pictures
+from viscofric.web.jobs.contact_pictures import RequestedContact, pictures
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
 if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
-#: Accuracy of coarse answers, the loosest that a run file may ask for.
+#: Accuracy of coarse replies, the loosest that a run file may ask for.
 COARSE = 0.1
-#: Points along the longer edge of the surfaces that coarse answers are of: coarser likenesses of those with more.
+#: Points along the longer edge of the surfaces of coarse replies: coarser likenesses of those with more.
 COARSE_POINTS = 128
 
 
@@ -31,7 +31,7 @@ class Options(BaseModel):
     combination : int
         Of all else that the study varies (loads, radii, seeds …); see `viscofric.web.jobs.combinations`.
     stages : {"coarse", "sharp", "both"}
-        A coarse answer, one to the study's accuracy, or the first as a part and the second as the result.
+        A coarse reply, one to the study's accuracy, or the first as a part and the second as the result.
     """
 
     model_config = ConfigDict(extra="forbid")
@@ -48,7 +48,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        As of `contact_pictures.pictures`.  A converged answer has the numbers of a study that solves the case
+        As of `contact_pictures.pictures`.  A converged reply has the numbers of a study that solves the case
         by itself.
 
     Raises
@@ -60,15 +60,15 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     first = of_combination(page_sweep(checked), options.combination)
     rubber = study_rubber(of_material(study, first.material), context, [options.temperature])
     case = moved(first, material=0, speed=options.speed, temperature=options.temperature)
-    asked, accuracy = Asked(case, rubber, checked), checked.solver.accuracy
+    requested, accuracy = RequestedContact(case, rubber, checked), checked.solver.accuracy
     rubbers = Rubbers([rubber.material], {})
     if options.stages != "sharp":
         solution: Any = case.solution(rubbers, COARSE, COARSE_POINTS)
         # Grids are refined until they promise the accuracy: where the first of them do, no others are looked at.
         allowed = 0.0 if case.geometry == "rough" else accuracy * abs(solution.friction_coefficient)
         settled = solution.diagnostics.friction_error <= allowed
-        found = pictures(asked, solution, sharp=settled)
+        found = pictures(requested, solution, sharp=settled)
         if settled or options.stages == "coarse":
             return found
         context.part(found)
-    return pictures(asked, case.solution(rubbers, accuracy), sharp=True)
+    return pictures(requested, case.solution(rubbers, accuracy), sharp=True)

@@ -35,8 +35,8 @@ _DIGITS, _FEW_DIGITS = 6, 3
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
-    """A contact that the page asks for.
+class RequestedContact:
+    """A contact that the page requests.
 
     Attributes
     ----------
@@ -114,13 +114,13 @@ def _closed(line: Any) -> Array:
     return np.asarray(line if np.array_equal(line[0], line[-1]) else np.vstack([line, line[:1]]))
 
 
-def profile(asked: Asked, case: IndenterCase, solution: ContactSolution) -> Profile:
+def profile(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> Profile:
     """Cut a contact along its centre line, with the trail behind it.
 
     Where the indenter is elastic, what is solved for is the sum of both bodies' displacements; the rubber's share is
     found from the pressure.
     """
-    trail_x, trail = _trail(asked, case, solution)
+    trail_x, trail = _trail(requested, case, solution)
     x, pressure = solution.x, _centre(solution.y, solution.pressure)
     displacement = _centre(solution.y, solution.displacement)
     gap = displacement - (solution.indentation - case.indenter.height(x, np.zeros_like(x)))
@@ -145,9 +145,9 @@ def profile(asked: Asked, case: IndenterCase, solution: ContactSolution) -> Prof
     )
 
 
-def _trail(asked: Asked, case: IndenterCase, solution: ContactSolution) -> tuple[Array, Array]:
+def _trail(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> tuple[Array, Array]:
     """Return the rubber's displacement on the centre line, from well behind the contact to well ahead."""
-    modes = asked.rubber.material.modes_at(case.temperature)
+    modes = requested.rubber.material.modes_at(case.temperature)
     x, y, pressure = solution.x, solution.y, solution.pressure
     if solution.geometry == "point" and all(size % 2 == 0 for size in pressure.shape):
         x, y, pressure = thinned(x, y, pressure, max(pressure.shape) // max(1, max(pressure.shape) // 64))
@@ -160,7 +160,7 @@ def _trail(asked: Asked, case: IndenterCase, solution: ContactSolution) -> tuple
         E_inf=modes.E_inf,
         C=modes.C,
         tau=modes.tau,
-        poisson_ratio=asked.rubber.material.poisson_ratio,
+        poisson_ratio=requested.rubber.material.poisson_ratio,
         layer=case.layer,
         behind=_BEHIND * length,
         ahead=_AHEAD * length,
@@ -190,7 +190,9 @@ def shown(cut: Profile) -> dict[str, Any]:
 _DIGITS = 6
 
 
-def pictures(asked: Asked, solution: ContactSolution | PeriodicSolution, *, sharp: bool) -> dict[str, Any]:
+def pictures(
+    requested: RequestedContact, solution: ContactSolution | PeriodicSolution, *, sharp: bool
+) -> dict[str, Any]:
     """Return everything that the page shows of a contact, as JSON holds it, SI.
 
     Parameters
@@ -207,27 +209,29 @@ def pictures(asked: Asked, solution: ContactSolution | PeriodicSolution, *, shar
         ``warnings``.  Of the numbers, ``within`` is 1 where the rubber was measured at the contact's frequencies, 0
         where it is extrapolated, null where that is not known.
     """
-    case = asked.case
-    known = asked.rubber.frequency_range is not None
-    within = asked.rubber.is_within(case, case.record(solution)) if known else None
+    case = requested.case
+    known = requested.rubber.frequency_range is not None
+    within = requested.rubber.is_within(case, case.record(solution)) if known else None
     shared: dict[str, Any] = {
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
-        "warnings": [*solution.warnings, *_doubts(asked, within)],
+        "warnings": [*solution.warnings, *_doubts(requested, within)],
     }
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
-    found: dict[str, Any] = drawn(asked, case, solution)
+    found: dict[str, Any] = drawn(requested, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
     return shared | found
 
 
-def _doubts(asked: Asked, within: bool | None) -> list[str]:
+def _doubts(requested: RequestedContact, within: bool | None) -> list[str]:
     """Tell where the rubber is extrapolated, in temperature or in frequency."""
     # Warnings on the material itself belong to other steps.
-    said: list[str] = [note for note in asked.rubber.doubts([asked.case.temperature]) if note.code == "extrapolated"]
+    said: list[str] = [
+        note for note in requested.rubber.doubts([requested.case.temperature]) if note.code == "extrapolated"
+    ]
     if within is False:
-        rough = asked.case.geometry == "rough"
+        rough = requested.case.geometry == "rough"
         what = "Frequencies 2πv/λ of its waves lie" if rough else "The frequency v/a lies"
         said.append(
             f"{what} beyond those at which the rubber was measured: the friction rests on the extrapolated spectrum."
@@ -235,20 +239,20 @@ def _doubts(asked: Asked, within: bool | None) -> list[str]:
     return said
 
 
-def _of_indenter(asked: Asked, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
+def _of_indenter(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
     line = solution.geometry == "line"
     return {
         "kind": solution.geometry,
         "direction": 0.0,
-        "numbers": _numbers(asked, case, solution),
+        "numbers": _numbers(requested, case, solution),
         "peak_resolved": solution.diagnostics.peak_resolved,
         "map": None if line else pressure_map(*around(solution)),
         "outline": [] if line else outline(solution.x, solution.y, solution.pressure),
-        "profile": shown(profile(asked, case, solution)),
+        "profile": shown(profile(requested, case, solution)),
     }
 
 
-def _of_surface(asked: Asked, case: SurfaceCase, solution: PeriodicSolution) -> dict[str, Any]:
+def _of_surface(requested: RequestedContact, case: SurfaceCase, solution: PeriodicSolution) -> dict[str, Any]:
     line = solution.pressure.shape[1] == 1
     shortest, longest = case.surface.wavelengths
     return {
@@ -267,9 +271,9 @@ def _of_surface(asked: Asked, case: SurfaceCase, solution: PeriodicSolution) -> 
                 "energy_balance": _with_error(solution.diagnostics.energy),
                 "slowest_frequency": _with_error(2.0 * math.pi * case.speed / longest),
                 "fastest_frequency": _with_error(2.0 * math.pi * case.speed / shortest),
-                **_rubber_at(asked, 2.0 * math.pi * case.speed / shortest),
+                **_rubber_at(requested, 2.0 * math.pi * case.speed / shortest),
                 "points": _with_error(max(solution.pressure.shape)),
-                "points_asked": _with_error(max(case.surface.shape)),
+                "points_requested": _with_error(max(case.surface.shape)),
             },
             _DIGITS,
         ),
@@ -284,7 +288,7 @@ def _with_error(value: float | None, error: float | None = None) -> dict[str, fl
     return {"value": value, "error": error}
 
 
-def _numbers(asked: Asked, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
+def _numbers(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
     found = solution.diagnostics
     length = solution.front + solution.rear
     frequency = case.speed / (0.5 * length)
@@ -308,7 +312,7 @@ def _numbers(asked: Asked, case: IndenterCase, solution: ContactSolution) -> dic
                 "reach": _with_error(max(half, solution.front, solution.rear) / case.indenter.reach),
                 "energy_balance": _with_error(found.energy),
                 "frequency": _with_error(frequency),
-                **_rubber_at(asked, frequency),
+                **_rubber_at(requested, frequency),
                 "cells": _with_error(max(found.shape)),
             },
             _DIGITS,
@@ -316,9 +320,9 @@ def _numbers(asked: Asked, case: IndenterCase, solution: ContactSolution) -> dic
     )
 
 
-def _rubber_at(asked: Asked, frequency: float) -> dict[str, Any]:
+def _rubber_at(requested: RequestedContact, frequency: float) -> dict[str, Any]:
     """Tell what the rubber is at a frequency (rad/s) and the contact's temperature."""
-    rubber, temperature = asked.rubber, asked.case.temperature
+    rubber, temperature = requested.rubber, requested.case.temperature
     modulus = complex(rubber.material.modes_at(temperature).complex_modulus(frequency))
     alpha = float(rubber.shift(temperature))
     return {
@@ -326,5 +330,5 @@ def _rubber_at(asked: Asked, frequency: float) -> dict[str, Any]:
         "loss_factor": _with_error(modulus.imag / modulus.real),
         "shift_factor": _with_error(alpha),
         "reduced_frequency": _with_error(alpha * frequency),
-        "reduced_speed": _with_error(alpha * asked.case.speed),
+        "reduced_speed": _with_error(alpha * requested.case.speed),
     }

@@ -44,7 +44,7 @@ class Context:
     Parameters
     ----------
     files : Path
-        Folder of what the user uploaded; file names in the study are relative to it.
+        Folder of the uploaded files; file names in the study are relative to it.
     downloads : Path
         Folder for what the user may fetch, at ``/api/downloads/<name>``.
     cache : Path

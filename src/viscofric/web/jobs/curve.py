@@ -80,15 +80,15 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     store.prepare()
     with Serial() as executor:
         run_plan(contacts.plan, store, executor, progress)
-    asked, at_points, along = contacts.results()
-    if not asked.records:
-        raise JobError(f"No case could be solved; the first one failed: {asked.failures[0]}")
+    requested, at_points, along = contacts.results()
+    if not requested.records:
+        raise JobError(f"No case could be solved; the first one failed: {requested.failures[0]}")
     return {
         **layout,
-        **columns(contacts, asked),
+        **columns(contacts, requested),
         "master": master_curve(contacts, along),
-        "failures": [str(one) for one in asked.failures],
-        "warnings": [*_of_rubbers(contacts, known=True), *doubts((asked,), contacts.rubbers)],
+        "failures": [str(one) for one in requested.failures],
+        "warnings": [*_of_rubbers(contacts, known=True), *doubts((requested,), contacts.rubbers)],
         "notes": _notes(contacts, checked),
         "checks": [
             {
@@ -98,7 +98,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
                 "holds": one.holds,
                 "sentence": note_of(one.sentence).words("page"),
             }
-            for one in assumption_checks(contacts, asked, at_points)
+            for one in assumption_checks(contacts, requested, at_points)
         ],
     }
 
@@ -138,28 +138,28 @@ class _Sender:
 
     def __init__(self, contacts: Contacts, context: Context) -> None:
         self._contacts, self._context = contacts, context
-        self._told: dict[int, tuple[float, bool]] = {}
+        self._sent: dict[int, tuple[float, bool]] = {}
         self._last = -math.inf
 
     def __call__(self, event: Event) -> None:
         if event.event not in ("solved", "stored", "failed"):
             return
-        if not self._told or time.monotonic() - self._last > _BETWEEN_PARTS:
-            self._tell()
+        if not self._sent or time.monotonic() - self._last > _BETWEEN_PARTS:
+            self._send_new()
             self._last = time.monotonic()
         # What lies between contacts that may be too far apart counts half.
-        done = sum(1.0 if known else 0.5 for _, known in self._told.values())
+        done = sum(1.0 if known else 0.5 for _, known in self._sent.values())
         self._context.progress(done, len(self._contacts.sweep.cases), event.label or "")
 
-    def _tell(self) -> None:
+    def _send_new(self) -> None:
         new: list[tuple[int, float, bool]] = []
         for number, outcome, known in self._contacts.plan.so_far():
-            # After the cases asked for come those along the master curve.
+            # After the requested cases come those along the master curve.
             if number >= len(self._contacts.sweep.cases) or isinstance(outcome, Failure):
                 continue
             found = float(f"{outcome.friction_coefficient:.{_DIGITS}g}"), known
-            if self._told.get(number) != found:
-                self._told[number] = found
+            if self._sent.get(number) != found:
+                self._sent[number] = found
                 new.append((number, *found))
         if new:
             cases, friction, known_ones = zip(*new, strict=True)
@@ -183,7 +183,7 @@ def _notes(contacts: Contacts, study: Study) -> list[str]:
     return list(dict.fromkeys([*notes, *study.notes]))
 
 
-#: Friction counts as unresolved where its error is more than so many times what was asked for.
+#: Friction counts as unresolved where its error is more than so many times the requested accuracy.
 _UNRESOLVED = 2.0
 #: Numbers of a contact besides its friction, where it has them.
 _COLUMNS = (
@@ -199,25 +199,27 @@ _COLUMNS = (
 _DIGITS = 6
 
 
-def columns(contacts: Contacts, asked: Solved) -> dict[str, Any]:
+def columns(contacts: Contacts, requested: Solved) -> dict[str, Any]:
     """Return what is known of all cases, each number a column."""
-    bands = band_columns(contacts.rubbers, asked.of_records, asked.records)
-    rows = [number for number, outcome in enumerate(asked.outcomes) if not isinstance(outcome, Failure)]
+    bands = band_columns(contacts.rubbers, requested.of_records, requested.records)
+    rows = [number for number, outcome in enumerate(requested.outcomes) if not isinstance(outcome, Failure)]
 
     def column(values: Iterable[float]) -> Any:
-        whole = np.full(len(asked.cases), np.nan)
+        whole = np.full(len(requested.cases), np.nan)
         whole[rows] = list(values)
         return plain(whole, _DIGITS)
 
-    records = asked.records
+    records = requested.records
     found = {
         "friction": column(one.friction_coefficient for one in records),
         "error": column(one.friction_error for one in records),
-        "interpolated": [getattr(outcome, "interpolated", False) for outcome in asked.outcomes],
+        "interpolated": [getattr(outcome, "interpolated", False) for outcome in requested.outcomes],
         "lower": None if bands is None else column(bands.viscoelastic_lower),
         "upper": None if bands is None else column(bands.viscoelastic_upper),
         "material_error": None if bands is None else column(bands.material_error),
-        "doubts": [_doubts(contacts, case, outcome) for case, outcome in zip(asked.cases, asked.outcomes, strict=True)],
+        "doubts": [
+            _doubts(contacts, case, outcome) for case, outcome in zip(requested.cases, requested.outcomes, strict=True)
+        ],
     }
     has = [name for name in _COLUMNS if hasattr(records[0], name)]
     return found | {name: column(getattr(one, name) for one in records) for name in has}
@@ -228,12 +230,12 @@ def _doubts(contacts: Contacts, case: Any, outcome: Outcome) -> list[str]:
     if isinstance(outcome, Failure):
         return ["failed"]
     rubber: StudyRubber = contacts.rubbers[case.material]
-    asked = contacts.study.solver.accuracy * abs(outcome.friction_coefficient)
+    requested = contacts.study.solver.accuracy * abs(outcome.friction_coefficient)
     found = {
         "extrapolated": not rubber.is_within(case, outcome),
         "shift": bool(np.any(rubber.shift.extrapolates(np.array([case.temperature])))),
         "strain": bool(outcome.warnings),
-        "unresolved": outcome.friction_error > _UNRESOLVED * asked,
+        "unresolved": outcome.friction_error > _UNRESOLVED * requested,
     }
     return [name for name, doubtful in found.items() if doubtful]
 

@@ -39,7 +39,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it asks for and
+        ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it has and
         ``files`` that it names, None where there are problems; ``download``, if it was to be packed.
 
     Raises

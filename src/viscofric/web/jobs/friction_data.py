@@ -84,7 +84,7 @@ def drawn_line(line: Predicted | None) -> dict[str, Any] | None:
     return {name: getattr(line, name) for name in names}
 
 
-def told_table(table: Table | None) -> dict[str, Any] | None:
+def table_record(table: Table | None) -> dict[str, Any] | None:
     """Return a table of the report in plain texts."""
     if table is None:
         return None

@@ -52,7 +52,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Parameters
     ----------
     study : dict
-        The tables of a run file; [measurement] and [indenter] are looked at, and [material] where it is asked for.
+        The tables of a run file; [measurement] and [indenter] are used, and [material] where the options request it.
 
     Returns
     -------
@@ -106,14 +106,14 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         progress=report,
         **chosen,
     )
-    numbers: dict[str, Any] = plain(_answer(found, curves, rubber if options.beside else None, anchor, context))
+    numbers: dict[str, Any] = plain(_reply(found, curves, rubber if options.beside else None, anchor, context))
     return numbers
 
 
-def _anchor(asked: AnchorOptions, rubber: Material | None, curves: FrictionCurves) -> Anchor:
+def _anchor(requested: AnchorOptions, rubber: Material | None, curves: FrictionCurves) -> Anchor:
     from viscofric.web.jobs.identify import make_anchor
 
-    return make_anchor(asked, rubber, curves.load_unit)
+    return make_anchor(requested, rubber, curves.load_unit)
 
 
 def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:
@@ -127,7 +127,7 @@ def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:
     return float(given) if isinstance(given, int | float) else 0.5
 
 
-def _answer(
+def _reply(
     found: IdentifiedMaterial, curves: FrictionCurves, rubber: Material | None, anchor: Anchor | None, context: Context
 ) -> dict[str, Any]:
     from viscofric.rheology.cards import write_card
@@ -260,8 +260,8 @@ class AnchorOptions(BaseModel):
     error: float = Field(0.01, gt=0.0, lt=1.0)
 
 
-def make_anchor(asked: AnchorOptions, rubber: Material | None, load_unit: str) -> Anchor:
-    """Return the anchor that is asked for.
+def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: str) -> Anchor:
+    """Return the requested anchor.
 
     Parameters
     ----------
@@ -279,42 +279,46 @@ def make_anchor(asked: AnchorOptions, rubber: Material | None, load_unit: str) -
     from viscofric.web.jobs.context import JobError
 
     try:
-        return _of_modulus(asked, rubber) if asked.of in ("modulus", "rubber") else _of_contact(asked, load_unit)
+        return (
+            _of_modulus(requested, rubber)
+            if requested.of in ("modulus", "rubber")
+            else _of_contact(requested, load_unit)
+        )
     except InputError as error:
         raise JobError(f"The anchor cannot be used: {error}", "anchor") from error
 
 
-def _given(asked: AnchorOptions, *names: str) -> list[str]:
+def _given(requested: AnchorOptions, *names: str) -> list[str]:
     from viscofric.errors import InputError
 
-    missing = [_NAMES.get(name, f"the {name}") for name in names if not getattr(asked, name)]
+    missing = [_NAMES.get(name, f"the {name}") for name in names if not getattr(requested, name)]
     if missing:
         raise InputError(f"{' and '.join(missing)} of the anchor is missing.")
-    return [getattr(asked, name) for name in names]
+    return [getattr(requested, name) for name in names]
 
 
-def _of_modulus(asked: AnchorOptions, rubber: Material | None) -> Anchor:
+def _of_modulus(requested: AnchorOptions, rubber: Material | None) -> Anchor:
     from viscofric.errors import InputError
     from viscofric.friction.identification.anchors import ModulusAnchor
     from viscofric.units import angular_frequency
 
-    (frequency,) = _given(asked, "frequency")
-    if asked.of == "modulus":
-        (modulus,) = _given(asked, "modulus")
-        return ModulusAnchor(modulus, frequency, asked.temperature, error=asked.error)
+    (frequency,) = _given(requested, "frequency")
+    if requested.of == "modulus":
+        (modulus,) = _given(requested, "modulus")
+        return ModulusAnchor(modulus, frequency, requested.temperature, error=requested.error)
     if rubber is None:
         raise InputError("there is no rubber whose modulus could be taken.")
     at = angular_frequency(frequency, "frequency")
-    known = abs(complex(rubber.complex_modulus(at, asked.temperature)))
-    return ModulusAnchor(known, at, asked.temperature, error=asked.error)
+    known = abs(complex(rubber.complex_modulus(at, requested.temperature)))
+    return ModulusAnchor(known, at, requested.temperature, error=requested.error)
 
 
-def _of_contact(asked: AnchorOptions, load_unit: str) -> Anchor:
+def _of_contact(requested: AnchorOptions, load_unit: str) -> Anchor:
     from viscofric.friction.identification.anchors import ContactAnchor
     from viscofric.units import positive, to_si
 
-    size, speed, load = _given(asked, "size", "speed", "load")
-    place: dict[str, Any] = {"speed": speed, "temperature": asked.temperature, "error": asked.error}
+    size, speed, load = _given(requested, "size", "speed", "load")
+    place: dict[str, Any] = {"speed": speed, "temperature": requested.temperature, "error": requested.error}
     place["load"] = positive(load, load_unit, "load")
-    unit = "m**2" if asked.of == "contact_area" else "m"
-    return ContactAnchor(**{asked.of: to_si(size, unit, asked.of)}, **place)
+    unit = "m**2" if requested.of == "contact_area" else "m"
+    return ContactAnchor(**{requested.of: to_si(size, unit, requested.of)}, **place)

@@ -22,7 +22,7 @@ _NEAR = 1.0
 
 
 class Options(BaseModel):
-    """Where the modulus is asked."""
+    """Where the modulus is requested."""
 
     model_config = ConfigDict(extra="forbid")
 

@@ -37,7 +37,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     study : dict
         The tables of a run file; [material] and [uncertainty] count.
     context : Context
-        Is handed the answer without bands as a part, before the rubber is drawn.
+        Receives the reply without bands as a part, before the rubber is drawn.
 
     Returns
     -------
@@ -54,16 +54,16 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     table, wanted = checked_tables(study, context)
     context.progress(0, 2, "shifting the isotherms" if table.dma else "reading the rubber")
     rubber = made_rubber(study, context)
-    answer = _without_bands(rubber, table.fixed_shift_factors, context)
+    reply = _without_bands(rubber, table.fixed_shift_factors, context)
     if not options.bands or wanted.draws == 0 or rubber.fit is None:
         why = "" if rubber.fit is not None else "only a material fitted to DMA sweeps has a known uncertainty"
-        return answer | {"band": None, "no_band": why}
-    context.part(answer)
+        return reply | {"band": None, "no_band": why}
+    context.part(reply)
     context.progress(1, 2, f"drawing the rubber {wanted.draws} times for its 95 % bands")
     drawn = friction_bands(study, context)
     if drawn.samples is None:
-        return answer | {"band": None, "no_band": " ".join(drawn.notes)}
-    return answer | {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
+        return reply | {"band": None, "no_band": " ".join(drawn.notes)}
+    return reply | {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
 
 
 def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -> dict[str, Any]:

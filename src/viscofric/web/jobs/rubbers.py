@@ -43,7 +43,7 @@ class Folders(Protocol):
 
     @property
     def cache(self) -> Path:
-        """Folder of what may be kept for later."""
+        """Folder of the cache."""
 
 
 class _RubberTables(Table):
@@ -98,7 +98,7 @@ def made_rubber(study: Mapping[str, Any], folders: Folders) -> Rubber:
 
 
 def friction_bands(study: Mapping[str, Any], folders: Folders) -> FrictionBands:
-    """Return the draws of the rubber that [uncertainty] asks for, as bands of friction are made of them.
+    """Return the draws of the rubber of [uncertainty], as bands of friction are made of them.
 
     Returns
     -------
@@ -234,6 +234,6 @@ def _loaded(path: Path) -> Any:
 
 
 def _store(path: Path, value: object) -> None:
-    # A full disk costs time, not the answer.
+    # A full disk costs time, not the reply.
     with contextlib.suppress(DataFileError):
         write_atomically(path, pickle.dumps(value))

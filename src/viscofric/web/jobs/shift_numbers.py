@@ -50,7 +50,7 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
         return None
     factors = _factors(rubber)
     measured = None if factors is None else factors.temperatures
-    answer: dict[str, Any] = {
+    reply: dict[str, Any] = {
         "reference": plain(float(law.reference)),
         "used": rubber.shift_used,
         "origin": rubber.shift_origin,
@@ -63,8 +63,8 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
         "misfit": None,
     }
     if rubber.fit is not None:
-        answer |= {"isotherms": _shifted(rubber.fit, held), "misfit": _misfit(rubber.fit)}
-    return answer
+        reply |= {"isotherms": _shifted(rubber.fit, held), "misfit": _misfit(rubber.fit)}
+    return reply
 
 
 def _factors(rubber: Rubber) -> ShiftFactors | None:
@@ -130,7 +130,7 @@ def _law_row(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, An
 
 
 def _of_material(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
-    """Return α(T) that contacts are solved with: a table between its temperatures, or a law as far as it answers."""
+    """Return α(T) that contacts are solved with: a table between its temperatures, or a law within its limits."""
     return {
         "words": str(law) if isinstance(law, ParametricLaw) else "as measured, interpolated between the isotherms",
         "limits": _limits(law),
@@ -139,26 +139,26 @@ def _of_material(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
 
 
 def _limits(law: ShiftLaw) -> dict[str, Any] | None:
-    """Return the temperatures between which a law answers, and those that it was fitted on; K."""
+    """Return the temperatures between which a law is valid, and those that it was fitted on; K."""
     if isinstance(law, ShiftFactors):
         ends = [float(law.temperatures[0]), float(law.temperatures[-1])]
-        return {"answers": plain(ends), "fitted": plain(ends)}
+        return {"valid": plain(ends), "fitted": plain(ends)}
     limits = getattr(law, "extrapolation_limits", None)
     fitted = getattr(law, "fitted_range", None)
     if limits is None:
         return None
-    return {"answers": plain(list(limits)), "fitted": None if fitted is None else plain(list(fitted))}
+    return {"valid": plain(list(limits)), "fitted": None if fitted is None else plain(list(fitted))}
 
 
 def line_of(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
-    """Return log10 α of a law, with 1.96 standard errors where they are known, as far as it answers."""
+    """Return log10 α of a law, with 1.96 standard errors where they are known, within its limits."""
     if measured is not None:
         low, high = float(measured[0]), float(measured[-1])
     else:
         low, high = law.reference - _ABOUT, law.reference + _ABOUT
     limits = _limits(law)
     if limits is not None:
-        ends = [usual if end is None else end for end, usual in zip(limits["answers"], (low, high), strict=True)]
+        ends = [usual if end is None else end for end, usual in zip(limits["valid"], (low, high), strict=True)]
         low, high = (ends[0], ends[1]) if limits["fitted"] is not None else (max(low, ends[0]), min(high, ends[1]))
     line = np.linspace(max(low, 1.0), high, _LINE)
     line = line[law.valid_at(line, above_pole=_NEAR_POLE)]

@@ -82,7 +82,7 @@ def frequencies(rubber: Rubber) -> Array:
     else:
         low, high = 1e-3, 1e3
     count = int(np.clip(_PER_DECADE * np.log10(high / low), 2, _MOST))
-    # The ends as they are, to the last digit: tables refuse to be asked beyond them.
+    # The ends as they are, to the last digit: tables refuse frequencies beyond them.
     return np.concatenate([[low], np.geomspace(low, high, count)[1:-1], [high]])
 
 

@@ -97,7 +97,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> 
         "format": sweeps.format,
         "deformation": sweeps.deformation,
         "files": [_file(one) for one in traced.readings],
-        "asks": _asks(table, traced.readings),
+        "asks": _left_open(table, traced.readings),
         "isotherms": [
             {
                 "temperature": plain(one.temperature),
@@ -136,16 +136,16 @@ def _range(values: Any) -> list[float] | None:
     return [plain(float(sound.min())), plain(float(sound.max()))] if sound.size else None
 
 
-def _asks(table: MaterialTable, readings: Sequence[Readings]) -> list[str]:
+def _left_open(table: MaterialTable, readings: Sequence[Readings]) -> list[str]:
     """Return the keys of [material] that the files leave to the user, whether or not he has given them."""
-    asked = []
+    requested = []
     if all(one.deformation is None for one in readings):
-        asked.append("deformation")
-    if any(one.unit_is_asked for one in readings):
-        asked.append("modulus_unit")
+        requested.append("deformation")
+    if any(one.lacks_unit for one in readings):
+        requested.append("modulus_unit")
     if table.temperature is not None:
-        asked.append("temperature")
-    return asked
+        requested.append("temperature")
+    return requested
 
 
 def _left_out(traced: TracedSweeps) -> list[dict[str, Any]]:
@@ -190,8 +190,8 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         rubber = made_rubber(study, context)
     except DataFileError as error:
         key = "file" if table.file is not None else "master_curve"
-        asked = error.field if key == "master_curve" else None
-        raise JobError(error.note, asked or f"material.{key}") from None
+        requested = error.field if key == "master_curve" else None
+        raise JobError(error.note, requested or f"material.{key}") from None
     source = "catalogue" if table.catalogue else "file" if table.file else "master_curve"
     about = []
     if table.catalogue:

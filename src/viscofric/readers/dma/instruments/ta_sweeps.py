@@ -91,7 +91,7 @@ def readings_of(
         strain_amplitude=strain if np.any(np.isfinite(strain)) else None,
         step=np.repeat([number for number, _ in sweeps], [len(part.places) for part in parts]).astype(np.int64),
         notes=tuple(dict.fromkeys(notes)),
-        unit_is_asked=bool(source.modulus_unit),  # else `_modulus` refused
+        lacks_unit=bool(source.modulus_unit),  # else `_modulus` refused
     )
 
 

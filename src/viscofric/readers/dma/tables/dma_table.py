@@ -153,7 +153,7 @@ def _printed_tangent(table: Table, places: dict[str, int]) -> Array | None:
         return None
 
 
-def unit_is_asked(table: Table, places: dict[str, int], source: Source) -> bool:
+def lacks_unit(table: Table, places: dict[str, int], source: Source) -> bool:
     """Return whether a modulus has no unit but the one that the user gave."""
     return bool(source.modulus_unit) and any(not table.columns[places[m]].unit for m in _MODULI if m in places)
 
@@ -231,7 +231,7 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
         said_by=said_by,
         strain_amplitude=amplitude,
         step=_step(table),
-        unit_is_asked=unit_is_asked(table, places, source),
+        lacks_unit=lacks_unit(table, places, source),
         notes=(*notes, *doubts(table, places, temperature, storage)),
     )
 

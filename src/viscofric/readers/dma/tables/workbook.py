@@ -240,6 +240,6 @@ def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
         deformation=stating.deformation,
         said_by=stating.said_by,
         strain_amplitude=np.concatenate(amplitudes) if any(p.strain_amplitude is not None for p in parts) else None,
-        unit_is_asked=any(part.unit_is_asked for part in parts),
+        lacks_unit=any(part.lacks_unit for part in parts),
         notes=(joined, *dict.fromkeys(note for part in parts for note in part.notes)),
     )

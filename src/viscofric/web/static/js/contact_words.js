@@ -20,7 +20,7 @@ export function numbersOf(answer, units) {
     const full = of.contact_area_fraction.value > 1 - 1e-9;
     const gap = one("mean_gap", "Mean gap", "length", 3);
     const aside = one("lateral_friction_coefficient", "Lateral force over load");
-    const [points, asked] = [of.points.value, of.points_asked.value];
+    const [points, requested] = [of.points.value, of.points_requested.value];
     return {
       key: [
         friction,
@@ -36,7 +36,7 @@ export function numbersOf(answer, units) {
         one("fastest_frequency", "Frequency of the shortest wave", "angular_frequency", 3),
         ...rubber,
         balance,
-        row("Points along an edge", String(points), points < asked ? `of ${asked}: coarse` : ""),
+        row("Points along an edge", String(points), points < requested ? `of ${requested}: coarse` : ""),
       ],
     };
   }

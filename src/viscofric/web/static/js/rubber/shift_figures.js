@@ -80,7 +80,7 @@ function lineTraces({ line, limits }, look) {
 export function limitsInWords({ material }, app) {
   const { limits, words } = material;
   if (!limits) return words;
-  const [low, high] = limits.answers;
+  const [low, high] = limits.valid;
   const span =
     low === null || high === null
       ? high === null && low > 0
@@ -108,8 +108,8 @@ export function lawTable({ laws }, app) {
       (state.get("material.shift_factors") === undefined && state.get("material.dma") === undefined)
         ? null
         : button({ label: `Use ${row.title}`, kind: "small", onClick: () => state.set("material.shift", row.kind) });
-    const answers = row.limits
-      ? row.limits.answers.map((kelvin) => (kelvin === null ? "∞" : named(kelvin, app))).join(" to ")
+    const valid = row.limits
+      ? row.limits.valid.map((kelvin) => (kelvin === null ? "∞" : named(kelvin, app))).join(" to ")
       : "–";
     return [
       row.title,
@@ -117,13 +117,13 @@ export function lawTable({ laws }, app) {
       row.aic === null ? "–" : row.aic.toFixed(1).replace("-", "−"),
       row.refusal || row.kind === "polynomial" ? "–" : row.weight.toFixed(2),
       row.refusal ? "–" : row.exact ? "exact" : row.scatter.toFixed(3),
-      answers,
+      valid,
       mark,
       use ?? "",
     ];
   });
   return fields.table(
-    ["law", "constants", "AIC", "weight", "scatter (decades)", "answers", "", ""],
+    ["law", "constants", "AIC", "weight", "scatter (decades)", "valid", "", ""],
     rows,
     "Laws compared: the lower the AIC, the better supported",
   );

@@ -1,4 +1,4 @@
-"""Answers of the page's server, with the headers that keep it private; refusals in one sentence."""
+"""Replies of the page's server, with the headers that keep it private; refusals in one sentence."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def headers_of(scope: Scope) -> dict[str, str]:
 
 
 def with_headers(send: Send) -> Send:
-    """Have every answer carry the headers that keep the page private."""
+    """Add to every reply the headers that keep the page private."""
 
     async def sending(message: MutableMapping[str, Any]) -> None:
         if message["type"] == "http.response.start":
@@ -53,15 +53,15 @@ def with_headers(send: Send) -> Send:
 
 
 async def refuse(scope: Scope, send: Send, status: int, words: str) -> None:
-    """Answer with a sentence, as JSON where a script asks."""
+    """Reply with a sentence, as JSON to a script."""
     as_json = scope["path"].startswith("/api/")
     body = json.dumps({"message": words}) if as_json else words + "\n"
     kind = b"application/json" if as_json else b"text/plain; charset=utf-8"
-    await answer(send, status, body.encode(), [(b"content-type", kind), (b"connection", b"close")])
+    await reply(send, status, body.encode(), [(b"content-type", kind), (b"connection", b"close")])
 
 
-async def answer(send: Send, status: int, body: bytes, headers: list[tuple[bytes, bytes]]) -> None:
-    """Send a whole answer."""
+async def reply(send: Send, status: int, body: bytes, headers: list[tuple[bytes, bytes]]) -> None:
+    """Send a whole reply."""
     more = [(b"content-length", str(len(body)).encode()), (b"cache-control", b"no-store"), *HEADERS]
     await send({"type": "http.response.start", "status": status, "headers": [*headers, *more]})
     await send({"type": "http.response.body", "body": body})
