@@ -11,7 +11,7 @@ import pytest
 from viscofric.notes import Note, records
 from viscofric.report.captions import captions
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
-from viscofric.report.texts.study import key_numbers, what_was_asked
+from viscofric.report.texts.study import key_numbers, scope
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -59,7 +59,7 @@ def test_measured_point_without_a_prediction_keeps_its_row(tree: xr.DataTree) ->
 
 def test_isotherms_left_out_are_said_in_what_was_asked(tree: xr.DataTree) -> None:
     tree["shift_factors"].attrs["isotherms_used"] = 11
-    assert "11 of 14 isotherms used" in what_was_asked(tree)[1]
+    assert "11 of 14 isotherms used" in scope(tree)[1]
 
 
 def test_caption_claims_one_curve_only_as_far_as_it_was_tested(make_tree: Callable[..., xr.DataTree]) -> None:
@@ -75,10 +75,10 @@ def test_synthetic_points_are_not_called_measured(
 ) -> None:
     tree = make_tree(data_origin=origin)
     assert ("synthetic measurement" in captions(tree)["friction_against_speed"]) == said
-    assert ("18 synthetic (calculated, not measured) points" in what_was_asked(tree)[2].replace("\xa0", " ")) == said
+    assert ("18 synthetic (calculated, not measured) points" in scope(tree)[2].replace("\xa0", " ")) == said
 
 
 def test_speeds_of_metres_per_second_are_written_so(tree: xr.DataTree) -> None:
     change(tree, "prediction", "speed", 0, 1e-4)
     change(tree, "prediction", "speed", 1, 10.0)
-    assert "0.1 mm/s to 10 m/s" in what_was_asked(tree)[0].replace("\xa0", " ")
+    assert "0.1 mm/s to 10 m/s" in scope(tree)[0].replace("\xa0", " ")

@@ -14,7 +14,7 @@ from viscofric.report.figures import saving
 from viscofric.report.figures import study as drawing
 from viscofric.report.texts.checks import all_checks
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables
-from viscofric.report.texts.study import key_numbers, what_was_asked
+from viscofric.report.texts.study import key_numbers, scope
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -63,14 +63,14 @@ def test_shift_factors_of_friction_are_judged_by_their_probability(
 
 
 def test_friction_does_not_test_the_rubber_identified_from_it(tree: xr.DataTree) -> None:
-    assert "The prediction does not use this friction" in " ".join(what_was_asked(tree))
+    assert "The prediction does not use this friction" in " ".join(scope(tree))
     tree = with_friction_shifts(tree)
     tree.attrs["identified_from_friction"] = 1
     verdict, words = check(tree, "Shift factors from friction")
     assert verdict == "noted"
     assert not any(number.name == "Shift factors from friction" for number in key_numbers(tree))
     assert "the comparison tests nothing" in words
-    asked = " ".join(what_was_asked(tree))
+    asked = " ".join(scope(tree))
     assert "does not use this friction" not in asked
     assert "tests no prediction" in asked
 

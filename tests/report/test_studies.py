@@ -17,7 +17,7 @@ from viscofric.report.figures.study import contacts, figure_images, recovery_tra
 from viscofric.report.html import write_report
 from viscofric.report.texts.checks import all_checks, counted, friction_checks
 from viscofric.report.texts.friction_tables import detail_tables, friction_at_a_glance
-from viscofric.report.texts.study import inputs, what_was_asked
+from viscofric.report.texts.study import inputs, scope
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -73,7 +73,7 @@ def test_every_study_has_a_report(make_study: Callable[..., xr.DataTree], tmp_pa
     assert ("figure-friction_sweep" in page) == (name in swept)
     assert ("figure-friction_map" in page) == ("speed" in STUDIES[name])
     assert set(images) <= set(captions(tree))
-    assert len(what_was_asked(tree)) >= 2
+    assert len(scope(tree)) >= 2
     assert {"cases", "requested accuracy"} <= {item.name for item in inputs(tree)}
 
 
@@ -127,13 +127,13 @@ def test_highest_friction_of_each_load_is_reported_at_a_glance(make_study: Calla
 
 
 def test_what_varies_is_said(make_study: Callable[..., xr.DataTree]) -> None:
-    asked = " ".join(what_was_asked(make_study(STUDIES["loads"]))).replace("\N{NO-BREAK SPACE}", " ")
+    asked = " ".join(scope(make_study(STUDIES["loads"]))).replace("\N{NO-BREAK SPACE}", " ")
     assert "under 5 to 50 N" in asked
     listed = {item.name: item.value for item in inputs(make_study(STUDIES["loads"]))}
     assert listed["load"] == "5 N, 25 N and 50 N"
     assert listed["speed"] == "1 mm/s to 1 m/s (7 in all)"
     assert listed["cases"] == "84"
-    asked = " ".join(what_was_asked(make_study(STUDIES["rubbers"])))
+    asked = " ".join(scope(make_study(STUDIES["rubbers"])))
     assert "Varied as well: material (NBR 70 and FKM 75)." in asked
 
 
