@@ -69,21 +69,9 @@ def catalogue() -> tuple[CatalogueEntry, ...]:
 
 
 def catalogue_entry(name: str) -> CatalogueEntry:
-    """Return an entry of the catalogue.
+    """Return an entry of `catalogue()`; capitals, hyphens and underscores do not matter.
 
-    Parameters
-    ----------
-    name : str
-        One of the names in `catalogue()`; capitals, hyphens and underscores do not matter.
-
-    Returns
-    -------
-    CatalogueEntry
-
-    Raises
-    ------
-    InputError
-        If there is none of that name; the sentence names the nearest.
+    InputError names the nearest entry if there is none of that name.
     """
     known = {_plain(entry.name): entry for entry in _ENTRIES}
     entry = known.get(_plain(name))

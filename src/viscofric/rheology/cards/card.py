@@ -30,30 +30,14 @@ _KELVIN_FROM = 200.0
 
 @dataclass(frozen=True)
 class Writing:
-    """What a card is written with.
+    """Options for writing a card."""
 
-    Parameters
-    ----------
-    poisson_ratio : float, optional
-        For programs that cannot take the material's own ν = 0.5.
-    density : float, optional
-        kg/m³.
-    temperature_unit : {"K", "degC"}
-        In which the model counts temperatures.
-    domain : {"time", "frequency"}
-        Of an Abaqus card.
-    material_id : int
-        Number of the material in ANSYS and LS-DYNA.
-    unit_system : {"Pa", "MPa"}
-        SI, or tonne, mm and s with moduli in MPa.
-    """
-
-    poisson_ratio: float | None = None
-    density: float | None = None
-    temperature_unit: Literal["K", "degC"] = "K"
-    domain: Literal["time", "frequency"] = "time"
-    material_id: int = 1
-    unit_system: UnitSystem = "Pa"
+    poisson_ratio: float | None = None  # where a program cannot take the material's own ν = 0.5
+    density: float | None = None  # kg/m³
+    temperature_unit: Literal["K", "degC"] = "K"  # of the card's temperatures
+    domain: Literal["time", "frequency"] = "time"  # of an Abaqus card
+    material_id: int = 1  # number of the material in ANSYS and LS-DYNA
+    unit_system: UnitSystem = "Pa"  # "Pa": SI; "MPa": tonne, mm, s
 
     def modulus(self, pascal: float) -> float:
         """Return a modulus as the model counts it."""
@@ -77,11 +61,7 @@ class Writing:
 class Reading:
     """Units of a card that does not state them.
 
-    Parameters
-    ----------
-    modulus_unit, time_unit, temperature_unit : str, optional
-        Such as ``"MPa"``, ``"s"``, ``"degC"``; Pa and s are assumed, with a note, and temperatures judged by
-        their size.
+    By default Pa and s are assumed, with a note, and temperatures judged by their size.
     """
 
     modulus_unit: str | None = None
@@ -99,16 +79,9 @@ class Reading:
         return conversion(self.time_unit, "s", "time_unit")[0] if self.time_unit else 1.0
 
     def kelvin(self, temperature: float, notes: list[str], zero: float | None = None) -> float:
-        """Return a temperature of the card in K.
+        """Return a card's temperature in K; `zero` is absolute zero on the card's scale, if the card gives it.
 
-        Parameters
-        ----------
-        temperature : float
-            As the card has it.
-        notes : list of str
-            Gets a sentence where the unit had to be judged.
-        zero : float, optional
-            Absolute zero on the card's scale, where the card gives it.
+        Appends a sentence to `notes` where the unit had to be judged.
         """
         if self.temperature_unit:
             factor, offset = conversion(self.temperature_unit, "K", "temperature_unit")
@@ -154,41 +127,20 @@ class Card:
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """What a card's numbers say: tensile modulus, Poisson ratio, shift.
-
-    Parameters
-    ----------
-    spectrum : RetardationSpectrum
-        In tension.
-    poisson_ratio : float
-        As the card has it, of the long-term moduli.
-    shift : WLF or Arrhenius, optional
-        As the card has it.
-    name : str
-        As the card has it.
-    notes : tuple of str
-        What was assumed or left out.
-    """
+    """Content of a card, as the card states it: tensile modulus, Poisson ratio, shift."""
 
     spectrum: RetardationSpectrum
-    poisson_ratio: float
-    shift: Any = None
+    poisson_ratio: float  # of the long-term moduli
+    shift: Any = None  # WLF, Arrhenius or None
     name: str = ""
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()  # what was assumed or left out
 
 
 def number_text(value: float, longest: int) -> str:
-    """Return a number as text of no more than so many characters, a decimal point in it.
+    """Return a finite number as text of at most `longest` (≥ 19) characters, with a decimal point.
 
-    All digits stay where they fit; else as many as do, which of the 17 are 16 in 20 characters, 15 in 19 (two fewer
-    where the exponent has three digits).
-
-    Parameters
-    ----------
-    value : float
-        Finite.
-    longest : int
-        Not below 19, so that no number is left without its digits.
+    All digits are kept where they fit: 20 characters hold 16 of the 17 digits, 19 hold 15 (two fewer where the exponent
+    has three digits).
     """
     for text in (repr(float(value)), *(f"{value:.{digits}g}" for digits in (17, 16, 15, 14, 13, 12))):
         mantissa, _, exponent = text.partition("e")
@@ -218,18 +170,10 @@ def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:
 
 
 def written_poisson_ratio(material: Material, writing: Writing, program: str, incompressible: str | None) -> float:
-    """Return the Poisson ratio for a card; ν = 0.5 only where the program can take it.
+    """Return the Poisson ratio for a card: that of `writing`, else of the material.
 
-    Parameters
-    ----------
-    material : Material
-        Its own ratio counts unless `writing` gives another.
-    writing : Writing
-        May give another.
-    program : str
-        Named in the error.
-    incompressible : str, optional
-        None if the program takes ν = 0.5, else why not.
+    `incompressible` is None if the program takes ν = 0.5, else the reason why it does not; `program` is named in the
+    error.
     """
     ratio = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
     if ratio == 0.5 and incompressible:
@@ -253,26 +197,11 @@ _ALIKE = 1e-9
 
 
 def tensile(shear: RelaxationSpectrum, bulk: RelaxationSpectrum | None) -> tuple[RetardationSpectrum, float, list[str]]:
-    """Return the tensile spectrum of a solid known by its shear and bulk relaxation, exactly.
+    """Return tensile spectrum, Poisson ratio of the long-term moduli, and notes, of given G(t) and K(t) in Pa, exactly.
 
     1/E = 1/(3G) + 1/(9K) holds at every frequency, so that the retardation modes of E are those of G and of K
-    together.  Where K relaxes as G does (or is infinite), the Poisson ratio is constant and E = 2(1+ν)G.
-
-    Parameters
-    ----------
-    shear : RelaxationSpectrum
-        G(t), Pa.
-    bulk : RelaxationSpectrum, optional
-        K(t), Pa; None for an incompressible solid.
-
-    Returns
-    -------
-    spectrum : RetardationSpectrum
-        Of E.
-    poisson_ratio : float
-        Of the long-term moduli.
-    notes : list of str
-        A sentence where the Poisson ratio is not constant.
+    together.  Where K relaxes as G does, or is infinite (`bulk` is None), the Poisson ratio is constant and
+    E = 2(1+ν)G; elsewhere a note says that it is not.
     """
     if shear.E0 <= 0.0:
         raise InputError(
@@ -318,16 +247,10 @@ def _alike(shear: RelaxationSpectrum, bulk: RelaxationSpectrum) -> bool:
 
 
 def relative_series(modulus: float, ratios: Any, times: Any, long_term: float | None = None) -> RelaxationSpectrum:
-    """Return a Prony series from its instantaneous modulus and relative moduli, as Abaqus and ANSYS have it.
+    """Return a Prony series from its instantaneous modulus (Pa), relative moduli g_i and relaxation times (s).
 
-    Parameters
-    ----------
-    modulus : float
-        Instantaneous, Pa.
-    ratios, times : array_like
-        g_i of each mode, and its relaxation time, s.
-    long_term : float, optional
-        The long-term modulus where it is known better than by modulus (1 − Σg), which loses digits.
+    Abaqus and ANSYS store it so.  `long_term` is the long-term modulus where it is known more accurately than by
+    modulus (1 − Σg), which loses digits.
     """
     share = 1.0 - float(np.sum(ratios))
     rubber = modulus * share

@@ -113,12 +113,9 @@ def comment_lines(mark: str, sentences: list[str], content: dict[str, Any]) -> l
 
 
 def stored_content(text: str) -> dict[str, Any] | None:
-    """Return what `comment_lines` stored in a file, or None where there is nothing of it.
+    """Return what `comment_lines` stored in a file, or None without such lines.
 
-    Raises
-    ------
-    InputError
-        If the stored lines are damaged or of a newer version.
+    Raises InputError if they are damaged or of a newer version.
     """
     pieces = []
     for line in text.splitlines():

@@ -52,13 +52,7 @@ def plain(value: Any) -> Any:
 
 
 def restored(value: Any, allowed: tuple[type, ...]) -> Any:
-    """Return the object that `plain` made, if it is one of those allowed in its place.
-
-    Raises
-    ------
-    InputError
-        If it is of another kind, or has a field that this version does not know.
-    """
+    """Return the object that `plain` made; InputError if its kind is not `allowed`, or a field of it is unknown."""
     if value is None:
         return None
     names = [one.__name__ for one in allowed]
@@ -153,13 +147,7 @@ def to_plain(material: Material) -> dict[str, Any]:
 
 
 def from_plain(content: Any) -> Material:
-    """Return the material of `to_plain`.
-
-    Raises
-    ------
-    InputError
-        If something is missing, unknown or out of range; the sentence says what.
-    """
+    """Return the material of `to_plain`; InputError says what is missing, unknown or out of range."""
     if not isinstance(content, dict) or content.get("format") != "viscofric material":
         raise InputError('is not a material of viscofric: it lacks "format": "viscofric material".')
     version = content.get("version")

@@ -22,21 +22,8 @@ def checked_columns(
 ) -> tuple[Array, Array, Array]:
     """Return temperatures (n,) in K, values (n,) and their covariance (n, n), zero if none is given.
 
-    Parameters
-    ----------
-    what : str
-        What the values are, in the plural, for errors.
-    temperatures : (n,) array or quantities
-        Ascending, at least two.
-    log10_values : (n,) array
-        Finite.
-    covariance : (n, n) array or None
-        Of the values.
-
-    Raises
-    ------
-    InputError
-        If the columns do not fit each other, are not finite, or the temperatures do not ascend.
+    Raises InputError if shapes differ, a number is not finite, or the (at least two) temperatures do not ascend;
+    `what` names the values there, in the plural.
     """
     kelvin = to_si_array(temperatures, "K", "temperatures")
     values = np.array(numbers(log10_values, what))

@@ -185,10 +185,7 @@ def compare_laws(table: FactorTable) -> LawComparison:
 def polynomial(table: FactorTable) -> InversePolynomial:
     """Fit polynomials of degree 2 to 4 and return the one of the lowest AIC; degree 1 is the Arrhenius law.
 
-    Raises
-    ------
-    InputError
-        If none of them falls with temperature throughout, or the temperatures are too few.
+    Raises InputError if none of them falls with temperature throughout, or the temperatures are too few.
     """
     row = _polynomial_row(table)
     if not isinstance(row.law, InversePolynomial):

@@ -25,15 +25,7 @@ LARGEST_DEGREE = 4
 
 
 class Family:
-    """One kind of law at a reference, to be fitted at some temperatures.
-
-    Parameters
-    ----------
-    temperatures : (n,) array
-        Ascending, K.
-    reference : float
-        K.
-    """
+    """One kind of law at a reference (K), to be fitted at ascending temperatures (n,) in K."""
 
     #: Whether the constants are sought through their logarithms; those that are not enter linearly.
     positive = True

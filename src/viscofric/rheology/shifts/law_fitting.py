@@ -33,32 +33,19 @@ CONVERGED = 1e-7  # relative fall of the squared misfit
 
 @dataclass(frozen=True, eq=False)
 class FactorTable:
-    """Shift factors with differences taken, and made independent of each other.
+    """Shift factors and their independent differences.
 
-    Only differences between neighbouring temperatures enter, so that the error of the reference's own value,
-    common to all, does no harm.  They are turned so that their measured covariance becomes diagonal, and stays
-    so when independent scatter of one size is added to every value.
-
-    Parameters
-    ----------
-    temperatures, values : (n,) array
-        Ascending, K, and log10 α.
-    reference : float
-        Where a law is to be 1, K.
-    turn : (n − 1, n) array
-        Turns values into independent differences.
-    variance : (n − 1,) array
-        Of the differences, as measured.
-    log_volume : float
-        ln det of what `turn` divides the covariance by, which a likelihood needs.
+    Only differences of neighbouring factors enter: the error of the reference's own value, common to all, cancels.
+    They are rotated so that their measured covariance becomes diagonal, and stays so when independent scatter of
+    one size is added to every value.
     """
 
-    temperatures: Array
-    values: Array
-    reference: float
-    turn: Array
-    variance: Array
-    log_volume: float
+    temperatures: Array  # (n,), ascending, K
+    values: Array  # (n,), log10 α
+    reference: float  # K, where a law is to be 1
+    turn: Array  # (n − 1, n), from values to independent differences
+    variance: Array  # (n − 1,), of the differences, as measured
+    log_volume: float  # ln det of what `turn` divides the covariance by, needed in a likelihood
 
     @classmethod
     def of(cls, temperatures: Array, values: Array, covariance: Array, reference: float) -> FactorTable:
@@ -133,22 +120,13 @@ def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
 
 
 def criterion(law: ParametricLaw, table: FactorTable) -> float:
-    """Return Akaike's criterion, −2 ln L + 2k: constants of greatest likelihood, the misfit averaged over.
+    """Return Akaike's criterion, −2 ln L + 2k, of a fitted law, at constants of greatest likelihood.
 
-    Parameters
-    ----------
-    law : ParametricLaw
-        As fitted, where the search starts.
-    table : FactorTable
-        What it was fitted to.
-
-    Notes
-    -----
     k is the number of constants, a glass transition between two laws counting for three.
-    L is the Gaussian likelihood of the differences of neighbouring values, n − 1 in number, whose covariance is the
-    measured one and that of an independent scatter s in every value.  No law is followed exactly, and few factors do
-    not show how closely; so L is averaged over s, from `SMALLEST_MISFIT` on, with the density 1/(1 + (s/m)²) of
-    m = `USUAL_MISFIT`.  Nothing in it grows without bound where a law passes through all factors.
+    L is the Gaussian likelihood of the n − 1 differences of neighbouring values, whose covariance is the measured one
+    plus that of an independent scatter s in every value.  No law is exact, and few factors do not show how large s is:
+    L is averaged over s, from `SMALLEST_MISFIT` on, with the density 1/(1 + (s/m)²) of m = `USUAL_MISFIT`.
+    So L stays finite where a law passes through all factors.
     """
     degree = len(law.parameters) if law.kind == "polynomial" else None
     family = family_of(law.kind, table.temperatures, table.reference, degree)

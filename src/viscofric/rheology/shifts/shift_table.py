@@ -43,27 +43,13 @@ _COVARIANCE = re.compile(r"cov\s*(\d+)")
 
 @dataclass(frozen=True, eq=False)
 class ShiftTable:
-    """What a file holds, in the order of its rows.
+    """Content of a file of shift factors, in the order of its rows."""
 
-    Parameters
-    ----------
-    temperatures : (n,) array
-        K.
-    log10_values : (n,) array
-        log10 α, or log10 of 1/α where the file holds that.
-    reference : float or None
-        Where α is 1, if the file states it, K.
-    covariance : (n, n) array or None
-        Of `log10_values`, if the file states it.
-    notes : tuple of str
-        Saved with the factors.
-    """
-
-    temperatures: Array
-    log10_values: Array
-    reference: float | None = None
-    covariance: Array | None = None
-    notes: tuple[str, ...] = ()
+    temperatures: Array  # (n,), K
+    log10_values: Array  # (n,), log10 α, or log10 of 1/α where the file holds that
+    reference: float | None = None  # K, where α is 1, if stated
+    covariance: Array | None = None  # (n, n), of log10_values, if stated
+    notes: tuple[str, ...] = ()  # saved with the factors
 
 
 @dataclass
@@ -78,20 +64,7 @@ class _Lines:
 
 
 def read_shift_table(text: str, path: str) -> ShiftTable:
-    """Read a text table.
-
-    Parameters
-    ----------
-    text : str
-        What the file holds.
-    path : str
-        The file, for error messages.
-
-    Raises
-    ------
-    DataFileError
-        If there is no such table, or a cell is not a finite number.
-    """
+    """Read a text table; DataFileError names `path` if there is no such table, or a cell is not a finite number."""
     lines = _lines(text, path)
     names, units = zip(*(_name_and_unit(heading) for heading in lines.headings), strict=True)
     if lines.units:
@@ -218,19 +191,7 @@ def _covariance(names: tuple[str, ...], cells: _Cells) -> Array | None:
 
 
 def write_shift_table(table: ShiftTable, path: str | PathLike[str]) -> None:
-    """Write a table, with its reference and covariance, so that `read_shift_table` returns the same one.
-
-    Parameters
-    ----------
-    table : ShiftTable
-    path : str or path
-        Text table, UTF-8; a file that is there is overwritten.
-
-    Raises
-    ------
-    DataFileError
-        If the file cannot be written.
-    """
+    """Write (or overwrite) a UTF-8 text table that `read_shift_table` reads unchanged; DataFileError if it cannot."""
     assert table.reference is not None
     assert table.covariance is not None
     text = io.StringIO()

@@ -44,15 +44,8 @@ POINTS_OF_A_SLOPE = 4
 def solid_modes(misfit: ModulusMisfit, tau: Array, master_curve: MasterCurve) -> Modes:
     """Fit non-negative modes with a rubber plateau, and raise `LiquidError` where only flow describes the low end.
 
-    Parameters
-    ----------
-    misfit : ModulusMisfit
-        Of the curve.
-    tau : (n,) array
-        Retardation times, s.  The slowest that a mode may have (`ModulusMisfit.ends`) is added where the curve's low
-        end is missed without it: a fixed lattice comes as near to it as it happens to.
-    master_curve : MasterCurve
-        The curve, for the sentence.
+    The slowest retardation time that a mode may have (`ModulusMisfit.ends`) is added to `tau` (n,) in s where the
+    curve's low end is missed without it: whether a fixed lattice has a time near it is chance.
     """
     solid = nonnegative_modes(misfit, tau)
     if _missed_at_low_end(misfit, solid) <= MISSED:
@@ -90,19 +83,7 @@ def judged(
     regularisation: float | None = None,
     notes: tuple[str, ...] = (),
 ) -> RetardationSpectrum:
-    """Return the spectrum with its `fit` judged against a master curve at the same temperature.
-
-    Parameters
-    ----------
-    spectrum : RetardationSpectrum
-        As fitted.
-    master_curve : MasterCurve
-        What it was fitted to.
-    method, tau_ratio, regularisation
-        How; see `SpectrumFit`.
-    notes : tuple of str
-        What the fit itself has to say.
-    """
+    """Return the spectrum with its `fit` judged against a master curve at the same temperature; see `SpectrumFit`."""
     omega, measured = master_curve.angular_frequency, master_curve.complex_modulus
     modulus = spectrum.complex_modulus(omega)
     seen = modulus.imag > 0.0

@@ -63,22 +63,11 @@ def merged(strengths: Array, positions: Array) -> tuple[Array, Array]:
 
 
 def reciprocal_modes(level: float, strengths: Array, positions: Array) -> tuple[Array, Array]:
-    """Return strengths and positions of the modes of the reciprocal function.
+    """Return strengths and ascending positions (m,) of the modes of the reciprocal function.
 
-    Parameters
-    ----------
-    level : float
-        Above zero: E0 of a relaxation series, or 1/E_inf of a retardation series.
-    strengths : (n,) array
-        Not below zero: E_k, or C_k.
-    positions : (n,) array
-        Above zero: relaxation times, or retardation **rates** 1/τ.
-
-    Returns
-    -------
-    strengths, positions : (m,) array
-        C_k and retardation times, or E_k and relaxation rates; positions ascending, one for each distinct
-        position that has strength.
+    From a relaxation series (level E0 > 0, strengths E_k ≥ 0 and relaxation times, (n,)) to C_k and retardation times;
+    or from a retardation series (1/E_inf, C_k and retardation **rates** 1/τ) to E_k and relaxation rates.  Equal
+    positions are joined, and those without strength left out.
     """
     weights, poles = merged(strengths, positions)
     if not len(poles):

@@ -32,14 +32,9 @@ class Modes:
 
 
 class ModulusMisfit:
-    """Differences of ln E' and ln E'' between measurement and modes; they are free of units.
+    """Differences of ln E' and ln E'', without unit, between modes and a measurement.
 
-    Parameters
-    ----------
-    angular_frequency : (N,) array
-        Ascending, rad/s.
-    measured : (N,) complex array
-        E' + iE'', Pa.
+    `angular_frequency` (N,) ascends, in rad/s; `measured` (N,) is E' + iE'' in Pa.
     """
 
     def __init__(self, angular_frequency: Array, measured: ComplexArray) -> None:
@@ -84,23 +79,10 @@ def descend(
     iterations: int,
     tolerance: float,
 ) -> Array:
-    """Minimise a sum of squares by Levenberg–Marquardt steps in parameters that are logarithms.
+    """Minimise a sum of squares over logarithms (n,) of parameters by Levenberg–Marquardt steps.
 
-    Parameters
-    ----------
-    residual : callable
-        Residuals of a point, infinite where there is none.
-    normal : callable
-        Of a point and its residuals: the matrix JᵀJ and the vector Jᵀr.
-    start : (n,) array
-        Where to begin.
-    iterations : int
-        At most so many.
-    tolerance : float
-        Relative fall of the sum of squares at which to stop.
-
-    References
-    ----------
+    `residual` returns the residuals r at a point, infinite outside the domain; `normal`, at a point and its residuals,
+    JᵀJ and Jᵀr.  The search stops when the sum of squares falls by less than the relative `tolerance`.
     D. W. Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431.
     """
     point, now = start, residual(start)

@@ -242,28 +242,12 @@ ANY_TEMPERATURE = 298.15
 
 @one_blas_thread
 def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
-    """Fit retardation modes to a table of moduli.
+    """Fit retardation modes to a table of at least four frequencies, with plateaus where the table has them.
 
-    Parameters
-    ----------
-    table : ModulusTable
-        At least four frequencies.  Where it treats its ends as plateaus, so do the modes.
-
-    Returns
-    -------
-    RetardationSpectrum
-        Its `fit` holds the misfit and what is extrapolated.
-
-    Raises
-    ------
-    InputError
-        If the table is too short or that of a liquid, or no modes describe it: then E' and E'' do not belong to one
-        material (they break the relations of Kramers and Kronig), or scatter too much.
-
-    Notes
-    -----
     The sum of squares of the errors of ln E' and ln E'' is minimised over C ≥ 0 on a coarse lattice of times, then on
-    finer ones near the modes found, so that a few sharp modes are met as well as a broad spectrum.
+    finer ones near the modes found, so that a few sharp modes are fitted as well as a broad spectrum.  Raises
+    InputError if the table is too short, that of a liquid, or described by no modes: then E' and E'' scatter too much
+    or violate the Kramers–Kronig relations.
     """
     curve = _as_curve(table)
     if len(table) < 4:

@@ -27,25 +27,12 @@ def lattice(misfit: ModulusMisfit, ratio: float) -> Array:
 def nonnegative_modes(
     misfit: ModulusMisfit, tau: Array, start: Modes | None = None, *, converged: float = CONVERGED
 ) -> Modes:
-    """Fit 1/E_inf ≥ 0 and C ≥ 0 at given retardation times.
+    """Fit 1/E_inf ≥ 0 and C ≥ 0 at retardation times (n,) in s, until the relative fall of the misfit is `converged`.
 
-    Parameters
-    ----------
-    misfit : ModulusMisfit
-        The measurement.
-    tau : (n,) array
-        Retardation times, s.
-    start : Modes, optional
-        At the same times, near the answer; found from relative errors of the compliance if not given.
-    converged : float
-        Relative fall of the misfit at which to stop.
-
-    Notes
-    -----
     The compliance is linear in 1/E_inf and C, so that relative errors of S (equally of E) are minimised by
-    non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974).  From there
-    the sum of squares of the errors of ln E' and ln E'' is minimised by Gauss–Newton steps, each a
-    non-negative least-squares problem.
+    non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974).  From there, or
+    from `start` at the same times, the sum of squares of the errors of ln E' and ln E'' is minimised by Gauss–Newton
+    steps, each a non-negative least-squares problem.
     """
     columns = misfit.columns(tau)
     strengths = _relative_start(columns, misfit.measured) if start is None else np.append(start.glass, start.C)

@@ -22,24 +22,12 @@ FIRST_STRENGTH_ITERATIONS = 200
 
 
 def smooth_modes(misfit: ModulusMisfit, tau: Array, strength: float, start: Modes | None = None) -> Modes:
-    """Minimise the misfit plus the roughness of the spectrum, at given retardation times.
+    """Minimise the misfit plus the roughness of the spectrum, at retardation times (n,) in geometric progression, s.
 
-    Parameters
-    ----------
-    misfit : ModulusMisfit
-        The measurement.
-    tau : (n,) array
-        In geometric progression, s.
-    strength : float
-        λ, above zero.
-    start : Modes, optional
-        At the same times, near the answer; modes without compliance begin with their neighbour's.
-
-    Notes
-    -----
-    With c = ln C, which keeps every C above zero, minimised is ⟨r²⟩ + λ² ∫ (d²c / d(ln τ)²)² d ln τ, where
-    ⟨r²⟩ is the mean square of the errors of ln E' and ln E''.  Neither the number of points nor the ratio of
-    the times changes what λ means.  A spectrum without roughness is a power law between sharp ends.
+    With c = ln C, which keeps every C above zero, ⟨r²⟩ + λ² ∫ (d²c / d(ln τ)²)² d ln τ is minimised; ⟨r²⟩ is the mean
+    square of the errors of ln E' and ln E'', λ > 0 is `strength`.  λ has the same meaning for any number of points and
+    any ratio of the times.  A spectrum without roughness is a power law between sharp ends.  `start` is at the same
+    times; its modes without compliance begin with their neighbour's.
     """
     begin = _even(misfit, tau) if start is None else _continued(start)
     iterations = FIRST_STRENGTH_ITERATIONS if start is None else ITERATIONS
@@ -118,20 +106,12 @@ def corner(misfit: ModulusMisfit, fits: list[Modes]) -> int:
 
 
 def cross_validated(misfit: ModulusMisfit, tau: Array, isotherm: Array) -> int:
-    """Return the place of the strength that predicts isotherms best that had no part in the fit.
+    """Return the index of the strength that best predicts isotherms left out of the fit.
 
-    The isotherms are dealt out to `FOLDS` folds in turn; single points, if there are fewer isotherms.
-    Points of one isotherm err alike, so that leaving out single ones would choose too weak a strength.  Points
-    beyond the frequencies of those that remain do not count: there a fit extrapolates, whatever its strength.
-
-    Parameters
-    ----------
-    misfit : ModulusMisfit
-        The measurement.
-    tau : (n,) array
-        Retardation times, s.
-    isotherm : (N,) array
-        The temperature of each point, which identifies its isotherm.
+    The isotherms, identified by the temperature (N,) of each point, are distributed over `FOLDS` folds in turn; single
+    points, if there are fewer isotherms.  Points of one isotherm have common errors, so that leaving out single ones
+    would choose too weak a strength.  Points beyond the frequencies of those that remain do not count: a fit
+    extrapolates there, whatever its strength.
     """
     names, number = np.unique(isotherm, return_inverse=True)
     fold = (number if len(names) >= FOLDS else np.arange(len(isotherm))) % FOLDS

@@ -44,18 +44,11 @@ def few_modes(misfit: ModulusMisfit, number: int) -> Modes:
 
 
 def moved_modes(misfit: ModulusMisfit, start: Modes, *, tidy: bool = True, converged: float = CONVERGED) -> Modes:
-    """Refine the compliances and the retardation times of modes near the answer.
+    """Refine the compliances and the retardation times of modes near the optimum.
 
-    Parameters
-    ----------
-    misfit : ModulusMisfit
-        The measurement.
-    start : Modes
-        Where to begin; a mode of no compliance begins with a hundredth of what would be seen.
-    tidy : bool
-        Whether to sort the modes, join those of one time and leave out those that have vanished.
-    converged : float
-        Relative fall of the sum of squares at which to stop.
+    A mode's compliance begins at no less than a hundredth of 1/|E*| at its frequency.  `tidy` sorts the modes, joins
+    those of one time and removes those that have vanished; `converged` is the relative fall of the sum of squares at
+    which to stop.
     """
     number = len(start.tau)
     low, high = misfit.ends
