@@ -32,40 +32,21 @@ SMALLEST_SCATTER = 1e-6  # decades; noise-free data would have none
 
 @dataclass(frozen=True, eq=False)
 class Smoother:
-    """How curves are drawn through points.
+    """Smoothing splines to be drawn through points: K basis functions, m quantities such as log E' and log E''."""
 
-    Parameters
-    ----------
-    knots : (k,) array
-        Of the splines, log10 of the reduced frequency, ends repeated.
-    degree : int
-        3, or less where the points are very few.
-    penalty : (K, K) array
-        Integrals of products of third derivatives of the K basis functions, 1/decades⁵.
-    smoothing : (m,) array
-        What multiplies it, for each of m quantities, such as E' and E''.
-    scatter : (m,) array
-        Standard deviation of each about its curve, of a point of weight 1; decades where they are logarithms.
-    """
-
-    knots: Array
-    degree: int
-    penalty: Array
-    smoothing: Array
-    scatter: Array
+    knots: Array  # (k,), log10 of the reduced frequency, ends repeated
+    degree: int  # 3, or less where the points are very few
+    penalty: Array  # (K, K), integrals of products of third derivatives of the basis functions, 1/decades⁵
+    smoothing: Array  # (m,), factor of the penalty
+    scatter: Array  # (m,), standard deviation of a point of weight 1 about its curve; decades for logarithms
 
     @classmethod
     def fitted(cls, frequency: Array, moduli: Array, weights: Array | None = None) -> Smoother:
         """Place knots for points and choose the smoothing by restricted maximum likelihood.
 
-        Parameters
-        ----------
-        frequency : (n,) array
-            log10 of the reduced angular frequency.
-        moduli : (n, m) array
-            log10 of E' and E'', free of vertical shifts, or other quantities.
-        weights : (n,) array, optional
-            Inverse variances of the points relative to each other; all alike if left out.
+        `frequency` (n,) is log10 of the reduced angular frequency; `moduli` (n, m) are log10 of E' and E'' without
+        vertical shifts, or other quantities; `weights` (n,) are the inverse variances of the points relative to each
+        other, all equal if None.
         """
         knots, degree = _knots(frequency)
         penalty = _penalty(knots, degree)
@@ -88,32 +69,14 @@ class Smoother:
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Curves of m quantities, such as log E' and log E'', through n points.
+    """Curves of m quantities, such as log E' and log E'', through n points of weight w."""
 
-    With weights w, whatever belongs to a point is multiplied by √w.
-
-    Parameters
-    ----------
-    smoother : Smoother
-        How they were drawn.
-    root : (n, 1) array
-        √w.
-    splines : (3, n, K) array
-        Basis functions B at the points, and their first and second derivatives, times √w.
-    inverse : (m, K, K) array
-        (BᵀB + λP)⁻¹ of each quantity.
-    coefficients : (K, m) array
-        Of the curves.
-    residual : (n, m) array
-        Points less curves, times √w.
-    """
-
-    smoother: Smoother
-    root: Array
-    splines: Array
-    inverse: Array
-    coefficients: Array
-    residual: Array
+    smoother: Smoother  # with K basis functions B
+    root: Array  # (n, 1), √w
+    splines: Array  # (3, n, K), B at the points, and its first and second derivative, times √w
+    inverse: Array  # (m, K, K), (BᵀB + λP)⁻¹ of each quantity
+    coefficients: Array  # (K, m)
+    residual: Array  # (n, m), points minus curves, times √w
 
     @property
     def cost(self) -> float:

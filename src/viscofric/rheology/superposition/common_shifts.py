@@ -54,31 +54,21 @@ class CommonShifts:
 
 
 def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
-    """Bring all isotherms onto one curve of log E' and one of log E''.
+    """Shift isotherms (ascending in temperature, two points or more each) onto one curve of log E' and one of log E''.
 
-    Plateaus at the cold and the hot end, where the slope of the curves is noise, are left out of the fit and put
-    where the trend of the others leads (`gauge.continued`); not with vertical shifts, which plateaus do fix.
+    E' and E'' have equal weights; the covariance follows from the scatter of each.  `joins` of each isotherm with the
+    next are the start of the search.
 
-    Where neighbours disagree by many times what is typical, superposition itself fails, and one flexible
-    curve would hide that by pulling them apart.  There each side gets its own curve, and the two are joined
-    where the two neighbours overlap best, with that join's uncertainty.  The same is done, with an uncertainty of
-    half a decade at least, where a common curve moves neighbours past each other although their storage moduli
-    overlap (`overlap.parted`): sweeps that disagree in E'' alone, as at a resonance of the instrument, cost a
-    flexible curve nothing once they lie apart.
+    Plateaus at the cold and the hot end, where the slope of the curves is noise, are left out of the fit; their shifts
+    continue the trend of the others (`gauge.continued`).  With vertical shifts they are kept, since plateaus determine
+    these.
 
-    Parameters
-    ----------
-    sweeps : list of LogSweep
-        Neighbours in temperature next to each other, each with at least two points.
-    joins : list of Join
-        Of each isotherm with the next: where to start, and how well they agree.
-    gauge : Gauge
-        Which shifts are held, and whether vertical shifts are sought.
-
-    Returns
-    -------
-    CommonShifts
-        E' and E'' count equally; the covariance is found from the scatter that is left in each.
+    Where neighbours disagree by many times the typical misfit, superposition itself fails, and one flexible curve would
+    hide that by moving them apart.  There each side gets its own curve, and the two are joined where the two neighbours
+    overlap best, with that join's uncertainty.  The same is done, with an uncertainty of at least half a decade, where
+    a common curve moves neighbours past each other although their storage moduli overlap (`overlap.parted`): sweeps
+    that disagree in E'' alone, as at a resonance of the instrument, do not increase the misfit of a flexible curve once
+    they are apart.
     """
     search, apart = _torn_apart(sweeps, joins, gauge)
     inside = identified(search.signal, gauge)
@@ -124,15 +114,7 @@ class _Search:
 
 
 def _torn_apart(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[_Search, set[int]]:
-    """Fit all isotherms; find those that are moved past each other and are to be joined pair by pair instead.
-
-    Returns
-    -------
-    search : _Search
-        With such pairs joined, with the uncertainty that they have.
-    apart : set of int
-        Their places.
-    """
+    """Fit all isotherms, join those pair by pair that the fit moves past each other, and return their indices too."""
     apart: set[int] = set()
     held = {place for place in gauge.held if place + 1 in gauge.held}
     while True:

@@ -15,25 +15,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """Which shifts are held.
+    """Which shifts are fixed."""
 
-    Parameters
-    ----------
-    inverse_temperatures : (n,) array
-        1/T of the isotherms, ascending in temperature.
-    weights, vertical_weights : (n,) array
-        Interpolation at the reference, where log10 α and log10 b are zero.
-    held : mapping
-        log10 α of isotherms, by their place.
-    free_vertical : bool
-        Whether vertical shifts are sought.
-    """
-
-    inverse_temperatures: Array
-    weights: Array
-    vertical_weights: Array
-    held: Mapping[int, float]
-    free_vertical: bool = False
+    inverse_temperatures: Array  # (n,), 1/T of the isotherms, ascending in temperature
+    weights: Array  # (n,), interpolation at the reference, where log10 α is zero
+    vertical_weights: Array  # (n,), the same for log10 b
+    held: Mapping[int, float]  # log10 α of isotherms by index
+    free_vertical: bool = False  # whether vertical shifts are fitted
 
     def free(self) -> tuple[Array, Array]:
         """Return shifts that meet what is held, and an orthonormal basis of the ways to change them."""
@@ -82,20 +70,11 @@ BEND = 0.2  # decades per typical step
 
 
 def identified(signal: Array, gauge: Gauge) -> tuple[int, int] | None:
-    """Say which isotherms to fit: from the first to before the last.
+    """Return the index of the first isotherm to fit, and that after the last; None to fit all.
 
-    Parameters
-    ----------
-    signal : (n,) array
-        Squared slope of the curves at each isotherm, in units of its noise.
-    gauge : Gauge
-        What is held.
-
-    Returns
-    -------
-    tuple of int, or None
-        None where all are to be fitted: none at the ends is a plateau, hardly any is not, vertical shifts are
-        sought, or a factor is fixed whose plateau, or whose reference, would be left out.
+    `signal` (n,) is the squared slope of the curves at each isotherm, in units of its noise.  All are fitted where none
+    at the ends is a plateau, nearly all are plateaus, vertical shifts are fitted, or a factor is fixed whose plateau,
+    or whose reference, would be left out.
     """
     clear = np.flatnonzero(signal > CLEAR)
     if gauge.free_vertical or len(clear) <= TREND_STEPS:
@@ -109,21 +88,10 @@ def identified(signal: Array, gauge: Gauge) -> tuple[int, int] | None:
 
 
 def continued(values: Array, gauge: Gauge, first: int, last: int) -> Array:
-    """Continue shifts over the plateaus at both ends, straight in 1/T.
+    """Continue shifts (or what is linear in them) over the plateaus at both ends, linearly in 1/T.
 
-    Parameters
-    ----------
-    values : (m, …) array
-        log10 α from the first to before the last isotherm, or anything that is linear in them.
-    gauge : Gauge
-        Of all isotherms.
-    first, last : int
-        Which ones were fitted.
-
-    Returns
-    -------
-    (n, …) array
-        Of all isotherms, zero at the reference.
+    `values` (m, …) are those of the isotherms `first` to before `last`; returns (n, …) of all isotherms, zero at the
+    reference.
     """
     inverse = gauge.inverse_temperatures
     size = len(inverse)

@@ -30,26 +30,9 @@ LARGEST_SHIFT = 100.0  # decades
 
 
 def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: float) -> dict[int, float]:
-    """Find the isotherms of fixed shift factors.
+    """Return log10 α by the index of the isotherm, of fixed factors by temperature as users write it.
 
-    Parameters
-    ----------
-    fixed : mapping
-        Temperature, as users write it, to log10 α.
-    temperatures : (n,) array
-        Of the isotherms, K.
-    reference : float
-        K.
-
-    Returns
-    -------
-    dict
-        Place of the isotherm to log10 α.
-
-    Raises
-    ------
-    InputError
-        If there is no such isotherm, one is named twice, or a value contradicts α = 1 at the reference.
+    Raises InputError if there is no such isotherm, one is named twice, or a value contradicts α = 1 at the reference.
     """
     held: dict[int, float] = {}
     for wanted, value in fixed.items():
@@ -79,19 +62,7 @@ def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: floa
 
 
 def fitted_shifts(joined: JoinedIsotherms, reference: float, held: dict[int, float], free: bool) -> CommonShifts:
-    """Fit all shifts but those that are held; see `common_shifts`.
-
-    Parameters
-    ----------
-    joined : JoinedIsotherms
-        What is to be superposed.
-    reference : float
-        Where log10 α and log10 b are zero, K.
-    held : dict
-        log10 α of isotherms, by their place.
-    free : bool
-        Whether vertical shifts are fitted too.
-    """
+    """Fit all shifts except those `held` (log10 α by index); with `free`, vertical shifts too.  See `common_shifts`."""
     temperatures = _temperatures(joined)
     around = _gauge(temperatures, reference, {}, free)
     if not held or np.max(around.weights) == 1.0:
@@ -109,23 +80,9 @@ def fitted_shifts(joined: JoinedIsotherms, reference: float, held: dict[int, flo
 
 
 def given_shifts(joined: JoinedIsotherms, reference: float, shift: ShiftLaw, free: bool) -> CommonShifts:
-    """Take shifts from a law or table about the reference; fit vertical ones only, if asked for.
+    """Return the shifts of a law or table; with `free`, fit vertical ones.
 
-    Parameters
-    ----------
-    joined : JoinedIsotherms
-        What is to be superposed.
-    reference : float
-        Where log10 α and log10 b are zero, K.
-    shift : ShiftLaw
-        About the reference.
-    free : bool
-        Whether vertical shifts are fitted.
-
-    Raises
-    ------
-    InputError
-        If a factor is beyond any frequency.
+    Raises InputError if a factor is beyond any frequency.
     """
     temperatures = _temperatures(joined)
     values = np.array(shift.log10(temperatures))

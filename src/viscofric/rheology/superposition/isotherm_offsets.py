@@ -39,18 +39,11 @@ TURN = np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)
 
 @dataclass(frozen=True, eq=False)
 class OffsetSizes:
-    """Sizes that offsets may have, and the probability of each.
+    """Possible sizes of offsets, and the probability of each."""
 
-    Parameters
-    ----------
-    deviations : (k, 2) array
-        Standard deviations of the sum of both offsets of an isotherm and of their difference, over √2; decades.
-    probability : (k,) array
-        Adds up to 1.
-    """
-
+    # (k, 2), standard deviations of sum and difference of both offsets of an isotherm, over √2; decades
     deviations: Array
-    probability: Array
+    probability: Array  # (k,), sums to 1
 
     def draw(self, random: np.random.Generator, samples: int) -> Array:
         """Return sizes (samples, 2), drawn by their probabilities."""
@@ -98,13 +91,8 @@ class IsothermOffsets:
     def resized(self, random: np.random.Generator, errors: Array) -> Array:
         """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly.
 
-        Parameters
-        ----------
-        random : numpy.random.Generator
-            For the sizes.
-        errors : (samples, m + 2n) array
-            Drawn with the mean covariance: errors of log10 α, then of log10 b if m = 2n (fitted), then offsets of
-            log E' and those of log E''; decades.
+        `errors` (samples, m + 2n), in decades, were drawn with the mean covariance: errors of log10 α, then of log10 b
+        if fitted (m = 2n), then offsets of log E' and those of log E''.
         """
         count = len(self.with_shifts)
         shifts, offsets = errors[:, :-count], errors[:, -count:]
@@ -118,38 +106,22 @@ class IsothermOffsets:
 
 @dataclass(frozen=True, eq=False)
 class Offsets:
-    """What is known of offsets.
+    """Estimated offsets of n isotherms."""
 
-    Parameters
-    ----------
-    covariance : (2, 2) array
-        Of those of log E' and log E'' of one isotherm, decades².
-    expected : (2n,) array
-        Mean of each of log E' and then of log E'', given the measurement and the shifts as they were found; decades.
-    sizes : OffsetSizes
-        Which sizes they may have; `covariance` is the mean over them.
-    """
-
-    covariance: Array
+    covariance: Array  # (2, 2), of the offsets of log E' and log E'' of one isotherm, decades²; the mean over `sizes`
+    # (2n,), mean of log E' offsets, then of log E'' offsets, given the measurement and the shifts found; decades
     expected: Array
     sizes: OffsetSizes
 
 
 def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> Offsets:
-    """Find the variance of offsets.
+    """Estimate the variance of the offsets of n isotherms.
 
-    Parameters
-    ----------
-    information : (p + 2n, p + 2n) array
-        Of p free shifts, of the offsets of log E' of n isotherms, and of those of log E'', the curves refitted
-        wherever these go; in units of the scatter of the points.
-    score : (p + 2n,) array
-        Half of the decrease of what is minimised with each.
-    prior : (p, p) array
-        Information on the shifts beside the points.
-    tied : bool
-        Whether offsets of E' and E'' are independent of each other.  They must be taken so where vertical shifts are
-        fitted, which take up whatever the two have in common.
+    `information` (p + 2n, p + 2n) and `score` (p + 2n,), half of the decrease of the objective, are those of p free
+    shifts, of the offsets of log E', and of those of log E'', in units of the scatter of the points, with the curves
+    refitted.  `prior` (p, p) is information on the shifts apart from the points.  `tied` makes offsets of E' and E''
+    independent of each other, as they must be where vertical shifts are fitted, which absorb whatever the two have in
+    common.
     """
     free = len(prior)
     size = (len(score) - free) // 2
@@ -177,12 +149,7 @@ def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> 
 def _likelihood(left: Array, wish: Array) -> Array:
     """Return the log of the likelihood of sizes of sums (rows) and of differences (columns) over that of none.
 
-    Parameters
-    ----------
-    left : (2n, 2n) array
-        Information on sums and then on differences of offsets.
-    wish : (2n,) array
-        The score that goes with it.
+    `left` (2n, 2n) is the information on sums and then on differences of offsets, `wish` (2n,) its score.
     """
     size = len(wish) // 2
     variance = SIZES[:, None] ** 2

@@ -27,24 +27,12 @@ LARGEST_MISFIT = 0.15
 
 @dataclass(frozen=True, eq=False)
 class JoinedIsotherms:
-    """Isotherms that reach each other, and how.
+    """Isotherms that overlap, and how they join."""
 
-    Parameters
-    ----------
-    isotherms : tuple of Isotherm
-        In ascending temperature.
-    logs : list of LogSweep
-        Their logarithms, free of a vertical shift that was given.
-    joins : list of Join
-        Of each with the next warmer one.
-    notes : tuple of str
-        What was left out, one sentence each.
-    """
-
-    isotherms: tuple[Isotherm, ...]
-    logs: list[LogSweep]
-    joins: list[Join]
-    notes: tuple[str, ...]
+    isotherms: tuple[Isotherm, ...]  # ascending in temperature
+    logs: list[LogSweep]  # their logarithms, without a given vertical shift
+    joins: list[Join]  # of each with the next warmer one
+    notes: tuple[str, ...]  # what was left out
 
     def less(self, log10_b: Array) -> JoinedIsotherms:
         """Return the same with vertical shifts taken off the logarithms."""
@@ -86,13 +74,7 @@ def ranges(steps: Iterable[tuple[float, float]]) -> str:
 
 
 def usable(isotherms: tuple[Isotherm, ...]) -> None:
-    """Insist on two isotherms or more, of two points or more.
-
-    Raises
-    ------
-    SuperpositionError
-        If there are fewer.
-    """
+    """Raise SuperpositionError unless there are at least two isotherms of at least two points."""
     if len(isotherms) < 2:
         raise SuperpositionError(
             f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.", code="too-few-isotherms"
@@ -112,12 +94,9 @@ def usable(isotherms: tuple[Isotherm, ...]) -> None:
 
 
 def join_isotherms(isotherms: tuple[Isotherm, ...], logs: list[LogSweep]) -> JoinedIsotherms:
-    """Join neighbours, and leave out single isotherms at the ends that reach no other.
+    """Join neighbours, and leave out single isotherms at the ends that overlap no other.
 
-    Raises
-    ------
-    SuperpositionError
-        If neighbours in the middle do not overlap.
+    Raises SuperpositionError if neighbours in the middle do not overlap.
     """
     joins = [join(colder, warmer) for colder, warmer in pairwise(logs)]
     joined = np.array([found.misfit <= LARGEST_MISFIT for found in joins])
@@ -136,13 +115,7 @@ def join_isotherms(isotherms: tuple[Isotherm, ...], logs: list[LogSweep]) -> Joi
 
 
 def as_given(isotherms: tuple[Isotherm, ...], logs: list[LogSweep], shift: ShiftLaw) -> JoinedIsotherms:
-    """Compare neighbours where given shift factors put them; none is left out.
-
-    Raises
-    ------
-    InputError
-        If the shift does not hold at one of the temperatures.
-    """
+    """Compare all neighbours at given shift factors; InputError if the shift is invalid at one of the temperatures."""
     values = [shift.log10(isotherm.temperature) for isotherm in isotherms]
     steps = [colder - warmer for colder, warmer in pairwise(values)]
     joins = [join_at(colder, warmer, step) for (colder, warmer), step in zip(pairwise(logs), steps, strict=True)]

@@ -142,10 +142,7 @@ class KramersKronig:
 def kramers_kronig(master_curve: MasterCurve) -> KramersKronig:
     """Test E' against E'' on a master curve; see `KramersKronig`.
 
-    Raises
-    ------
-    InputError
-        If the master curve spans less than one and a half decades, which tests nothing.
+    Raises InputError if the master curve spans less than one and a half decades, too little for a test.
     """
     omega, storage, loss, count = _binned(master_curve)
     span = float(np.log10(omega[-1] / omega[0])) if len(omega) else 0.0

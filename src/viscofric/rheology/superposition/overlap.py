@@ -73,22 +73,13 @@ class LogSweep:
 
 @dataclass(frozen=True)
 class Join:
-    """Best joint overlap of two sweeps.
+    """Best joint overlap of two sweeps."""
 
-    Parameters
-    ----------
-    step : float
-        log10 α of the colder less that of the warmer.
-    misfit : float
-        Joint rms √((ΔE'² + ΔE''²)/2) of the log moduli where they overlap, decades.
-    uncertainty : float
-        Standard error of the step if the misfit is one error of each modulus, alike along the overlap: half of the
-        interval of steps whose χ² is within 1.96² of the best, over 1.96; or, if that is more, the root mean square of
-        what it differs by from the steps that E' and E'' ask for, each by itself.
-    """
-
-    step: float
-    misfit: float
+    step: float  # log10 α of the colder minus that of the warmer
+    misfit: float  # joint rms √((ΔE'² + ΔE''²)/2) of the log moduli where they overlap, decades
+    # Standard error of the step if the misfit is one error of each modulus, constant along the overlap: half of the
+    # interval of steps whose χ² is within 1.96² of the best, over 1.96; or, if greater, the root mean square of the
+    # differences from the best steps of E' and of E'' alone.
     uncertainty: float
 
 
@@ -257,19 +248,12 @@ BADLY = 2.0
 
 @dataclass(frozen=True)
 class OwnShifts:
-    """How far neighbours lie apart as they are shifted, and how close they come when each pair has its own shift.
+    """Misfit of neighbours as they are shifted, and the misfit when each pair is shifted to its best overlap."""
 
-    Parameters
-    ----------
-    misfit : float
-        Joint rms misfit of log10 E' and log10 E'', root mean square over the pairs that overlap as they are shifted;
-        decades.  Zero where none does.
-    attainable : float
-        The same with each of these pairs slid to where it overlaps best.
-    """
-
+    # Joint rms misfit of log10 E' and log10 E'', root mean square over the pairs that overlap as they are shifted;
+    # decades. Zero where none does.
     misfit: float
-    attainable: float
+    attainable: float  # the same with each of these pairs at its best overlap
 
     @property
     def wrong(self) -> bool:
@@ -286,14 +270,9 @@ class OwnShifts:
 
 
 def own_shifts(sweeps: Sequence[LogSweep], log10_shifts: Array) -> OwnShifts:
-    """Compare the overlap of shifted isotherms with that which pairs reach for themselves.
+    """Compare the misfit of isotherms, shifted by log10 α (n,), with that of the best overlap of each pair.
 
-    Parameters
-    ----------
-    sweeps : sequence of LogSweep
-        Neighbours in temperature next to each other, without vertical shifts.
-    log10_shifts : (n,) array
-        log10 α.
+    `sweeps` ascend in temperature, without vertical shifts.
     """
     shifted, best = [], []
     for place, (colder, warmer) in enumerate(pairwise(sweeps)):

@@ -88,32 +88,14 @@ class Piece:
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """What shifts give.
+    """Objective and derivatives at given m shifts; the last three are zero unless requested."""
 
-    Parameters
-    ----------
-    cost : float
-        What is minimised: squares, in standard deviations.
-    gradient : (m,) array
-        Half of its decrease with the shifts.
-    normal : (m, m) array
-        Half of its second derivatives, by Gauss and Newton.
-    curvature : (m, m) array
-        The same, exactly.
-    score : (m, m) array
-        Covariance of the gradient that the scatter of the points makes.
-    freedom : float
-        Degrees of freedom left in the residuals.
-
-    The last three are zero where they were not asked for.
-    """
-
-    cost: float
-    gradient: Array
-    normal: Array
-    curvature: Array
-    score: Array
-    freedom: float
+    cost: float  # the objective: squares, in standard deviations
+    gradient: Array  # (m,), half of its decrease with the shifts
+    normal: Array  # (m, m), half of its second derivatives, by Gauss and Newton
+    curvature: Array  # (m, m), the same, exactly
+    score: Array  # (m, m), covariance of the gradient due to the scatter of the points
+    freedom: float  # degrees of freedom left in the residuals
 
 
 class ShiftProblem:
@@ -190,18 +172,12 @@ class ShiftProblem:
     def with_offsets(
         self, parameters: Array, smoothers: list[Smoother], expected: Array | None
     ) -> tuple[Array, Array, Array]:
-        """Say how p parameters and offsets of the m moduli of n isotherms act together, the curves being refitted.
+        """Return information, score and gradient of p parameters and of offsets of the m moduli of n isotherms.
 
-        Once offsets (m n) are expected, points count for fewer where they are alike beside them.
-
-        Returns
-        -------
-        information : (p + m n, p + m n) array
-            Half of the second derivatives of the squares, in units of the scatter of each modulus.
-        score : (p + m n,) array
-            Half of the decrease of these squares.
-        gradient : (p, m n) array
-            What each offset adds to half of the decrease of the plain squares with the parameters, 1/decades.
+        The curves are refitted.  Information (p + m n, p + m n) is half of the second derivatives of the squares, score
+        (p + m n,) half of their decrease, in units of the scatter of each modulus; gradient (p, m n), in 1/decades, is
+        what each offset adds to half of the decrease of the plain squares with the parameters.  With `expected` offsets
+        (m n,), points of an isotherm whose residuals have a common part count for less.
         """
         count, levels = len(self.start), self.pieces[0].moduli.shape[1] * self.size
         information, score = np.zeros((count + levels, count + levels)), np.zeros(count + levels)

@@ -91,16 +91,9 @@ class _Profile:
 class StepProfiles:
     """−2 log of the likelihood of shifts, with curves and levels of isotherms integrated over.
 
-    Curves are cubic splines with equal intervals, so that all shifts are judged by the same ones.
-
-    Parameters
-    ----------
-    problem, smoothers
-        At the end of the search.
-    sweeps : list of LogSweep
-        What the problem was made of.
-    levels : (m n, m n) array
-        Covariance of levels of the m moduli of n isotherms: offsets and vertical shifts; decades².
+    Curves are cubic splines with equal intervals, so that the same splines apply to all shifts.  `levels` (m n, m n) is
+    the covariance of levels of the m moduli of n isotherms: offsets and vertical shifts; decades².  `problem` and
+    `smoothers` are those at the end of the search.
     """
 
     def __init__(self, problem: ShiftProblem, smoothers: list[Smoother], sweeps: list[LogSweep], levels: Array) -> None:
@@ -110,14 +103,10 @@ class StepProfiles:
         self.levels = levels
 
     def widened(self, parameters: Array, inverse: Array, noise: Array, covariance: Array) -> Array:
-        """Return the covariance (p, p) with the variance that profiles of the steps add.
+        """Return the covariance (p, p) with the variance that profiles of the steps add, at the parameters (p,) found.
 
-        Parameters
-        ----------
-        parameters : (p,) array
-            What was found.
-        inverse, noise, covariance : (p, p) array
-            The inverse of the curvature, the covariance that the scatter of the points makes with it, and the whole.
+        `inverse` of the curvature, `noise`, the covariance due to the scatter of the points, and `covariance` in all
+        are (p, p).
         """
         broken = {piece.last - 1 for piece in self.problem.pieces}
         profiles = []
@@ -188,14 +177,10 @@ class StepProfiles:
 
 
 def _reduced(piece: Piece, frequency: Array, values: Array) -> tuple[Array, Array]:
-    """Put points at frequencies (k, n) into sums over them with K cubic splines B of equal intervals.
+    """Reduce points at frequencies (k, n) to sums over them with K cubic splines B of equal intervals.
 
-    Returns
-    -------
-    known : (k, isotherms + m, K) array
-        Of each isotherm Σ w B, and of each modulus Σ w y B.
-    square : (k, 4, K) array
-        The lower diagonals of Σ w B Bᵀ.
+    Returns (k, isotherms + m, K), Σ w B of each isotherm and Σ w y B of each modulus, and (k, 4, K), the lower
+    diagonals of Σ w B Bᵀ.
     """
     count, rows = len(frequency), piece.size + values.shape[1]
     place = frequency / KNOT_SPACING

@@ -136,19 +136,9 @@ def _legendre(x: Array, degree: int) -> Array:
 
 
 def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[NeighbourDistance, ...]:
-    """Compare every isotherm with its next warmer neighbour.
+    """Compare every isotherm (at least two points, ascending in temperature) with its next warmer neighbour.
 
-    Parameters
-    ----------
-    isotherms : sequence of Isotherm
-        Ascending in temperature, each with at least two points.
-    log10_b : (n,) array
-        Vertical shift of each, which its moduli are divided by.
-
-    Returns
-    -------
-    tuple of NeighbourDistance
-        Of those that come to lie beside each other; others cannot be compared.
+    `log10_b` (n,) are their vertical shifts, by which moduli are divided.  Pairs without a common range are left out.
     """
     curves = [_Curve.of(isotherm, float(b)) for isotherm, b in zip(isotherms, log10_b, strict=True)]
     found = []

@@ -23,21 +23,10 @@ SAME = 1e-6  # of ln τ
 
 
 class Refit:
-    """Fits samples of a master curve the way that a spectrum was fitted, starting from it.
+    """Fits samples of a master curve as a fitted spectrum was, starting from it; InputError if it was not fitted.
 
-    The lattice reaches over the frequencies of all samples, but no sample uses more than its own part of it.
-
-    Parameters
-    ----------
-    spectrum : RetardationSpectrum
-        From `fit_retardation_spectrum`.
-    lowest, highest : float
-        Ends of the angular frequencies of all samples, rad/s.
-
-    Raises
-    ------
-    InputError
-        If the spectrum was not fitted.
+    `lowest` and `highest` are the ends of the angular frequencies of all samples, rad/s.  The lattice of times spans
+    them, but each sample uses only its own part of it.
     """
 
     def __init__(self, spectrum: RetardationSpectrum, lowest: float, highest: float) -> None:

@@ -23,26 +23,19 @@ MOST_ALIKE = 0.95
 
 
 class Residuals:
-    """Residuals of ln E' and ln E'' about a fit, and errors drawn like them.
+    """Residuals of ln E' and ln E'' about a fit, and errors drawn with the same statistics.
 
-    Errors are drawn from a normal distribution, of each isotherm's own scatter, correlated between E' and E''
-    as the residuals are, and between neighbouring points of an isotherm by an autoregression of first order.
-    Residuals themselves are not drawn, in blocks or otherwise: the fit has taken from them all that is smooth,
-    which is the part of the errors that it follows.
+    Errors are drawn from a normal distribution, with each isotherm's own scatter, correlated between E' and E'' as the
+    residuals are, and between neighbouring points of an isotherm by an autoregression of first order.  Residuals
+    themselves are not resampled, in blocks or otherwise: the fit has removed all that is smooth from them, the part of
+    the errors that it follows.
 
-    Parameters
-    ----------
-    values : (N, 2) array
-        Residuals of ln E' and ln E'', isotherm by isotherm, in ascending frequency within each.
-    isotherm : (N,) array of int
-        Number of the isotherm of each row, ascending from 0, none left out.
-    leverage : (N, 2) array
-        Part of each point's error that the fit has followed, 0 to 1; residuals are that much smaller than errors.
+    Rows are points, isotherm by isotherm in ascending frequency: `values` (N, 2) of E' and E''; `isotherm` (N,), the
+    isotherm's number, ascending from 0 without gaps; `leverage` (N, 2), the part of each point's error that the fit has
+    followed, 0 to 1, by which residuals are smaller than errors.
 
-    References
-    ----------
-    Scatter of each isotherm, drawn towards the common one as far as they do not differ by more than chance:
-    G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
+    The scatter of each isotherm is shrunk towards the common one, unless they differ by more than chance: G. K. Smyth,
+    Stat. Appl. Genet. Mol. Biol. 3 (2004) 3.
     """
 
     def __init__(self, values: Array, isotherm: Integers, leverage: Array) -> None:
@@ -145,21 +138,13 @@ class SystematicMisfit:
 
 
 def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integers) -> SystematicMisfit:
-    """Find what residuals have in common with their neighbours.
+    """Return the part of residuals that neighbouring points have in common.
 
-    Parameters
-    ----------
-    log10_frequency : (N,) array
-        log10 of the reduced angular frequency of the points.
-    residual : (N, 2) array
-        Measured less fitted, log10 E' and log10 E'', decades.
-    isotherm : (N,) array of int
-        Number of each point's isotherm.
+    `log10_frequency` (N,) is log10 of the reduced angular frequency; `residual` (N, 2) is measured minus fitted log10
+    E' and log10 E'', decades; `isotherm` (N,) the number of each point's isotherm.
 
-    Notes
-    -----
-    The variance of the noise follows from second differences along each isotherm, which a smooth misfit has none of
-    (J. von Neumann et al., Ann. Math. Stat. 12 (1941) 153, with first differences).
+    The variance of the noise follows from second differences along each isotherm, in which a smooth misfit vanishes (J.
+    von Neumann et al., Ann. Math. Stat. 12 (1941) 153, with first differences).
     """
     squares, noise = np.zeros_like(residual), np.zeros_like(residual)
     for number in np.unique(isotherm):

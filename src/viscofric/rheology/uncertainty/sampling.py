@@ -137,12 +137,9 @@ def sample_materials(
 
 
 def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> None:
-    """Refuse a spectrum that was fitted to another curve, or that was moved to another temperature since.
+    """Raise InputError if a spectrum was fitted to another curve, or moved to another temperature since.
 
-    Raises
-    ------
-    InputError
-        If the frequencies or storage moduli that it was fitted to range otherwise than those of the curve.
+    Compared are the ranges of frequency and of storage modulus that it was fitted to.
     """
     if spectrum.fit is None:
         return  # `Refit` refuses it
@@ -173,16 +170,10 @@ def _misfit(curve: MasterCurve, shifts: ShiftFactors, spectrum: RetardationSpect
 def _refitted(
     random: np.random.Generator, fit: Superposition, spectrum: RetardationSpectrum, moved: Array, levels: Array
 ) -> list[Modes]:
-    """Fit the spectrum to samples of the master curve.
+    """Fit the spectrum to samples of the master curve; see `sample_materials`.
 
-    Parameters
-    ----------
-    random, fit, spectrum
-        As in `sample_materials`.
-    moved : (samples, isotherms) array
-        Errors of log10 α.
-    levels : (samples, isotherms, 2) array
-        Errors of log10 E' and log10 E'' that all points of an isotherm share.
+    `moved` (samples, isotherms) are errors of log10 α, `levels` (samples, isotherms, 2) errors of log10 E' and log10
+    E'' that all points of an isotherm share.
     """
     curve, isotherm = fit.master_curve, _isotherm_of_points(fit.master_curve, fit.shift_factors)
     # By isotherm, frequencies ascending in each: errors are alike along isotherms.
@@ -222,16 +213,9 @@ def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Arra
 
 
 def _leverage(misfit: ModulusMisfit, spectrum: RetardationSpectrum, isotherm: Integers) -> Array:
-    """Return which part of each error modes and shifts follow, (2N,): the diagonal of the linear fit's hat matrix.
+    """Return the part of each error that modes and shifts follow, (2N,): the diagonal of the linear fit's hat matrix.
 
-    Parameters
-    ----------
-    misfit : ModulusMisfit
-        The measurement.
-    spectrum : RetardationSpectrum
-        As fitted.
-    isotherm : (N,) array of int
-        Number of each point's isotherm; −1 where its shift was not fitted.
+    `isotherm` (N,) is the number of each point's isotherm, −1 where its shift was not fitted.
     """
     relaxed = misfit.relaxed(np.array(spectrum.tau))
     modes = relaxed * spectrum.C
