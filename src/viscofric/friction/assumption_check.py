@@ -85,25 +85,13 @@ def verdict(low: float, high: float, limit: float) -> bool | None:
 
 @dataclass(frozen=True)
 class ContactSize:
-    """Size of one contact, as solved or between two of Hertz's, in m and 1/m.
+    """Size of one contact, as solved or between two of Hertz's."""
 
-    Attributes
-    ----------
-    smallest, largest : float
-        Limits of its radius; the same where it was solved.
-    relaxed : float
-        Hertz's at the relaxed modulus E0, of a round contact: none is larger.
-    curvature : float
-        Of the equivalent paraboloid.
-    where : str
-        Temperature, speed and load, in words.
-    """
-
-    smallest: float
-    largest: float
-    relaxed: float
-    curvature: float
-    where: str
+    smallest: float  # m, limits of its radius; the same where it was solved
+    largest: float  # m
+    relaxed: float  # m, Hertz's radius at the relaxed modulus E0, of a round contact: none is larger
+    curvature: float  # 1/m, of the equivalent paraboloid
+    where: str  # temperature, speed and load, in words
 
     @classmethod
     def of(

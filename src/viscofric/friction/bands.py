@@ -46,18 +46,9 @@ LARGE_CHANGE = 0.3
 
 
 class DrawnMaterials:
-    """Modes of drawn materials in one column, and their shifts at any temperature.
+    """Modes of samples of a material in one column, and their shifts at any temperature.
 
-    Parameters
-    ----------
-    samples : MaterialSamples
-    material : Material
-        That is solved, to which the samples belong.
-
-    Raises
-    ------
-    InputError
-        If samples are not what they should be, or not those of such a material.
+    Raises InputError if the samples are none, or not those of the material that is solved.
     """
 
     def __init__(self, samples: MaterialSamples, material: Material) -> None:
@@ -121,24 +112,11 @@ def with_material_band(
 ) -> FrictionCurves:
     """Put the material's standard error and the limits of the 95 % band into predicted curves.
 
-    Parameters
-    ----------
-    curves : FrictionCurves
-    sensitivities : sequence of ComplianceSensitivity
-        Of every point.
-    drawn : DrawnMaterials
-
-    Returns
-    -------
-    FrictionCurves
-
-    Notes
-    -----
-    Limits are quantiles over the samples (Weibull's plotting position, as in `MaterialSamples`).  What the spectrum
-    misses of the measured moduli beyond noise (`MaterialSamples.misfit`) is no draw; it counts as an independent error
-    of ln μ, taken at the frequency of the contact, speed over half its length.  There an E' and an E'' that are off
-    by factors alike at all frequencies change friction as tan δ and the load rule say where the loss is small:
-    Δln μ = Δln E'' − (1 + ∂ln μ/∂ln F) Δln E', the two taken to be independent.
+    Limits are quantiles over the samples (Weibull's plotting position, as in `MaterialSamples`).  The misfit of the
+    spectrum to the measured moduli beyond noise (`MaterialSamples.misfit`) is not sampled; it counts as an independent
+    error of ln μ, taken at the frequency of the contact, speed over half its length.  Relative errors of E' and of E''
+    that are the same at all frequencies change friction as tan δ and the load rule do where the loss is small: Δln μ =
+    Δln E'' − (1 + ∂ln μ/∂ln F) Δln E', the two taken to be independent.
     """
     temperatures = [float(one) for one in curves.temperature]
     friction = np.array([drawn.friction(*pair) for pair in zip(sensitivities, temperatures, strict=True)])

@@ -39,12 +39,7 @@ _DEEP = 20.0  # qH from which on a layer is a half-space to 1e-15
 def coupling(poisson_ratio: float, thickness: float | None = None) -> float:
     """Return the normal displacement of a contact's surface by Coulomb friction 1, over that by its pressure.
 
-    Parameters
-    ----------
-    poisson_ratio : float
-        Of the rubber.
-    thickness : float, optional
-        Of a layer on a bonded base over the contact's radius; a half-space without it.
+    `thickness` is that of a layer on a bonded base, over the contact's radius; None for a half-space.
     """
     kappa = 3.0 - 4.0 * poisson_ratio
     if thickness is None:

@@ -194,13 +194,7 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
 
 
 def holds_friction_curves(path: str | PathLike[str]) -> bool:
-    """Whether a file is a table of friction curves, and not one of a tribometer's runs, by its headings.
-
-    Parameters
-    ----------
-    path : str or path
-        An unreadable file gives False; its reader raises the error.
-    """
+    """Return whether a file has the headings of friction curves, not of a tribometer's runs; False if unreadable."""
     try:
         lines = [line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#")]
     except DataFileError:

@@ -47,55 +47,32 @@ _LIKELY = 3.0
 
 
 class ThicknessEffect(NamedTuple):
-    """Relative changes from the half-space to a layer, negative where the layer has less.
-
-    Attributes
-    ----------
-    friction, indentation : float
-        The latter is no number (NaN) for a line contact: on a half-space its indentation has no level to count from.
-    """
+    """Relative changes from the half-space to a layer, negative where the layer has less."""
 
     friction: float
-    indentation: float
+    indentation: float  # NaN for a line contact: on a half-space its indentation has no reference level
 
 
 @dataclass(frozen=True, eq=False)
 class ContactOnLayers:
     """A contact that was solved or estimated on a half-space, to be put on layers.
 
-    Parameters
-    ----------
-    spectrum : RetardationSpectrum
-        Of the rubber at its temperature.
-    poisson_ratio : float
-    radius : float
-        Of the contact, or half its width, a, m.
-    curvature : float
-        Of the paraboloid in the indenter's place, 1/R, 1/m.
-    speed, load : float
-        Above zero, m/s; N, or N/m of a line contact.
-    line : bool
-    friction : float or None
-        On the half-space; Hertz's estimate if None, and between half and twice that.
-
-    Notes
-    -----
-    Against layers solved to 2e-3, bonded and sliding, ν from 0 to 0.5, one mode (E∞/E0 from 2 to 1000, vτ/a from 0.05
-    to 300), power-law spectra and the synthetic fluoroelastomer, the change of friction is true to 7 % of itself or to
-    0.0012 of friction under a ball on two contact radii and more (15 % or 0.006 on one), and to 30 % or 0.0023 under a
-    cylinder on two half-widths and more; that of the indentation is up to 25 % of itself too small and 5 % too large.
-    Under ellipsoids of 1 : 3 and cones, on four contact radii and more, that of friction is true to 45 % or to 0.006.
-    Of two numbers the larger counts.
+    Compared with layers solved to 2e-3, bonded and sliding, ν from 0 to 0.5, one mode (E∞/E0 from 2 to 1000, vτ/a from
+    0.05 to 300), power-law spectra and the synthetic fluoroelastomer, the change of friction is accurate to 7 % of
+    itself or to 0.0012 of friction under a ball on two contact radii and more (15 % or 0.006 on one), and to 30 % or
+    0.0023 under a cylinder on two half-widths and more; that of the indentation is up to 25 % of itself too small and
+    5 % too large.  Under ellipsoids of 1 : 3 and cones, on four contact radii and more, that of friction is accurate to
+    45 % or to 0.006.  Of two numbers the larger counts.
     """
 
-    spectrum: RetardationSpectrum
+    spectrum: RetardationSpectrum  # of the material at its temperature
     poisson_ratio: float
-    radius: float
-    curvature: float
-    speed: float
-    load: float
+    radius: float  # a, m, of the contact, or half its width
+    curvature: float  # 1/R, 1/m, of the equivalent paraboloid
+    speed: float  # m/s, above zero
+    load: float  # N, above zero; of a line contact N/m
     line: bool = False
-    friction: float | None = None
+    friction: float | None = None  # on the half-space; Hertz's estimate if None, and between half and twice that
     _half_space: float = field(init=False)
     _sunk: float = field(init=False)
     _slope: float = field(init=False)
@@ -125,14 +102,7 @@ class ContactOnLayers:
         return ThicknessEffect(more - less, indentation)
 
     def thickness_for(self, change: float, *, bonded: bool = True) -> float:
-        """Return the thickness from which on friction changes by no more than that, m; one contact radius at least.
-
-        Parameters
-        ----------
-        change : float
-            Relative, above zero.
-        bonded : bool
-        """
+        """Return the least thickness, m, that changes friction by at most `change` (relative); one radius or more."""
         low, high = THINNEST, _THICKEST
         if abs(self.on(Layer(low * self.radius, bonded)).friction) <= change:
             return low * self.radius

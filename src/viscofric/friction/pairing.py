@@ -47,10 +47,7 @@ def point_by_point(measured: FrictionCurves, predicted: FrictionCurves) -> Pairs
 def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMasterCurve) -> Pairs:
     """Interpolate the predicted master curve at the reduced speeds of the measured points, where it is known.
 
-    Raises
-    ------
-    InputError
-        If references or loads differ, or the curves do not overlap.
+    Raises InputError if references or loads differ, or the curves do not overlap.
     """
     if abs(measured.reference - predicted.reference) > _SAME_TEMPERATURE:
         raise InputError(

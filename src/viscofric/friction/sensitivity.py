@@ -35,33 +35,15 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class ComplianceSensitivity:
-    """Sensitivity of one contact's friction coefficient to the material's compliance.
+    """Sensitivity of one contact's friction coefficient to the material's compliance."""
 
-    Attributes
-    ----------
-    friction : float
-        μ of the material that was solved.
-    compliance_part : float
-        Σ g(τ_k) C_k + g(0)/E_inf of that material.
-    log_tau : (m,) array
-        ln τ, ascending, τ in s at the temperature of the contact.
-    slope : (m,) array
-        g(τ) = ∂μ/∂C of a mode there, Pa.
-    glass : float
-        g(0) = ∂μ/∂(1/E_inf), Pa.
-    load : float
-        F ∂μ/∂F.
-    frequency : float
-        Speed over half the contact's length, rad/s.
-    """
-
-    friction: float
-    compliance_part: float
-    log_tau: Array
-    slope: Array
-    glass: float
-    load: float
-    frequency: float
+    friction: float  # μ of the material that was solved
+    compliance_part: float  # Σ g(τ_k) C_k + g(0)/E_inf of that material
+    log_tau: Array  # (m,), ln τ, ascending, τ in s at the temperature of the contact
+    slope: Array  # (m,), g(τ) = ∂μ/∂C of a mode there, Pa
+    glass: float  # g(0) = ∂μ/∂(1/E_inf), Pa
+    load: float  # F ∂μ/∂F
+    frequency: float  # speed over half the contact's length, rad/s
 
     def at(self, log_tau: Array) -> Array:
         """Return g at ln τ, in its shape, Pa."""
@@ -76,24 +58,10 @@ class ComplianceSensitivity:
 def solve_with_sensitivity(
     material: Material, indenter: Indenter, *, speed: float, load: float, temperature: float | None, **settings: Any
 ) -> tuple[ContactSolution, ComplianceSensitivity]:
-    """Solve a contact and find the sensitivity of its friction to compliance at any retardation time.
+    """Solve a contact and return the sensitivity of its friction to compliance at any retardation time too.
 
-    Parameters
-    ----------
-    material : Material
-        With a spectrum.
-    indenter : Indenter
-    speed, load : float
-        m/s, N or N/m.
-    temperature : float or None
-        K; None for the temperature at which the spectrum holds.
-    **settings
-        Of `solve_steady`.
-
-    Raises
-    ------
-    InputError, ConvergenceError
-        As of `solve_steady`.
+    Speed in m/s, load in N or N/m, temperature in K (None: that of the spectrum); settings and errors as of
+    `solve_steady`.
     """
     here = material.modes_at(temperature)
     counterface = indenter_compliance(settings.get("indenter_modulus"), settings.get("indenter_poisson_ratio", 0.3))
@@ -126,12 +94,8 @@ def solve_with_sensitivity(
 def log_times(spectrum: RetardationSpectrum, time: float) -> Array:
     """Return ln τ at which the sensitivity of a contact is given.
 
-    Parameters
-    ----------
-    spectrum : RetardationSpectrum
-        At the temperature of the contact.
-    time : float
-        Unit of length of the contact (`Scale`) over its speed, s.
+    The spectrum is that at the temperature of the contact; `time` is the contact's unit of length (`Scale`) over its
+    speed, s.
     """
     log_tau = np.log(_with_empty_modes(spectrum, time).tau)
     return log_tau[_apart(log_tau)]

@@ -55,27 +55,9 @@ def flash_temperature(
 ) -> float:
     """Return the largest rise of a surface's temperature, K, if all of the heat goes into this body.
 
-    Parameters
-    ----------
-    heat : float
-        On the whole contact, W; per length of a line contact, W/m.
-    radius : float
-        Contact radius, or half-width of a line contact, m.
-    speed : float
-        At which the contact moves over the body, not below zero, m/s.
-    body : ThermalProperties
-    line : bool
-        Whether it is a line contact; one at rest has no steady temperature.
-
-    Returns
-    -------
-    float
-        K; infinite under a line contact at rest.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
+    `heat` is that of the whole contact, W, or W/m of a line contact; `radius` the contact radius or half-width, m;
+    `speed` (m/s, not below zero) that of the contact over the body.  A line contact at rest has no steady temperature:
+    infinite.  Raises InputError if a value is out of range.
     """
     if not (heat >= 0.0 and radius > 0.0 and speed >= 0.0):
         raise InputError(
@@ -103,38 +85,22 @@ def shared_flash_temperature(first: float, second: float) -> float:
 
 
 def bulk_temperature(force: float, radius: float, body: ThermalProperties, *, line: bool = False) -> float:
-    """Return the rise of temperature behind the contact, K, by work that is lost in the bulk.
+    """Return the rise of temperature behind the contact, K, by the loss in the bulk.
 
-    Parameters
-    ----------
-    force : float
-        Viscoelastic friction force, work per length of track, N; per length of a line contact, N/m.
-    radius : float
-        Contact radius or half-width, m.
-    body : ThermalProperties
-    line : bool
+    `force` is the viscoelastic friction force, work per length of track, N, or N/m of a line contact; `radius` the
+    contact radius or half-width, m.
     """
     section = radius if line else 0.5 * math.pi * radius**2
     return force / (body.volume_heat * section)
 
 
 class Warming(NamedTuple):
-    """Warming and its effect at every point of friction curves, (n,) each.
+    """Warming and its effect at every point of friction curves, (n,) each."""
 
-    Attributes
-    ----------
-    surface, bulk : (n,) array
-        Rise of temperature by the Coulomb heat and by the viscoelastic loss, K.
-    decades : (n,) array
-        Shift of log10 of the speed by both.
-    change : (n,) array
-        Largest relative change of friction on the way, either way.
-    """
-
-    surface: Array
-    bulk: Array
-    decades: Array
-    change: Array
+    surface: Array  # rise of temperature by the Coulomb heat, K
+    bulk: Array  # rise of temperature by the viscoelastic loss, K
+    decades: Array  # shift of log10 of the speed by both
+    change: Array  # largest relative change of friction on the way, either way
 
     @classmethod
     def of(
@@ -148,10 +114,7 @@ class Warming(NamedTuple):
     ) -> Warming:
         """Return it for contacts of given radii, m, on a material with a shift; see `check_assumptions`.
 
-        Raises
-        ------
-        InputError
-            If α is not known about a temperature.
+        Raises InputError if α is not known near a temperature.
         """
         assert material.shift is not None
         surface, bulk = np.array([_rise(curves, row, one, rubber, counterbody) for row, one in enumerate(radii)]).T

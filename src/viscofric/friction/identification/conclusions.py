@@ -43,14 +43,7 @@ BEYOND = 3.0
 
 
 def with_origin(found: IdentifiedMaterial, source: str) -> Material:
-    """Return the identified material with where it comes from, which goes into its file.
-
-    Parameters
-    ----------
-    found : IdentifiedMaterial
-    source : str
-        Of the friction curves; may be empty.
-    """
+    """Return the identified material with its origin, for its file; `source` of the friction curves may be empty."""
     spectrum, band = found.material.spectrum, found.identified
     if not isinstance(spectrum, RetardationSpectrum):
         raise TypeError("an identified material is one of retardation modes.")
@@ -73,32 +66,16 @@ def with_origin(found: IdentifiedMaterial, source: str) -> Material:
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """A settled identification.
-
-    Attributes
-    ----------
-    curves : FrictionCurves
-    start : Problem
-        As set up.
-    fits : list of Weighed
-    iterations : int
-    contacts : Contacts
-    shift : ShiftLaw or None
-        As given.
-    name : str
-        Of the material.
-    anchored : bool
-        Whether anything fixes the level of the modulus.
-    """
+    """A converged identification."""
 
     curves: FrictionCurves
-    start: Problem
+    start: Problem  # as set up
     fits: list[Weighed]
     iterations: int
     contacts: Contacts
-    shift: ShiftLaw | None
-    name: str
-    anchored: bool
+    shift: ShiftLaw | None  # as given
+    name: str  # of the material
+    anchored: bool  # whether anything fixes the level of the modulus
 
 
 def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels: Sequence[float]) -> IdentifiedMaterial:

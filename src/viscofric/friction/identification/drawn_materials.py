@@ -30,21 +30,11 @@ BAND_STEPS = 20
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
-    """All that the fits under every roughness say together.
+    """The fits under every roughness combined."""
 
-    Attributes
-    ----------
-    best : Weighed
-        Of the roughness with most evidence.
-    drawn : (samples, p) array
-        Unknowns drawn.
-    covariance : (p, p) array
-        Of the unknowns: of the normal densities about every fit, weighed by their evidence.
-    """
-
-    best: Weighed
-    drawn: Array
-    covariance: Array
+    best: Weighed  # of the roughness with most evidence
+    drawn: Array  # (samples, p), unknowns
+    covariance: Array  # (p, p), of the normal densities about every fit, weighted by their evidence
 
     @classmethod
     def of(cls, fits: Sequence[Weighed], samples: int, random: np.random.Generator) -> Posterior:
@@ -71,18 +61,10 @@ class Posterior:
 
 @dataclass(frozen=True, eq=False)
 class MaterialOf:
-    """Makes materials of unknowns.
-
-    Attributes
-    ----------
-    problem : Problem
-    shift : ShiftLaw or None
-        Known exactly; None where the factors are among the unknowns, or there is one temperature only.
-    poisson_ratio : float
-    name : str
-    """
+    """Makes materials of unknowns."""
 
     problem: Problem
+    # known exactly; None where the factors are among the unknowns, or there is one temperature only
     shift: ShiftLaw | None
     poisson_ratio: float
     name: str
@@ -117,21 +99,10 @@ def band(
     limit: float,
     relative: bool,
 ) -> IdentifiedBand:
-    """Return the frequencies about the middle over which a modulus is known to a limit.
+    """Return the frequencies about the middle (rad/s) over which a modulus has a relative standard error below `limit`.
 
-    Parameters
-    ----------
-    samples, expected : MaterialSamples
-        Drawn after, and before anything was measured: the latter must scatter three times as much at least.
-    part : {"magnitude", "storage", "loss"}
-    middle : float
-        rad/s.
-    reach : (low, high)
-        Frequencies that are looked at.
-    limit : float
-        Relative standard error.
-    relative : bool
-        Whether of the modulus over |E| at the middle.
+    `samples` were drawn after, `expected` before anything was measured: the latter must scatter at least three times as
+    much.  `reach` are the lowest and highest frequency considered; `relative` means the modulus over |E| at the middle.
     """
     steps = BAND_STEPS * np.log10([middle / reach[0], reach[1] / middle])
     places = np.arange(-np.floor(steps[0]), np.floor(steps[1]) + 1.0)

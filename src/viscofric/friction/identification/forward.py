@@ -43,20 +43,9 @@ class Friction(NamedTuple):
 class FirstOrder:
     """Friction of an indenter by the energy that Hertz's pressure dissipates.
 
-    It starts an identification, and transfers solved contacts to neighbouring materials.
+    It starts an identification, and transfers solved contacts to neighbouring materials.  `load` in N, of a line
+    contact N/m; `plane_strain` is 1 − ν²; `tau` (m,) are retardation times, s.
 
-    Parameters
-    ----------
-    indenter : Indenter
-    load : float
-        N; of a line contact, N/m.
-    plane_strain : float
-        1 − ν².
-    tau : (m,) array
-        Retardation times, s.
-
-    Notes
-    -----
     With p̂ the transform of Hertz's pressure, F_t v = ∫ d²q/(2π)² 2(1−ν²)/|q| (q·v) (−Im S(q·v)) |p̂|², the energy
     balance of steady sliding to first order in −Im S; the contact radius a is that of an elastic contact with the mean
     compliance of the same waves, Re S.  Then μ = F (1−ν²) Σ C_k K(τ_k v/a)/(2π² a²).
@@ -73,15 +62,7 @@ class FirstOrder:
         self._radius = _Table(places, np.log(lengths))
 
     def __call__(self, compliances: Array, log_speed: Array) -> Friction:
-        """Return friction at speeds.
-
-        Parameters
-        ----------
-        compliances : (1 + m,) array
-            ln(1/E_inf), then every ln C; of 1/Pa.
-        log_speed : (n,) array
-            ln v, m/s.
-        """
+        """Return friction at compliances (1 + m,), ln(1/E_inf) and then every ln C, in 1/Pa, and ln v (n,), in m/s."""
         glass, C = np.exp(compliances[0]), np.exp(compliances[1:])
         # of the relaxed solid, which is too large
         radius = np.full(log_speed.shape, float(self._radius(self._log_load + np.log(glass + C.sum()))[0]))
@@ -180,17 +161,10 @@ class Solved(NamedTuple):
 class CorrectedFriction:
     """ln μ at any speed and compliances, exact with its derivatives at the nodes of the solved material.
 
-    Parameters
-    ----------
-    first : FirstOrder
-    solved : Solved or None
-        None: the first-order form without correction.
-
-    Notes
-    -----
     The error of the closed form in ln μ and in its derivatives varies so slowly with ln v that a cubic spline through a
-    few nodes per decade represents it; for other materials it is extrapolated linearly.  This is space mapping:
-    J. W. Bandler et al., IEEE Trans. Microw. Theory Tech. 42 (1994) 2536.
+    few nodes per decade represents it; for other materials it is extrapolated linearly.  This is space mapping: J. W.
+    Bandler et al., IEEE Trans. Microw. Theory Tech. 42 (1994) 2536.  Without `solved`, the first-order form is not
+    corrected.
     """
 
     def __init__(self, first: FirstOrder, solved: Solved | None = None) -> None:
@@ -205,12 +179,8 @@ class CorrectedFriction:
     def __call__(self, compliances: Array, log_speed: Array, log_load: Array) -> tuple[Array, Array, Array]:
         """Return ln μ (n,), its derivatives by the compliances (n, 1 + m) and by ln v (n,).
 
-        Parameters
-        ----------
-        compliances : (1 + m,) array
-            ln(1/E_inf), then every ln C.
-        log_speed, log_load : (n,) array
-            ln of the reduced speed, m/s, and of the load over that of the nodes.
+        `compliances` (1 + m,) are ln(1/E_inf), then every ln C; `log_speed` and `log_load` (n,) are ln of the reduced
+        speed, m/s, and of the load over that of the nodes.
         """
         crude = self.first(compliances, log_speed)
         if self.solved is None:

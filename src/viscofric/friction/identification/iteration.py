@@ -51,10 +51,7 @@ class Weighed(NamedTuple):
 def weighed(problem: Problem, start: Array) -> list[Weighed]:
     """Fit under every roughness of the prior, outward from that of the problem; the smoothest comes first.
 
-    Raises
-    ------
-    ConvergenceError
-        If no fit settles.
+    Raises ConvergenceError if no fit converges.
     """
     middle = int(np.argmin(np.abs(np.log(ROUGHNESS / problem.smoothness.roughness))))
     found: dict[int, Weighed] = {}
@@ -85,17 +82,14 @@ class Here(NamedTuple):
 
 
 def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[Weighed], int]:
-    """Iterate until the friction settles; return the fits under every roughness, and the number of iterations.
+    """Iterate until the friction converges; return the fits under every roughness, and the number of iterations.
 
-    Each step goes to the minimum that the neighbourhood of the solved contacts promises.  Where contacts solved there
-    do not keep the promise, it is tried anew nearer by: a trust region, with the step damped in the metric of the
-    prior (A. R. Conn, N. I. M. Gould, P. L. Toint, Trust-Region Methods, SIAM 2000).  The roughness for which there is
-    most evidence is chosen before a step and compared with itself, so that the misfit is one function during a step.
+    Each step leads to the predicted minimum in the neighbourhood of the solved contacts.  Where contacts solved there
+    do not confirm the prediction, a shorter step is tried: a trust region, with the step damped in the metric of the
+    prior (A. R. Conn, N. I. M. Gould, P. L. Toint, Trust-Region Methods, SIAM 2000).  The roughness with most evidence
+    is chosen before a step and compared with itself, so that the misfit is one function during a step.
 
-    Raises
-    ------
-    ConvergenceError
-        If it does not settle, or contacts fail wherever it is tried.
+    Raises ConvergenceError if it does not converge, or contacts fail at every step tried.
     """
     observations = problem.observations
     typical = float(np.median(observations.points.error))

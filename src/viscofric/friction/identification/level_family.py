@@ -35,23 +35,9 @@ def level_family(
 ) -> tuple[LevelFit, ...]:
     """Fit the friction with |E| held at levels; contacts are solved once for each but the first.
 
-    Parameters
-    ----------
-    best : Weighed
-        The identified material's.
-    contacts : Contacts
-    material_of : MaterialOf
-    middle : float
-        Frequency at the problem's reference, rad/s.
-    factors : sequence of float
-        Levels of |E| over that of the identified material, ascending.
-    step : int
-        Number of the first step of solving contacts.
-
-    Returns
-    -------
-    tuple of LevelFit
-        Levels at which the contacts are not solved are left out.
+    `middle` is the frequency at the problem's reference, rad/s; `factors`, ascending, are the levels of |E| over that
+    of the identified material; `step` numbers the first step of solving contacts.  Levels at which the contacts are not
+    solved are left out.
     """
     log_modulus = float(np.log(np.abs(material_of(best.minimum.place).complex_modulus(middle))))
     found: dict[float, LevelFit] = {}

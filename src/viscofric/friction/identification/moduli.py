@@ -52,23 +52,12 @@ def log_modulus(part: str, S: ComplexArray, change: ComplexArray) -> tuple[Array
 
 @dataclass(frozen=True, eq=False)
 class ModulusObservation:
-    """ln of n moduli with their errors.
+    """ln of n moduli with their errors."""
 
-    Attributes
-    ----------
-    log_frequency : (n,) array
-        ln ω at `temperature`, rad/s.
-    temperature : float
-        K.
-    part : {"magnitude", "storage", "loss"}
-    log_modulus : (n,) array
-        Of Pa.
-    """
-
-    log_frequency: Array
-    temperature: float
-    part: str
-    log_modulus: Array
+    log_frequency: Array  # (n,), ln ω at `temperature`, rad/s
+    temperature: float  # K
+    part: str  # "magnitude", "storage" or "loss"
+    log_modulus: Array  # (n,), ln of Pa
 
     def away(self, compliances: Array, tau: Array, log_alpha: float) -> tuple[Array, Array, Array]:
         """Return modelled less observed (n,), and its derivatives by the compliances (n, 1 + m) and by ln α (n,)."""
@@ -100,22 +89,12 @@ def anchored(anchors: Iterable[ModulusAnchor]) -> list[Block]:
 
 
 def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: float, reference: float) -> Block:
-    """Return E' and E'' of a rubber over the frequencies that were measured, as observations.
+    """Return E' and E'' of a prior over its measured frequencies, as observations.
 
-    Parameters
-    ----------
-    prior : Material, MaterialSamples or MasterCurve
-    band : (low, high) or None
-        Angular frequencies at the prior's own reference, rad/s; those that it was measured at if None.
-    error : float
-        Relative standard error of each modulus; samples of a material have their own.
-    reference : float
-        Temperature that a material without a shift is taken to be at, K.
-
-    Raises
-    ------
-    InputError
-        If the prior is none of these, or its band is neither known nor given, or holds nothing.
+    `band` are angular frequencies at the prior's own reference, rad/s, if not those that it was measured at; `error` is
+    the relative standard error of each modulus (samples of a material have their own); `reference` is the temperature
+    of a material without a shift, K.  Raises InputError if the prior is no material, samples or master curve, or its
+    band is unknown or holds nothing.
     """
     if isinstance(prior, MasterCurve):
         return _of_curve(prior, band, error)

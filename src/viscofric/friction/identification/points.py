@@ -30,42 +30,18 @@ PARABOLA = 3
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """n measured friction coefficients, those of other loads carried over to one.
+    """n measured friction coefficients, those of other loads transferred to one."""
 
-    Attributes
-    ----------
-    log_speed : (n,) array
-        ln of the speed at which the rubber is deformed, of a similar contact under `load`; m/s.
-    log_load : (n,) array
-        ln of the load over `load`, as far as similarity has not taken it up.
-    log_friction, error : (n,) array
-        ln μ of that contact, and its standard error.
-    temperatures : (t,) array
-        Different ones, ascending, K.
-    number : (n,) array of int
-        Which of them each point has.
-    load : float
-        N or N/m.
-    forces : (n,) array
-        The loads that were measured under, N or N/m.
-    raised : (n,) array
-        ln of the measured friction over that of the contact under `load`.
-    rows : (n,) array of int
-        Of the curves, from which the points come.
-    notes : tuple of str
-        One sentence each.
-    """
-
-    log_speed: Array
-    log_load: Array
-    log_friction: Array
-    error: Array
-    temperatures: Array
-    number: Integers
-    load: float
-    forces: Array
-    raised: Array
-    rows: Integers
+    log_speed: Array  # (n,), ln of the speed at which the rubber is deformed, of a similar contact under `load`; m/s
+    log_load: Array  # (n,), ln of the load over `load`, zero where similarity accounts for it
+    log_friction: Array  # (n,), ln μ of that contact
+    error: Array  # (n,), standard error of log_friction
+    temperatures: Array  # (t,), different ones, ascending, K
+    number: Integers  # (n,), index of each point's temperature
+    load: float  # N or N/m
+    forces: Array  # (n,), measured loads, N or N/m
+    raised: Array  # (n,), ln of the measured friction over that of the contact under `load`
+    rows: Integers  # (n,), rows of the curves that the points come from
     notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -94,19 +70,9 @@ class Points:
 def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | None, least_error: float) -> Points:
     """Return the usable points of friction curves.
 
-    Parameters
-    ----------
-    curves : FrictionCurves
-    indenter : Indenter
-    load : float, str or pint.Quantity, optional
-        Of all points; without it, each has its own.
-    least_error : float
-        Relative error that no point's falls below: that of the solved contacts.
-
-    Raises
-    ------
-    InputError
-        If points are too few, friction is not above zero, or the loads differ and the indenter has no similarity.
+    `load` is that of all points; without it, each has its own.  `least_error` is the smallest relative error of a
+    point: that of the solved contacts.  Raises InputError if points are too few, friction is not above zero, or the
+    loads differ and the indenter has no similarity.
     """
     unit = indenter.geometry.load_unit
     if load is None and len(curves) and curves.load_unit != unit:
@@ -167,19 +133,9 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
 
 
 def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, str]:
-    """Give curves without known errors that of the scatter about a parabola through each temperature's points.
+    """Give curves without errors one relative error: the scatter about a parabola through each temperature's points.
 
-    Returns
-    -------
-    FrictionCurves
-        All with one relative error.
-    str
-        A note that says so.
-
-    Raises
-    ------
-    InputError
-        If temperatures have too few points, or friction is not above zero.
+    Returns a note on it too.  Raises InputError if temperatures have too few points, or friction is not above zero.
     """
     squares, freedom = 0.0, 0
     for temperature in curves.temperatures:

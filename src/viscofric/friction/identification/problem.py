@@ -47,30 +47,14 @@ OUTSIDE = 1.5
 
 @dataclass(frozen=True, eq=False)
 class Shifts:
-    """ln α at the temperatures of friction, anchors and reference, with a normal prior.
+    """ln α at the temperatures of friction, anchors and reference, with a normal prior."""
 
-    Attributes
-    ----------
-    temperatures : (t,) array
-        Ascending, K.
-    reference : float
-        One of them, where α = 1, unless `found` is false; K.
-    middle : (t,) array
-        Prior mean of ln α.
-    whitening : (r, t) array
-        Its product with (ln α − middle) has standard deviation one.
-    found : bool
-        Whether the friction is to find them.
-    exact : bool
-        Whether they were given without an error.
-    """
-
-    temperatures: Array
-    reference: float
-    middle: Array
-    whitening: Array
-    found: bool
-    exact: bool = False
+    temperatures: Array  # (t,), ascending, K
+    reference: float  # K, one of the temperatures, where α = 1, unless `found` is false
+    middle: Array  # (t,), prior mean of ln α
+    whitening: Array  # (r, t); its product with (ln α − middle) has standard deviation one
+    found: bool  # whether the friction is to determine them
+    exact: bool = False  # whether they were given without an error
 
     @classmethod
     def unknown(cls, temperatures: Array, reference: float, overlap: ShiftFactors | None = None) -> Shifts:
@@ -94,13 +78,7 @@ class Shifts:
         return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())
 
     def row(self, temperature: float) -> Array:
-        """Return the weights (t,) of the temperatures in ln α at one of them, or between them, linear in 1/T.
-
-        Raises
-        ------
-        InputError
-            If it lies outside.
-        """
+        """Return the weights (t,) in ln α at a temperature, linear in 1/T; InputError outside their range."""
         low, high = self.temperatures[0], self.temperatures[-1]
         if not low - _SAME <= temperature <= high + _SAME:
             raise InputError(
@@ -138,23 +116,13 @@ class Smoothness:
     """Normal prior of x = (ln(1/E_inf), ln C_1 … ln C_m): a random walk of second order with a broad level and slope.
 
     Its density is exp(−|A (x − middle)|²/2) |A|, with A square.
-
-    Parameters
-    ----------
-    tau : (m,) array
-        In geometric progression, s.
-    compliance : float
-        First guess of 1/|E|, 1/Pa.
-    inside : (shortest, longest)
-        Retardation times whose modes the friction sees from both sides, s.
-    roughness : float
-        Standard deviation of the change of d ln C/d ln τ over an e-fold of τ, inside.
     """
 
-    tau: Array
-    compliance: float
+    tau: Array  # (m,), in geometric progression, s
+    compliance: float  # first guess of 1/|E|, 1/Pa
+    # shortest and longest retardation time whose modes affect the friction from both sides, s
     inside: tuple[float, float]
-    roughness: float
+    roughness: float  # standard deviation of the change of d ln C/d ln τ over an e-fold of τ, inside
 
     @cached_property
     def middle(self) -> Array:
@@ -190,38 +158,22 @@ class Smoothness:
 
 @dataclass(frozen=True, eq=False)
 class Observations:
-    """Measured friction and moduli.
-
-    Attributes
-    ----------
-    points : Points
-    moduli : tuple of (tuple of ModulusObservation, (n, n) array)
-        Observations with correlated errors, and the matrix that whitens these.
-    """
+    """Measured friction and moduli."""
 
     points: Points
+    # observations with correlated errors, and the matrix (n, n) that whitens these
     moduli: tuple[tuple[tuple[ModulusObservation, ...], Array], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Residuals of standard deviation one in the unknowns: compliances (1 + m,), then ln α (t,).
-
-    Attributes
-    ----------
-    friction : CorrectedFriction
-    observations : Observations
-    shifts : Shifts
-    smoothness : Smoothness
-    contacts : tuple of SolvedContact
-        Contacts whose size was measured.
-    """
+    """Residuals of standard deviation one in the unknowns: compliances (1 + m,), then ln α (t,)."""
 
     friction: CorrectedFriction
     observations: Observations
     shifts: Shifts
     smoothness: Smoothness
-    contacts: tuple[SolvedContact, ...] = ()
+    contacts: tuple[SolvedContact, ...] = ()  # contacts whose size was measured
 
     @property
     def modes(self) -> int:

@@ -45,13 +45,7 @@ GUESSED_SPREAD = 1.5
 
 
 def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...]:
-    """Return anchors as a tuple.
-
-    Raises
-    ------
-    InputError
-        If something else is among them.
-    """
+    """Return anchors as a tuple; InputError if something else is among them."""
     if anchor is None:
         return ()
     anchors = tuple(anchor) if isinstance(anchor, (list, tuple)) else (anchor,)
@@ -64,25 +58,11 @@ def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...
 def shifts_of(
     points: Points, curves: FrictionCurves, shift: ShiftLaw | None, reference: float | None, others: Sequence[float]
 ) -> tuple[Points, Shifts]:
-    """Return the shifts as unknowns, and the points whose shifts there are.
+    """Return the shifts as unknowns, and the points at temperatures whose shifts are known or can be found.
 
-    Parameters
-    ----------
-    points : Points
-    curves : FrictionCurves
-        From which they come.
-    shift : ShiftLaw or None
-        As given.
-    reference : float or None
-        As requested, K.
-    others : sequence of float
-        Temperatures of anchors, K.
-
-    Raises
-    ------
-    InputError
-        If the shift is none, or not known at a temperature; if it is to be found and curves do not overlap, or the
-        reference was not measured.
+    `reference` is the one requested, K; `others` are the temperatures of anchors, K.  Raises InputError if the shift is
+    no shift law, or not known at a temperature; if it is to be found and curves do not overlap, or the reference was
+    not measured.
     """
     if shift is not None:
         if not isinstance(shift, ShiftLaw):

@@ -38,37 +38,21 @@ LN10 = float(np.log(10.0))
 
 @dataclass(frozen=True, eq=False)
 class FrictionResponse:
-    """Friction coefficients of one rubber in n contacts, and their derivatives with respect to its m modes.
+    """Friction coefficients of one material in n contacts, and their derivatives with respect to its m modes.
 
-    Attributes
-    ----------
-    speed : (n,) array
-        m/s.
-    load : (n,) array
-        N; of a line contact, N/m.
-    friction : (n,) array
-        Viscoelastic friction coefficient.
-    error : (n,) array
-        Its error estimate.
-    C : (n, m) array
-        ∂μ/∂C_k at fixed E_inf, so that E0 falls as C_k grows; Pa.  Finite where C_k is zero.
-    log_C : (n, m) array
-        C_k ∂μ/∂C_k, likewise.
-    log_E_inf : (n,) array
-        E_inf ∂μ/∂E_inf at fixed C.
-    log_speed, log_load : (n,) array
-        v ∂μ/∂v and F ∂μ/∂F.
+    Shapes are (n,) and (n, m).  `C` is ∂μ/∂C_k in Pa at fixed E_inf, so that E0 falls as C_k grows, finite where C_k is
+    zero; `log_C` is C_k ∂μ/∂C_k likewise, and `log_E_inf` is E_inf ∂μ/∂E_inf at fixed C.
     """
 
-    speed: Array
-    load: Array
-    friction: Array
-    error: Array
+    speed: Array  # (n,), m/s
+    load: Array  # (n,), N; of a line contact, N/m
+    friction: Array  # (n,), viscoelastic friction coefficient
+    error: Array  # (n,), its error estimate
     C: Array
     log_C: Array  # noqa: N815 - the symbols of the equations
     log_E_inf: Array  # noqa: N815
-    log_speed: Array
-    log_load: Array
+    log_speed: Array  # (n,), v ∂μ/∂v
+    log_load: Array  # (n,), F ∂μ/∂F
 
 
 def friction_response(
@@ -85,49 +69,12 @@ def friction_response(
 ) -> FrictionResponse:
     """Solve a contact at each of the speeds, with the derivatives of friction by every mode, E_inf, speed and load.
 
-    Parameters
-    ----------
-    spectrum : RetardationSpectrum
-        Of m modes, at the temperature to which the speeds are reduced.
-    poisson_ratio : float
-        Of the rubber.
-    indenter : Indenter
-    speeds : (n,) array, or text or quantities
-        (Reduced) speeds at which the rubber is deformed, above zero; m/s.
-    load : float or (n,) array, or text or quantities
-        Normal load, the same at all speeds or one for each; N, of a line contact N/m.
-    accuracy : float
-        Relative error of each friction coefficient that is aimed at; see `solve_steady`.
-    workers : int or Workers
-        Processes that solve contacts, or `viscofric.processes.Workers` that are kept for more; the result does not
-        depend on them.
-    progress : callable, optional
-        Called as ``progress(done, total)`` after every contact.
-    **settings
-        Of `solve_steady`, the same for all contacts, such as `layer`.
-
-    Returns
-    -------
-    FrictionResponse
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used.
-    ConvergenceError
-        If a contact or its derivatives cannot be solved; the message names its speed and load.
-
-    Examples
-    --------
-    >>> import viscofric as vf
-    >>> from viscofric.friction.identification.solving import friction_response
-    >>> rubber = vf.synthetic_fluoroelastomer()
-    >>> ball = vf.Ball(radius="9.525 mm")
-    >>> response = friction_response(rubber.modes_at("60 degC"), 0.5, ball, ["20 mm/s", "200 mm/s"], "25 N")
-    >>> response.friction.round(3)
-    array([0.025, 0.016])
-    >>> response.log_speed.round(3)
-    array([-0.004, -0.003])
+    The spectrum of m modes is at the temperature to which the speeds are reduced.  `speeds` (n,), above zero, are those
+    at which the rubber is deformed, m/s if plain numbers; `load`, the same at all speeds or (n,), is in N, or N/m of a
+    line contact.  `accuracy` is the relative error of each friction coefficient, see `solve_steady`, whose other
+    settings, such as `layer`, are the same for all contacts.  The result does not depend on `workers`.  `progress(done,
+    total)` is called after every contact.  Raises InputError if a value cannot be used, and ConvergenceError if a
+    contact or its derivatives cannot be solved; the message names its speed and load.
     """
     insist_on_indenter(indenter)
     velocities, forces = contacts(indenter, speeds, load)
@@ -197,38 +144,19 @@ def contacts(indenter: Indenter, speeds: Quantities, load: Quantities) -> tuple[
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """How contacts are solved.
-
-    Attributes
-    ----------
-    indenter : Indenter
-    poisson_ratio : float
-    load : float
-        N or N/m.
-    accuracy : float
-    workers : int or Workers
-    anchors : tuple of ContactAnchor
-        Contacts whose size was measured.
-    progress : callable or None
-        Called with the number of the step, and how many of how many contacts are solved in it.
-    """
+    """Settings for solving contacts."""
 
     indenter: Indenter
     poisson_ratio: float
-    load: float
+    load: float  # N or N/m
     accuracy: float
     workers: int | Workers
-    anchors: tuple[ContactAnchor, ...] = ()
+    anchors: tuple[ContactAnchor, ...] = ()  # contacts whose size was measured
+    # called with the number of the step, the contacts solved in it, and how many it has
     progress: Callable[[int, int, int], object] | None = None
 
     def solved(self, problem: Problem, unknowns: Array, step: int) -> Problem:
-        """Return the problem with contacts solved for the rubber that the unknowns describe.
-
-        Raises
-        ------
-        ConvergenceError
-            If a contact is not solved.
-        """
+        """Return the problem with contacts solved for the material of the unknowns; ConvergenceError if one is not."""
         compliances, log_alpha = problem.split(unknowns)
         spectrum = spectrum_of(compliances, problem.smoothness.tau)
         points = problem.observations.points

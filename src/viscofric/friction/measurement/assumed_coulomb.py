@@ -19,19 +19,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Assumed:
-    """Coulomb friction that is assumed.
+    """Coulomb friction that is assumed."""
 
-    Attributes
-    ----------
-    value, error : float or None
-        Coefficient and its standard error; None where nothing, or only a constant one, is assumed.
-    constant : bool
-        The same at all speeds of a temperature and load.
-    """
-
-    value: float | None = None
-    error: float = 0.0
-    constant: bool = False
+    value: float | None = None  # coefficient; None where nothing, or only a constant one, is assumed
+    error: float = 0.0  # its standard error
+    constant: bool = False  # the same at all speeds of a temperature and load
 
     @classmethod
     def of(cls, coulomb: object) -> Assumed:
@@ -77,16 +69,10 @@ class Assumed:
         return not self.constant or np.unique(group.disc_sign * group.slip_sign).size == 1
 
     def completed(self, fits: list[Fit], entries: list[Entry]) -> tuple[list[Entry], list[int]]:
-        """Separate the friction of one direction of slip where Coulomb friction is constant.
+        """Separate the friction of one direction of slip where Coulomb friction is constant; return their indices too.
 
         Its forces along the disc's motion are μ_v ± μ_c, + where the disc is faster than the ball.  Neither is
         negative, so that μ_c is at most the lowest of them with +, and at least the highest of −(μ_v − μ_c) with −.
-
-        Returns
-        -------
-        list of Entry
-        list of int
-            Places of the conditions where Coulomb friction is assumed.
         """
         places = [place for place, fit in enumerate(fits) if fit.coulomb is not None]
         if not self.constant or not places:

@@ -29,27 +29,15 @@ _PURE_ROLLING = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Condition:
-    """The readings taken at one temperature, load, magnitude of the disc's speed and magnitude of the slip.
+    """The readings taken at one temperature, load, magnitude of the disc's speed and magnitude of the slip."""
 
-    Attributes
-    ----------
-    rows : (n,) array of int
-        Rows of the traction runs.
-    temperature, speed : float
-        Means over all readings of that nominal temperature (K) and of that nominal speed (m/s).
-    load, slip : float
-        Means over the condition, N and m/s.
-    disc_sign, slip_sign : (n,) array
-        sgn(u_disc) = ±1 and sgn(u_disc − u_ball) = ±1, or 0 in pure rolling.
-    """
-
-    rows: Integers
-    temperature: float
-    speed: float
-    load: float
-    slip: float
-    disc_sign: Array
-    slip_sign: Array
+    rows: Integers  # (n,), of the traction runs
+    temperature: float  # K, mean over all readings of that nominal temperature
+    speed: float  # m/s, mean over all readings of that nominal speed
+    load: float  # N, mean over the condition
+    slip: float  # m/s, mean over the condition
+    disc_sign: Array  # (n,), sgn(u_disc) = ±1
+    slip_sign: Array  # (n,), sgn(u_disc − u_ball) = ±1, or 0 in pure rolling
 
     def __str__(self) -> str:
         return f"{celsius(self.temperature):z.1f} °C and {1e3 * self.speed:.4g} mm/s"
@@ -84,36 +72,17 @@ def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -
 def conditions(
     runs: TractionRuns, course: Course, speed_tolerance: float, temperature_tolerance: float
 ) -> tuple[list[Condition], tuple[str, ...]]:
-    """Group the readings of a traction test by their measured temperature, load, speed and slip.
+    """Group the readings of a traction test by their measured temperature, load, speed and slip, in this order.
 
-    Values are sorted, and a gap wider than the tolerance starts the next nominal value.  The tolerance of the slip
-    ratio follows from the measured jitter of the speeds, since slip is a small difference of two of them: it is three
-    standard deviations of that difference, at least a tenth of the speeds' tolerance.  Slip of either sense within it,
-    or with a mean within three of its own standard deviations, is pure rolling.  Slip that was swept without gaps is
-    cut into intervals four tolerances wide.
+    Values are sorted, and a gap wider than the tolerance starts the next nominal value.  The tolerance of temperature
+    is in K, that of speed relative; that of load is 5 %.  The tolerance of the slip ratio follows from the measured
+    jitter of the speeds, since slip is a small difference of two of them: it is three standard deviations of that
+    difference, at least a tenth of the speeds' tolerance.  Slip of either sense within it, or with a mean within three
+    of its own standard deviations, is pure rolling.  Slip that was swept without gaps is cut into intervals four
+    tolerances wide.  Readings at zero speed of the disc are left out.
 
-    Parameters
-    ----------
-    runs : TractionRuns
-        All disc speeds other than zero are used.
-    course : Course
-        Speed and slip by which the readings are grouped.
-    speed_tolerance : float
-        Of speeds, relative; that of loads is 5 %.
-    temperature_tolerance : float
-        K.
-
-    Returns
-    -------
-    list of Condition
-        By temperature, load, speed and slip.
-    tuple of str
-        Notes on readings left out, taken as pure rolling, or cut into intervals.
-
-    Raises
-    ------
-    InputError
-        If values have no gaps between nominal values.
+    Returns notes too: on readings left out, taken as pure rolling, or cut into intervals.  Raises InputError if values
+    have no gaps between nominal values.
     """
     moving = np.flatnonzero((runs.disc_speed != 0.0) & (course.speed > 0.0))
     notes = list(course.notes)

@@ -17,22 +17,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """Speed and slip by which readings are grouped.
+    """Speed and slip by which readings are grouped."""
 
-    Attributes
-    ----------
-    speed : (n,) array
-        Magnitude, m/s; the same for all readings of one point.
-    slip : (n,) array
-        Slip over that speed, above zero where the disc is faster than the ball.
-    notes : tuple of str
-    slip_scatter : float
-        Scatter of the slip over that of `speed`, where disc and ball jitter equally and independently.
-    """
-
-    speed: Array
-    slip: Array
+    speed: Array  # (n,), magnitude, m/s; the same for all readings of one point
+    slip: Array  # (n,), slip over that speed, above zero where the disc is faster than the ball
     notes: tuple[str, ...] = ()
+    # scatter of the slip over that of `speed`, where disc and ball jitter equally and independently
     slip_scatter: float = math.sqrt(2.0)
 
 

@@ -203,14 +203,8 @@ def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]
 def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[Note]]:
     """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed.
 
-    Slip too small to be measured can still transmit much of Coulomb friction, with one sign.
-
-    Returns
-    -------
-    list of int
-        Places of the conditions where it does.
-    list of str
-        Notes that say so.
+    Slip too small to be measured can still transmit much of Coulomb friction, with one sign.  Returns the indices of
+    the conditions where it does, and notes on them.
     """
     sliding: dict[tuple[float, float], list[int]] = {}
     for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):

@@ -25,27 +25,15 @@ _PER_HOUR = 3600.0
 
 @dataclass(frozen=True)
 class Drift:
-    """Drift that is subtracted from the forces besides the zero of each condition.
+    """Drift that is subtracted from the forces besides the zero of each condition."""
 
-    Attributes
-    ----------
-    rate, error : float
-        Of a zero that is linear in time, and its standard error, N/s.
-    freedom : float
-    follows : bool
-        Whether the zero follows its changes from one recording to the next.
-    wandering : float
-        Standard deviation of a zero that drifts otherwise, or without recorded times, N; zero where it does not.
-    timed : bool
-        Whether the times were recorded.
-    """
-
-    rate: float = 0.0
-    error: float = 0.0
+    rate: float = 0.0  # of a zero that is linear in time, N/s
+    error: float = 0.0  # standard error of the rate, N/s
     freedom: float = np.inf
-    follows: bool = False
+    follows: bool = False  # whether the zero follows its changes from one recording to the next
+    # standard deviation, N, of a zero that drifts otherwise, or without recorded times; zero where it does not
     wandering: float = 0.0
-    timed: bool = True
+    timed: bool = True  # whether the times were recorded
 
     @property
     def weights(self) -> Array:

@@ -25,24 +25,12 @@ _AUTOCORRELATIONS = np.linspace(0.0, 0.99, 200)
 
 @dataclass(frozen=True, eq=False)
 class Scatter:
-    """Deviations between the repetitions of one condition.
+    """Deviations between the m repetitions of one condition."""
 
-    Attributes
-    ----------
-    deviations : (m,) array
-        From their mean or from the fit.
-    run : (m,) array of int
-        Number of the run of the test that each belongs to, the same at all speeds.
-    freedom : float
-        Degrees of freedom of the sum of their squares.
-    factor : float
-        Variance of the coefficient over that of one repetition.
-    """
-
-    deviations: Array
-    run: Integers
-    freedom: float
-    factor: float
+    deviations: Array  # (m,), from their mean or from the fit
+    run: Integers  # (m,), number of the run of the test that each belongs to, the same at all speeds
+    freedom: float  # degrees of freedom of the sum of their squares
+    factor: float  # variance of the coefficient over that of one repetition
 
     @property
     def variance(self) -> float:
@@ -54,13 +42,9 @@ class Scatter:
 
 @dataclass(frozen=True, eq=False)
 class BetweenRuns:
-    """Standard errors of all conditions.
+    """Standard errors and degrees of freedom (k, 4) of zero (N), viscoelastic and Coulomb coefficient and consistency.
 
-    Attributes
-    ----------
-    error, freedom : (k, 4) array
-        Of zero (N), viscoelastic and Coulomb coefficient and consistency; infinite and zero where not known.
-    notes : list of str
+    Where the error of a condition is not known it is infinite, with zero degrees of freedom.
     """
 
     error: Array
@@ -107,19 +91,11 @@ class BetweenRuns:
 
 @dataclass(frozen=True)
 class Pool:
-    """Variance of repetitions over many conditions, relative to the square of their friction.
+    """Variance of repetitions over many conditions, relative to the square of their friction."""
 
-    Attributes
-    ----------
-    variance, freedom : float
-        Of one repetition, and the degrees of freedom behind it.
-    common : float
-        The part of the variance that all speeds of a run share, zero where it is not significant.
-    """
-
-    variance: float
-    freedom: float
-    common: float
+    variance: float  # of one repetition
+    freedom: float  # degrees of freedom of the variance
+    common: float  # the part of the variance that all speeds of a run share, zero where it is not significant
 
     @classmethod
     def of(cls, some: list[Scatter], sizes: Array, isotherms: Array) -> Pool:
@@ -242,20 +218,9 @@ def of_readings(
     Readings of a pass are an autoregressive series of first order.  Its autocorrelation is that of all passes together,
     with which the mean products of deviations from means agree in expectation.
 
-    Parameters
-    ----------
-    fits : list of Fit
-    weights : (3,) array
-        Of force, drift and changes of the zero.
-    lacking : (k, 4) array of bool
-        Which of the numbers of each condition lack an error.
-
-    Returns
-    -------
-    dict
-        Variance and degrees of freedom by condition and number, where there are several readings in a pass.
-    float
-        The autocorrelation.
+    `weights` (3,) are those of force, drift and changes of the zero; `lacking` (k, 4) marks the numbers of each
+    condition without an error.  Returns variance and degrees of freedom by condition and number, where there are
+    several readings in a pass, and the autocorrelation.
     """
     places = [
         place

@@ -54,22 +54,12 @@ class Entry:
 
 
 def operators(design: Array, crossed: Array | None, parts: list[Indices]) -> Array:
-    """Return the operators that give the coefficients from readings, in each of several parts by itself.
+    """Return the operators (4, n) from readings to coefficients, for each of several parts separately.
 
-    Parameters
-    ----------
-    design : (n, 3) array
-        Regressors; those that are zero throughout are not fitted.
-    crossed : (n,) array or None
-        A fourth one, whose coefficient is fitted without changing those of the others.
-    parts : list of array of int
-        Rows that are fitted together; each determines all coefficients.
-
-    Returns
-    -------
-    (4, n) array
-        (XᵀX)⁻¹Xᵀ of each part, in its columns, by the QR factors of X: the fit without `crossed` has the leading
-        ones of the fit with it.  The sums of squares are the diagonal of (XᵀX)⁻¹.
+    `design` (n, 3) are the regressors (those that are zero throughout are not fitted), `crossed` (n,) a fourth one,
+    whose coefficient is fitted without changing those of the others; each of `parts`, rows that are fitted together,
+    determines all coefficients.  The columns of a part hold (XᵀX)⁻¹Xᵀ, by the QR factors of X: the fit without
+    `crossed` has the leading ones of the fit with it.  The sums of squares are the diagonal of (XᵀX)⁻¹.
     """
     used = np.flatnonzero(np.any(design != 0.0, axis=0))
     columns = design[:, used] if crossed is None else np.column_stack([design[:, used], crossed])
@@ -101,60 +91,35 @@ def residuals(design: Array, crossed: Array | None, operator: Array, target: Arr
 class Fit:
     """Least squares on the readings of a condition, of the force and of its corrections.
 
-    The fit is linear in the force, so that a drift is taken out of its coefficients as well as out of the readings.
-
-    Attributes
-    ----------
-    each : (r, 4, 3) array
-        Zero, viscoelastic and Coulomb coefficient and consistency of each replicate (of all readings where they are
-        fitted together), of the force, of time and of the changes of the recorded zero.
-    time : float
-        Mean time of the readings, s; NaN where it was not recorded.
-    residual, checked : (n, 3) array
-        Residuals of the fits without and with the consistency, N.
-    operator : (4, n) array
-        Makes the coefficients of the readings.
-    first_rows : (r,) array of int
-        First row of the readings behind each entry of `each`.
-    step, passes : (n,) array of int
-        Number of the step, and of the pass in one configuration, that each reading belongs to, among those of the
-        condition.
-    runs_of_passes : (p,) array of int
-        Number of the run of each pass, the same at all speeds: its configuration and how often that came before.
-    unknowns : int
-        Number of coefficients that are fitted, without the consistency.
-    by_steps : bool
-        Whether steps of several configurations, enough of them, are the repetitions.
-    log_speed : (n,) array
-        ln of the disc's speed over the condition's.
-    viscoelastic_force : (n,) array
-        Force of each reading for a viscoelastic coefficient of 1 at the condition's speed, N.
-    zero_variance, coulomb_variance : (4,) array
-        Due to the errors of a zero and of a Coulomb coefficient that are not fitted, as far as scatter excludes them.
+    The fit is linear in the force, so that a drift is removed from its coefficients as from the readings.
     """
 
     group: Condition
+    # (r, 4, 3): zero, viscoelastic and Coulomb coefficient and consistency of each replicate (of all readings where
+    # they are fitted together), of the force, of time and of the changes of the recorded zero
     each: Array
-    time: float
+    time: float  # mean time of the readings, s; NaN where it was not recorded
     replicates: int
     together: bool
     fits_offset: bool
     coulomb: tuple[float, float] | None
     slides: bool
     checks: bool
-    residual: Array = field(repr=False)
-    checked: Array = field(repr=False)
-    operator: Array = field(repr=False)
-    first_rows: Integers = field(repr=False)
-    step: Indices = field(repr=False)
-    passes: Indices = field(repr=False)
+    residual: Array = field(repr=False)  # (n, 3), of the fit without the consistency, N
+    checked: Array = field(repr=False)  # (n, 3), of the fit with it, N
+    operator: Array = field(repr=False)  # (4, n), from readings to coefficients
+    first_rows: Integers = field(repr=False)  # (r,), first row of the readings behind each entry of `each`
+    step: Indices = field(repr=False)  # (n,), number of each reading's step within the condition
+    passes: Indices = field(repr=False)  # (n,), number of its pass in one configuration
+    # (p,), number of the run of each pass, the same at all speeds: its configuration and how often that came before
     runs_of_passes: Integers = field(repr=False)
-    unknowns: int
-    by_steps: bool
-    log_speed: Array = field(repr=False)
+    unknowns: int  # number of fitted coefficients, without the consistency
+    by_steps: bool  # whether steps of several configurations, enough of them, are the repetitions
+    log_speed: Array = field(repr=False)  # (n,), ln of the disc's speed over the condition's
+    # (n,), N, for a viscoelastic coefficient of 1 at the condition's speed
     viscoelastic_force: Array = field(repr=False)
-    zero_variance: Array
-    coulomb_variance: Array
+    zero_variance: Array  # (4,), due to the error of a zero that is not fitted, within the limits that scatter sets
+    coulomb_variance: Array  # (4,), the same of a Coulomb coefficient that is not fitted
 
     @classmethod
     def of(
@@ -165,18 +130,11 @@ class Fit:
         coulomb: tuple[float, float] | None = None,
         growth: Growth | None = None,
     ) -> Fit:
-        """Fit a condition's readings, each replicate by itself where all are complete.
+        """Fit a condition's readings, each replicate separately where all are complete.
 
-        Parameters
-        ----------
-        runs : TractionRuns
-        group : Condition
-        zeros : Zeros
-            Used where the signs do not determine the zero.
-        coulomb : (float, float), optional
-            Coulomb coefficient and its standard error where they are assumed.
-        growth : Growth, optional
-            How viscoelastic friction follows speed within the condition; constant if left out.
+        `zeros` are used where the signs do not determine the zero; `coulomb` is the coefficient and its standard error
+        where they are assumed; `growth` is the change of viscoelastic friction with speed within the condition, none if
+        None.
         """
         slides = bool(np.any(group.slip_sign))
         checks = coulomb is None and group.signs >= _FOUR
@@ -247,15 +205,9 @@ class Fit:
         return np.asarray((self.each @ weights).mean(axis=0))
 
     def entry(self, weights: Array, zeros: Zeros, error: Array, freedom: Array) -> Entry:
-        """Return the result over all replicates.
+        """Return the result over all replicates; `weights` (3,) are those of force, drift and changes of the zero.
 
-        Parameters
-        ----------
-        weights : (3,) array
-            Of force, drift and changes of the zero.
-        zeros : Zeros
-        error, freedom : (4,) array
-            Standard errors of the fit, and their degrees of freedom.
+        `error` and `freedom` (4,) are the standard errors of the fit and their degrees of freedom.
         """
         value, freedom = self.mean(weights), freedom.copy()
         count = self.replicates

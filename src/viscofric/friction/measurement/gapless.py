@@ -25,34 +25,17 @@ _NAMED = 8  # steps that a sentence names at most
 
 @dataclass(frozen=True, eq=False)
 class Gapless:
-    """Note on readings without gaps.
-
-    Attributes
-    ----------
-    runs : TractionRuns
-    values : (n,) array
-        Values that are grouped, of each reading.
-    expression : str
-        Their name in Python.
-    shown : callable
-        Returns a range of them in words.
-    gap : float
-        Between nominal values, absolute or relative.
-    relative : bool
-    option : tuple of str
-        Field and label of the tolerance, see `viscofric.notes.setting`; empty where it is fixed.
-    unit : str
-        Of the tolerance.
-    """
+    """Note on readings without gaps."""
 
     runs: TractionRuns
-    values: Array
-    expression: str
-    shown: Callable[[float, float], str]
-    gap: float
+    values: Array  # (n,), of each reading, to be grouped
+    expression: str  # their name in Python
+    shown: Callable[[float, float], str]  # returns a range of them in words
+    gap: float  # between nominal values, absolute or relative
     relative: bool = True
+    # field and label of the tolerance, see `viscofric.notes.setting`; empty where it is fixed
     option: tuple[str, str] | tuple[()] = ()
-    unit: str = ""
+    unit: str = ""  # of the tolerance
 
     def __call__(self, low: float, high: float) -> Note:
         """Return a note on values without a gap from `low` to `high`, with a remedy."""

@@ -112,10 +112,7 @@ class Grouping:
     ) -> Grouping:
         """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together.
 
-        Raises
-        ------
-        InputError
-            If no condition can be separated.
+        Raises InputError if no condition can be separated.
         """
 
         def grouped(course: Course) -> tuple[list[Condition], tuple[str, ...], list[Condition]]:

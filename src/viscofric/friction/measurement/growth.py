@@ -25,27 +25,18 @@ _STANDARD = 0.7
 class Growth:
     """A polynomial through ln μ_v at up to four speeds, the condition's own first.
 
-    What it leaves over is f⁽ᵏ⁾/k! ∏(L − X_j) of the k speeds X_j, with a derivative f⁽ᵏ⁾ no larger than `STEEPEST`;
-    with the own speed alone that is all there is.
+    Its remainder is f⁽ᵏ⁾/k! ∏(L − X_j) of the k speeds X_j, with a derivative f⁽ᵏ⁾ no larger than `STEEPEST`; with the
+    condition's own speed alone, the remainder is everything.
 
     Where a maximum of friction was half a decade wide and the disc's speeds differed by 20 or 50 %, 95 % intervals held
-    92 % or more of viscoelastic and all of Coulomb friction, at 2, 3, 4 and 6 speeds; where they differed by 100 %,
-    96 % and 99 % at 4 speeds, 73 % and 83 % at 6 with a quarter of the noise.  For a power of speed they are too wide,
+    92 % or more of viscoelastic and all of Coulomb friction, at 2, 3, 4 and 6 speeds; where they differed by 100 %, 96
+    % and 99 % at 4 speeds, 73 % and 83 % at 6 with a quarter of the noise.  For a power of speed they are too wide,
     those of Coulomb friction three times at 20 % and seven times at 100 %.
-
-    Attributes
-    ----------
-    places : (k,) array
-        ln of the speeds over the condition's; the first is zero.
-    values : (k,) array
-        ln μ_v there.
-    errors : (k,) array
-        Their standard errors.
     """
 
-    places: Array
-    values: Array
-    errors: Array
+    places: Array  # (k,), ln of the speeds over the condition's; the first is zero
+    values: Array  # (k,), ln μ_v there
+    errors: Array  # (k,), their standard errors
 
     @classmethod
     def unknown(cls) -> Growth:

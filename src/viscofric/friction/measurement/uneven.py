@@ -24,19 +24,12 @@ class Uneven:
     """Difference of the disc's speed between the directions of slip, and its effect on each condition.
 
     Coulomb friction, half the difference of the forces, then includes half the change of viscoelastic friction between
-    the two speeds, and their mean is not the friction at the mean speed.  The change is removed as far as it follows
-    from the other speeds of the test; its uncertainty is in the standard errors.
-
-    Attributes
-    ----------
-    apart : (k,) array
-        Difference of the speeds over the condition's; zero where it is within the tolerance.
-    growths : list of Growth or None
-        None where the speeds are the same.
+    the two speeds, and their mean is not the friction at the mean speed.  The change is removed where it follows from
+    the other speeds of the test; its uncertainty is in the standard errors.
     """
 
-    apart: Array
-    growths: list[Growth | None] = field(repr=False)
+    apart: Array  # (k,), difference of the speeds over the condition's; zero where it is within the tolerance
+    growths: list[Growth | None] = field(repr=False)  # None where the speeds are the same
 
     @classmethod
     def of(cls, runs: TractionRuns, groups: list[Condition], tolerance: float) -> Uneven:
@@ -51,11 +44,7 @@ class Uneven:
     def with_growths(self, fits: list[Fit], bare: list[Entry], entries: list[Entry]) -> Uneven:
         """Return the change of friction from that at the speeds of each temperature and load.
 
-        Parameters
-        ----------
-        fits : list of Fit
-        bare, entries : list of Entry
-            Without and with the uncertainty of the change of friction in the standard errors.
+        The standard errors of `entries` include the uncertainty of the change of friction, those of `bare` do not.
         """
         growths = list(self.growths)
         isotherms = defaultdict(list)

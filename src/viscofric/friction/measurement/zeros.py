@@ -30,30 +30,14 @@ _AWAY = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Zeros:
-    """Zero of the force cell behind each reading, and how well it is known.
+    """Zero of the force cell behind each reading, and its uncertainty."""
 
-    Attributes
-    ----------
-    value : (n,) array
-        N; NaN where it is not known.
-    recording : (n,) array of int
-        Number of the recording that each reading's zero comes from.
-    error : float
-        Standard error of one recording, N; zero where it is not known.
-    freedom : float
-        Degrees of freedom behind the error.
-    given : bool
-        Given by the user, and so used at all conditions.
-    recordings : (k,) array
-        The recordings in the order of the test.
-    """
-
-    value: Array
-    recording: Integers
-    error: float
-    freedom: float
-    given: bool
-    recordings: Array
+    value: Array  # (n,), N; NaN where it is not known
+    recording: Integers  # (n,), number of the recording that each reading's zero comes from
+    error: float  # standard error of one recording, N; zero where it is not known
+    freedom: float  # degrees of freedom of the error
+    given: bool  # given by the user, and so used at all conditions
+    recordings: Array  # (k,), the recordings in the order of the test
 
     @classmethod
     def known(cls, runs: TractionRuns, zero: Quantity | tuple[Quantity, Quantity] | None) -> Zeros:
@@ -180,14 +164,7 @@ def wanders(values: Array) -> bool:
 
 
 def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> list[str]:
-    """Return a note on a given zero that the sign configurations contradict.
-
-    Parameters
-    ----------
-    runs : TractionRuns
-    groups : list of Condition
-    zeros : Zeros
-    """
+    """Return a note on a given zero that the sign configurations contradict."""
     if not zeros.given:
         return []
     fitted = np.array([_zero(runs, group) for group in groups if group.determines(offset=True, coulomb=True)])

@@ -57,10 +57,7 @@ class Collapse:
 def collapse(temperature: Array, decades: Array, friction: Array, error: Array) -> Collapse:
     """Compare the curves of each pair of neighbouring temperatures where they overlap.
 
-    Parameters
-    ----------
-    temperature, decades, friction, error : (n,) array
-        K, log10 of the reduced speed, friction coefficient and its standard error.
+    All (n,): temperature in K, log10 of the reduced speed, friction coefficient and its standard error.
     """
     parts = [_isotherm(temperature == one, decades, friction, error) for one in np.unique(temperature)]
     differences: list[Array] = []

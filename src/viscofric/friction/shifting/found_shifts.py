@@ -97,49 +97,29 @@ def widened(covariance: Array, factors: Array, at_reference: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class FoundShifts:
-    """Shift factors found from friction curves.
+    """Shift factors found from friction curves."""
 
-    Attributes
-    ----------
-    factors : ShiftFactors
-        Of the temperatures whose curves overlap.
-    members : tuple of int
-        Their places among all temperatures.
-    notes : tuple of str
-        Temperatures left out, one sentence each.
-    """
-
-    factors: ShiftFactors
-    members: tuple[int, ...]
-    notes: tuple[str, ...]
+    factors: ShiftFactors  # of the temperatures whose curves overlap
+    members: tuple[int, ...]  # their indices among all temperatures
+    notes: tuple[str, ...]  # on temperatures left out
 
 
 def found_shifts(
     isotherms: Sequence[FrictionIsotherm], reference: float | None, level_error: float = 0.0
 ) -> FoundShifts:
-    """Find the shift factors that bring friction curves onto one smooth curve.
+    """Find the shift factors that bring friction curves, in ascending temperature, onto one smooth curve.
 
     Pairs of temperatures are scanned for steps at which their curves coincide, overlapping curves are arranged roughly
     (both in `placement`), and all are brought onto one penalised spline at once, as moduli are
     (`rheology.superposition.common_shifts`).  Overlaps that the fitted shifts and their errors do not confirm are
     dropped.
 
-    Parameters
-    ----------
-    isotherms : sequence of FrictionIsotherm
-        In ascending temperature.
-    reference : float or None
-        Where α is 1, K; if None the temperature in the middle of the largest group.
-    level_error : float
-        Relative standard error of friction that all points of a temperature share.
+    α is 1 at `reference` (K), by default the temperature in the middle of the largest group.  `level_error` is the
+    relative standard error of friction that all points of a temperature share.
 
-    Raises
-    ------
-    SuperpositionError
-        If no curve overlaps with another one, or none with that of the reference; if friction is too flat, or fits in
-        more than one way.  Codes: see `refusals`.
-    InputError
-        If the reference lies outside the temperatures, or between groups that do not overlap.
+    Raises SuperpositionError if no curve overlaps with another one, or none with that of the reference; if friction is
+    too flat, or fits in more than one way (codes: see `refusals`).  Raises InputError if the reference lies outside the
+    temperatures, or between groups that do not overlap.
     """
     _check(isotherms, reference)
     scale = scatter_scale(isotherms)
@@ -189,13 +169,7 @@ def _check(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> No
 
 
 def _group(found: list[list[int]], doubts: Doubts, *, fitted: bool = False) -> list[int]:
-    """Return the largest group of temperatures that covers the reference.
-
-    Raises
-    ------
-    SuperpositionError
-        If there is none of two or more.
-    """
+    """Return the largest group of temperatures that covers the reference; SuperpositionError if there is none."""
     near = [group for group in found if len(group) > 1 and doubts.reached_by(group)]
     if not near:
         raise SuperpositionError(doubts.refusal(fitted=fitted))

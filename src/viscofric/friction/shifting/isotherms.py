@@ -35,31 +35,16 @@ EXACT = 1e6
 
 @dataclass(frozen=True, eq=False)
 class FrictionIsotherm:
-    """Friction at one temperature.
+    """Friction at one temperature, at the reference load."""
 
-    Attributes
-    ----------
-    temperature : float
-        Mean of the points, K.
-    speed : (n,) array
-        log10 of the speed, at the reference load; ascending, all different.
-    friction : (n,) array
-        log10 of the friction coefficient, or the coefficient on a scale where its largest value has the slope of a
-        logarithm.
-    variance : (n,) array
-        Of `friction`, up to a factor common to all isotherms.
-    range : tuple of float
-        Smallest and largest friction coefficient, at the reference load.
-    logarithmic : bool
-        Whether `friction` is the logarithm.
-    """
-
-    temperature: float
-    speed: Array
+    temperature: float  # mean of the points, K
+    speed: Array  # (n,), log10 of the speed; ascending, all different
+    # (n,), log10 of the friction coefficient, or the coefficient on a scale where its largest value has the slope of a
+    # logarithm
     friction: Array
-    variance: Array
-    range: tuple[float, float]
-    logarithmic: bool
+    variance: Array  # (n,), of `friction`, up to a factor common to all isotherms
+    range: tuple[float, float]  # smallest and largest friction coefficient
+    logarithmic: bool  # whether `friction` is the logarithm
 
     def __len__(self) -> int:
         return len(self.speed)
@@ -97,18 +82,7 @@ def nominal_rows(temperature: Array) -> list[Indices]:
 
 
 def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
-    """Sort the points of friction curves by temperature.
-
-    Parameters
-    ----------
-    curves : FrictionCurves
-        At one load.
-
-    Returns
-    -------
-    list of FrictionIsotherm
-        In ascending temperature.
-    """
+    """Sort the points of friction curves at one load into isotherms of ascending temperature."""
     friction, error = curves.viscoelastic, curves.viscoelastic_error
     finite = np.isfinite(error)
     logarithmic = bool(np.all(friction > CLEAR_OF_ZERO * np.where(finite, error, 0.0)))

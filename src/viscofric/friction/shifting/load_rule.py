@@ -63,13 +63,7 @@ class LoadRule:
 
     @classmethod
     def of(cls, indenter: Any) -> LoadRule:
-        """Return the rule of an indenter.
-
-        Raises
-        ------
-        InputError
-            If it is not a ball, an ellipsoid, a cylinder or a cone.
-        """
+        """Return the rule of an indenter; InputError if it is not a ball, an ellipsoid, a cylinder or a cone."""
         exponents = _EXPONENTS.get(type(indenter))
         if exponents is None:
             noun = indenter.noun if isinstance(indenter, Indenter) else type(indenter).__name__
@@ -87,14 +81,8 @@ class LoadRule:
     def reduced(self, curves: FrictionCurves, load: float, vertical_shift: VerticalShift | None) -> FrictionCurves:
         """Return friction curves at one load and without vertical shift: v/f^p and μ/f^q of every point.
 
-        Parameters
-        ----------
-        curves : FrictionCurves
-            Of any loads; what does not belong to viscoelastic friction stays.
-        load : float
-            F0, in the curves' `load_unit`.
-        vertical_shift : VerticalShift or None
-            b(T); 1 if None.
+        `load` is F0 in the curves' `load_unit`, `vertical_shift` is b(T), 1 if None.  What does not belong to
+        viscoelastic friction is unchanged.
         """
         b = 1.0 if vertical_shift is None else np.asarray(vertical_shift(curves.temperature))
         speed, friction = self.factors(np.asarray(curves.load / (b * load)))

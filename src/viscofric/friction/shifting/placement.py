@@ -48,26 +48,13 @@ AS_GOOD = 9.0
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Steps of log10 α between two temperatures at which their curves coincide.
+    """Steps of log10 α between two temperatures at which their curves coincide."""
 
-    Attributes
-    ----------
-    steps : (k,) array
-        log10 α of the colder minus that of the warmer, all that were tried.
-    chi2 : (k,) array
-        Squared difference of the curves at each, in units of its covariance.
-    candidates : tuple of float
-        Steps where the curves coincide, each bounded by contradiction on both sides.
-    margins : tuple of float
-        How clearly each is bounded, in standard deviations; above the root of `CONTRADICTION`.
-    verdict : {"overlap", "rising", "flat", "apart"}
-        "rising" if the curves coincide only with an α that rises with temperature.
-    """
-
-    steps: Array
-    chi2: Array
-    candidates: tuple[float, ...]
-    margins: tuple[float, ...]
+    steps: Array  # (k,), log10 α of the colder minus that of the warmer, all that were tried
+    chi2: Array  # (k,), squared difference of the curves at each, in units of its covariance
+    candidates: tuple[float, ...]  # steps where the curves coincide, each bounded by contradiction on both sides
+    margins: tuple[float, ...]  # standard deviations by which each is bounded; above the root of CONTRADICTION
+    # "rising" if the curves coincide only with an α that rises with temperature
     verdict: Literal["overlap", "rising", "flat", "apart"]
 
     def cost(self, step: float) -> float:
@@ -147,18 +134,10 @@ def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float, float]]:
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """One arrangement of some of the friction curves over each other.
+    """One arrangement of some of the friction curves over each other."""
 
-    Attributes
-    ----------
-    positions : dict of int to float
-        log10 α by the place of the temperature, the coldest one's zero.
-    cost : float
-        Sum of squared differences of all pairs minus its expectation.
-    """
-
-    positions: dict[int, float]
-    cost: float
+    positions: dict[int, float]  # log10 α by the index of the temperature, zero for the coldest
+    cost: float  # sum of squared differences of all pairs minus its expectation
 
 
 Pairs: TypeAlias = "Mapping[tuple[int, int], Pair]"

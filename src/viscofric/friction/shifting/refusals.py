@@ -24,23 +24,12 @@ MOST_LISTED = 9
 
 @dataclass(eq=False)
 class Doubts:
-    """What is known of temperatures whose curves do not overlap.
-
-    Attributes
-    ----------
-    isotherms : sequence of FrictionIsotherm
-    pairs : mapping
-        From `scan_pairs`.
-    reference : float or None
-        Where α is to be 1, K.
-    elsewhere : list of int
-        Places of temperatures that fit in more than one place.
-    """
+    """Temperatures whose curves do not overlap, and what is known of the overlaps."""
 
     isotherms: Sequence[FrictionIsotherm]
-    pairs: Pairs
-    reference: float | None
-    elsewhere: list[int] = field(default_factory=list)
+    pairs: Pairs  # from `scan_pairs`
+    reference: float | None  # K, where α is to be 1
+    elsewhere: list[int] = field(default_factory=list)  # indices of temperatures that fit in more than one place
 
     def reached_by(self, group: Sequence[int]) -> bool:
         """Whether a group of temperatures, in ascending order, has the reference among or between them."""

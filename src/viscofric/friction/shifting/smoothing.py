@@ -26,16 +26,9 @@ _COINCIDENT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class SmoothedPoints:
-    """A curve interpolated between scattered points, stretch by stretch.
+    """A curve (n,) interpolated between scattered points, stretch by stretch."""
 
-    Attributes
-    ----------
-    decades : (n,) array
-        log10 of the reduced speed, ascending.
-    friction, error : (n,) array
-    """
-
-    decades: Array
+    decades: Array  # log10 of the reduced speed, ascending
     friction: Array
     error: Array
 
@@ -77,27 +70,12 @@ def _weights(error: Array) -> Array:
 
 
 def smoothing_weights(points: Array, weights: Array, at: Array, bandwidth: float) -> Array:
-    """Return the matrix that turns ordinates at the points into smoothed values.
+    """Return the matrix (m, n), its rows of sum one, from ordinates at `points` (n,) to smoothed values at `at` (m,).
 
-    At each place a parabola is fitted by weighted least squares; its weights are those given times the
-    tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979) 829), h the bandwidth or, where
-    points are sparse, just beyond the fifth nearest one.  With fewer than four different points the parabola
-    becomes a line or a constant.
-
-    Parameters
-    ----------
-    points : (n,) array
-    weights : (n,) array
-        Statistical weights, above zero.
-    at : (m,) array
-        Within the range of the points.
-    bandwidth : float
-        In the unit of the points.
-
-    Returns
-    -------
-    (m, n) array
-        Its rows sum to one.
+    At each place, within the range of the points, a parabola is fitted by weighted least squares; its weights are those
+    given (above zero) times the tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979) 829), h
+    the bandwidth or, where points are sparse, just beyond the fifth nearest one.  With fewer than four different points
+    the parabola becomes a line or a constant.
     """
     ascending = np.sort(points)
     different = ascending[np.concatenate([[True], np.diff(ascending) > _COINCIDENT * bandwidth])]
