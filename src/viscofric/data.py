@@ -96,14 +96,20 @@ class Isotherm:
         for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
             column = read_only(getattr(self, name), f"{name} of an isotherm")
             if column.shape != frequencies.shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(f"{name} of an isotherm must be one row of positive numbers, one per frequency.")
+                raise InputError(
+                    f"{name} of an isotherm must be one row of positive numbers, one per frequency.",
+                    code="wrong-length",
+                )
             object.__setattr__(self, name, column)
         if np.any(np.diff(self.angular_frequency) <= 0):
-            raise InputError("the frequencies of an isotherm must ascend without repeats.")
+            raise InputError("the frequencies of an isotherm must ascend without repeats.", code="not-ascending")
         if self.strain_amplitude is not None:
             amplitude = read_only(self.strain_amplitude, "strain_amplitude of an isotherm")
             if amplitude.shape != self.angular_frequency.shape or np.any((amplitude < 0) | np.isinf(amplitude)):
-                raise InputError("strain_amplitude of an isotherm must be one fraction per frequency, none below zero.")
+                raise InputError(
+                    "strain_amplitude of an isotherm must be one fraction per frequency, none below zero.",
+                    code="wrong-length",
+                )
             object.__setattr__(self, "strain_amplitude", amplitude)
 
     def __len__(self) -> int:
@@ -146,7 +152,7 @@ class IsothermalSweeps:
 
     def __post_init__(self) -> None:
         if self.deformation not in ("tension", "shear"):
-            raise InputError(f"deformation = {self.deformation!r}: must be 'tension' or 'shear'.")
+            raise InputError(f"deformation = {self.deformation!r}: must be 'tension' or 'shear'.", code="wrong-choice")
         insist_on(self.isotherms, "isotherms", tuple, list, right="a tuple of Isotherm")
         for one in self.isotherms:
             insist_on(one, "one of the isotherms", Isotherm)
@@ -241,11 +247,13 @@ class MasterCurve:
         for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
             column = read_only(getattr(self, name), f"{name} of a master curve")
             if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(f"{name} of a master curve must be one row of positive numbers, one per point.")
+                raise InputError(
+                    f"{name} of a master curve must be one row of positive numbers, one per point.", code="wrong-length"
+                )
             object.__setattr__(self, name, column)
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         if np.any(np.diff(self.angular_frequency) < 0):
-            raise InputError("the frequencies of a master curve must ascend.")
+            raise InputError("the frequencies of a master curve must ascend.", code="not-ascending")
 
     def __len__(self) -> int:
         return len(self.angular_frequency)

@@ -6,7 +6,7 @@ import copy
 import os
 from typing import TYPE_CHECKING
 
-from viscofric.notes import Note, note_of
+from viscofric.notes import Note, codes, note_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -87,7 +87,7 @@ def check_choice(value: object, name: str, *choices: str) -> None:
     """Raise `InputError` unless a value is one of the choices."""
     if not isinstance(value, str) or value not in choices:
         *others, last = map(repr, choices)
-        raise InputError(f"{name} = {brief(value)}: must be {', '.join(others)} or {last}.")
+        raise InputError(f"{name} = {brief(value)}: must be {', '.join(others)} or {last}.", code="wrong-choice")
 
 
 class ViscofricError(Exception):
@@ -234,6 +234,11 @@ class StudyError(InputError):
     ) -> None:
         self.mistakes = tuple(note_of(one).reworded(lambda text: _cut(text, LONGEST_SENTENCE)) for one in mistakes)
         super().__init__(problem, code=code, remedy=remedy, field=field)
+
+    @property
+    def code(self) -> str:
+        """The kind of the error, or of its only mistake; ``"several-mistakes"`` if there are more."""
+        return super().code or ("several-mistakes" if len(self.mistakes) > 1 else "".join(codes(self.mistakes)))
 
     @property
     def field(self) -> str | None:

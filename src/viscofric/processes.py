@@ -98,7 +98,9 @@ class Workers:
     def _children(self, count: int) -> Iterator[list[Child]]:
         """Lend processes; an exception ends them, since they may still be busy."""
         if self._started is None:
-            raise InputError("workers: must be used within their block, with Workers(2) as workers: ...")
+            raise InputError(
+                "workers: must be used within their block, with Workers(2) as workers: ...", code="workers-closed"
+            )
         lent: list[Child] = []
         try:
             while len(lent) < count:
@@ -178,7 +180,7 @@ class LimitedProcess:
             raise TimeoutError if time.monotonic() >= end else MemoryError
         self._keep(child)
         if kind != "result":
-            raise value if kind == "error" else InputError(value)
+            raise value if kind == "error" else InputError(value, code="not-picklable")
         return value
 
     def _free(self) -> Child | None:
@@ -229,7 +231,7 @@ def _reply_of(child: Child, message: bytes) -> tuple[str, Any]:
         child.stdin.flush()
         return pickle.loads(pickle.load(child.stdout))  # type: ignore[no-any-return]
     except (OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError):
-        return "ended", ViscofricError(_ENDED)
+        return "ended", ViscofricError(_ENDED, code="process-ended")
 
 
 @contextlib.contextmanager
@@ -402,7 +404,7 @@ class _SharedCalls:
                     outstanding -= kind != "begun"
                     yield index, "error" if kind == "ended" and self.stops else kind, value
             if outstanding and not self.stops:
-                raise ViscofricError(_ENDED)
+                raise ViscofricError(_ENDED, code="process-ended")
         finally:
             with self.lock:
                 self.closed = True
@@ -450,7 +452,10 @@ class _SharedCalls:
 
 
 def _not_sent(workers: int, reason: object) -> InputError:
-    return InputError(f"workers = {workers}: the calls cannot be sent to another process ({reason}); use one worker.")
+    return InputError(
+        f"workers = {workers}: the calls cannot be sent to another process ({reason}); use one worker.",
+        code="not-picklable",
+    )
 
 
 def _end(child: Child) -> None:

@@ -157,7 +157,9 @@ class TractionRuns:
         for name in ("disc_speed", "ball_speed", "traction_force", "load", "temperature"):
             column = read_only(getattr(self, name), f"{name} of traction runs")
             if column.shape != (rows,) or not np.all(np.isfinite(column)):
-                raise InputError(f"{name} of traction runs must be one row of finite numbers, one per reading.")
+                raise InputError(
+                    f"{name} of traction runs must be one row of finite numbers, one per reading.", code="not-a-number"
+                )
             object.__setattr__(self, name, column)
         for name in ("zero_force", "time", "track_radius"):
             if getattr(self, name) is None:
@@ -165,7 +167,8 @@ class TractionRuns:
             column = read_only(getattr(self, name), f"{name} of traction runs")
             if column.shape != (rows,) or np.any(np.isinf(column)):
                 raise InputError(
-                    f"{name} of traction runs must hold one number per reading, NaN where it is not known."
+                    f"{name} of traction runs must hold one number per reading, NaN where it is not known.",
+                    code="wrong-length",
                 )
             object.__setattr__(self, name, column)
         for name in ("replicate", "step"):
@@ -173,10 +176,12 @@ class TractionRuns:
                 continue
             numbers = whole_numbers(getattr(self, name), f"{name} of traction runs")
             if numbers.shape != (rows,):
-                raise InputError(f"{name} of traction runs must hold one whole number per reading.")
+                raise InputError(
+                    f"{name} of traction runs must hold one whole number per reading.", code="not-a-whole-number"
+                )
             object.__setattr__(self, name, numbers)
         if rows and not np.all(self.load > 0):
-            raise InputError("load of traction runs must be above zero in every reading.")
+            raise InputError("load of traction runs must be above zero in every reading.", code="not-positive")
         text(self.source, "source of traction runs")
         object.__setattr__(self, "notes", sentences(self.notes, "notes of traction runs"))
         insist_on(self.steps, "steps", tuple, list, right="a tuple of TractionStep")

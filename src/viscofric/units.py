@@ -88,12 +88,12 @@ def registry() -> pint.UnitRegistry[Any]:
 
         return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
     except Exception as error:  # pint imports other packages, and files of the user with such names
-        raise ViscofricError(f"units cannot be read: {not_imported('pint', error)}.") from error
+        raise ViscofricError(f"units cannot be read: {not_imported('pint', error)}.", code="unreadable") from error
 
 
-def _wrong(name: str, value: object, unit: str, reason: str, right: str = "") -> InputError:
+def _wrong(code: str, name: str, value: object, unit: str, reason: str, right: str = "") -> InputError:
     right = right or f"write, for example, {_EXAMPLE.get(unit, f'a quantity in {unit}')}"
-    return InputError(f"{name} = {brief(value)}: {reason}; {right}.")
+    return InputError(f"{name} = {brief(value)}: {reason}; {right}.", code=code)
 
 
 def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
@@ -118,7 +118,7 @@ def _quantity(number: float, text: str, shown: str, unit: str, name: str) -> pin
         return units.Quantity(number, units.Unit(plain))
     except Exception as error:  # pint raises many kinds
         reason = f"{text!r} is not a known unit"
-        raise _wrong(name, shown, unit, reason, _meant(shown, text, unit)) from error
+        raise _wrong("unknown-unit", name, shown, unit, reason, _meant(shown, text, unit)) from error
 
 
 def _plain(text: str) -> str:
@@ -156,11 +156,11 @@ def to_si(value: Quantity, unit: str, name: str = "value") -> float:
             number = _single(value)
         except ValueError as error:
             kind = "a number" if unit == "dimensionless" else "a number with a unit"
-            raise _wrong(name, value, unit, f"is not {kind} but {error}") from None
+            raise _wrong("not-a-number", name, value, unit, f"is not {kind} but {error}") from None
     if not np.isfinite(number):
-        raise _wrong(name, value, unit, "is not a finite number")
+        raise _wrong("not-finite", name, value, unit, "is not a finite number")
     if abs(number) > LARGEST:
-        raise _wrong(name, value, unit, f"is beyond {LARGEST:g}, too large for computations")
+        raise _wrong("too-large", name, value, unit, f"is beyond {LARGEST:g}, too large for computations")
     return number
 
 
@@ -181,7 +181,7 @@ def _parse(text: str, unit: str, name: str) -> float:
     if match and not match["unit"]:
         if unit == "dimensionless":
             return float(match["number"])
-        raise _wrong(name, text, unit, "has no unit")
+        raise _wrong("no-unit", name, text, unit, "has no unit")
     raise _not_a_quantity(text, unit, name)
 
 
@@ -189,19 +189,19 @@ def _not_a_quantity(text: str, unit: str, name: str) -> InputError:
     """Return the error of a text that is not one number and one unit."""
     plain = text.strip()
     if not plain:
-        return _wrong(name, text, unit, "is empty")
+        return _wrong("empty", name, text, unit, "is empty")
     if parted := _PARTED.fullmatch(plain):
         whole = f"{re.sub(r'[^0-9.+-]', '', parted['number'])} {parted['unit']}"
         if parted["mark"] != "," or "." in parted["number"] or parted["number"].count(",") > 1:
-            return _wrong(name, text, unit, "has thousands separators", f"write {whole!r}")
+            return _wrong("thousands-separators", name, text, unit, "has thousands separators", f"write {whole!r}")
     if comma := _DECIMAL_COMMA.fullmatch(plain):
         decimal = f"{comma['whole'] or '0'}.{comma['part']} {comma['unit']}"
         also = f", or {whole!r} if it separates thousands" if parted else ""
-        return _wrong(name, text, unit, "has a decimal comma", f"write {decimal!r}{also}")
+        return _wrong("decimal-comma", name, text, unit, "has a decimal comma", f"write {decimal!r}{also}")
     if _UNIT.fullmatch(_plain(plain)) and len(plain) <= _LONGEST_UNIT:
-        return _wrong(name, text, unit, "has no number")
+        return _wrong("no-number", name, text, unit, "has no number")
     kind = "one plain number" if unit == "dimensionless" else "one plain number followed by one unit"
-    return _wrong(name, text, unit, f"is not {kind}")
+    return _wrong("not-a-number", name, text, unit, f"is not {kind}")
 
 
 def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = "") -> float:
@@ -211,19 +211,31 @@ def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = ""
         # pint would convert temperature differences to temperatures and the reverse.
         units = [str(key) for key, _ in quantity.unit_items()]
         if unit == "K" and any(one.startswith("delta_") for one in units):
-            raise _wrong(name, str(shown), unit, "is a temperature difference where a temperature is needed")
+            raise _wrong(
+                "temperature-difference",
+                name,
+                str(shown),
+                unit,
+                "is a temperature difference where a temperature is needed",
+            )
         if unit == "delta_degC" and units in (["degree_Celsius"], ["degree_Fahrenheit"], ["degree_Reaumur"]):
-            raise _wrong(name, str(shown), unit, "is a temperature where a temperature difference is needed")
+            raise _wrong(
+                "not-a-temperature-difference",
+                name,
+                str(shown),
+                unit,
+                "is a temperature where a temperature difference is needed",
+            )
         return _single(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         reason = f"has the wrong kind of unit ({quantity.units})"
         if unit == "dimensionless":
             reason = f"has a unit ({quantity.units}), but must be a pure number"
-        raise _wrong(name, str(shown), unit, reason, right) from None
+        raise _wrong("wrong-unit", name, str(shown), unit, reason, right) from None
     except InputError:
         raise
     except (TypeError, ValueError, OverflowError, AttributeError, pint.PintError) as error:
-        raise _wrong(name, str(shown), unit, "cannot be read as a number with a unit") from error
+        raise _wrong("not-a-number", name, str(shown), unit, "cannot be read as a number with a unit") from error
 
 
 def to_si_array(values: Quantities, unit: str, name: str = "value") -> Array:
@@ -239,7 +251,7 @@ def to_si_array(values: Quantities, unit: str, name: str = "value") -> Array:
             raise TypeError
         each = list(values)  # type: ignore[arg-type]
     except TypeError:
-        raise _wrong(name, values, unit, "is not a number with a unit, or a list of these") from None
+        raise _wrong("not-a-number", name, values, unit, "is not a number with a unit, or a list of these") from None
     return np.array([to_si(value, unit, name) for value in each])
 
 
@@ -250,7 +262,7 @@ def to_si_in_shape(values: Quantities, unit: str, name: str) -> Array:
     if isinstance(values, (list, tuple)) or np.ndim(values) > 0:
         rows = [to_si_in_shape(value, unit, name) for value in values]  # type: ignore[union-attr]
         if len({row.shape for row in rows}) > 1:
-            raise _wrong(name, values, unit, "has rows of different lengths")
+            raise _wrong("row-length", name, values, unit, "has rows of different lengths")
         return np.array(rows, dtype=float)
     return np.asarray(to_si(values, unit, name))  # type: ignore[arg-type]
 
@@ -259,9 +271,10 @@ def positive(value: Quantity, unit: str, name: str) -> float:
     """Convert like `to_si` and insist on a value above zero, or above absolute zero."""
     number = to_si(value, unit, name)
     if number <= 0.0:
-        raise _wrong(name, value, unit, "must be above absolute zero" if unit == "K" else "must be above zero")
+        least = "absolute zero" if unit == "K" else "zero"
+        raise _wrong("not-positive", name, value, unit, f"must be above {least}")
     if number < 1.0 / LARGEST:
-        raise _wrong(name, value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
+        raise _wrong("too-small", name, value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
     return number
 
 
@@ -269,7 +282,9 @@ def share(value: Quantity, name: str, *, example: float) -> float:
     """Convert like `to_si` and insist on a pure number between 0 and 1, such as the example."""
     number = to_si(value, "dimensionless", name)
     if not 0.0 < number < 1.0:
-        raise InputError(f"{name} = {brief(value)}: must lie between 0 and 1, such as {example:g}.")
+        raise InputError(
+            f"{name} = {brief(value)}: must lie between 0 and 1, such as {example:g}.", code="out-of-range"
+        )
     return number
 
 
@@ -278,7 +293,7 @@ def checked_poisson_ratio(value: Quantity, name: str = "poisson_ratio", *, above
     number = to_si(value, "dimensionless", name)
     if not (number >= 0.0 if above is None else number > above) or number > 0.5:
         limits = "lie between 0 and 0.5" if above is None else f"be above {above:g} and at most 0.5"
-        raise InputError(f"{name} = {brief(value)}: must {limits}.")
+        raise InputError(f"{name} = {brief(value)}: must {limits}.", code="poisson-ratio")
     return number
 
 
@@ -296,7 +311,7 @@ def angular_frequency(value: Quantity, name: str) -> float:
         if value.rstrip().lower().endswith("hz"):
             return 2.0 * math.pi * positive(value, "Hz", name)
         if "rad" not in value:
-            raise _wrong(name, value, "Hz", "must be a frequency in Hz or rad/s")
+            raise _wrong("wrong-unit", name, value, "Hz", "must be a frequency in Hz or rad/s")
     return positive(value, "rad/s", name)
 
 
@@ -304,7 +319,7 @@ def two_lengths(value: Quantity | tuple[Quantity, Quantity], name: str = "spacin
     """Return two lengths above zero, along x and y, m; a single one stands for both."""
     pair = value if isinstance(value, (tuple, list)) else (value, value)
     if len(pair) != 2:
-        raise InputError(f"{name} = {brief(value)}: must be one length or two, those of x and y.")
+        raise InputError(f"{name} = {brief(value)}: must be one length or two, those of x and y.", code="wrong-count")
     return positive(pair[0], "m", name), positive(pair[1], "m", name)
 
 

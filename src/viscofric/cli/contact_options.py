@@ -129,7 +129,7 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
         one = steps if len(steps) > 1 else steps[0]
         made = Profile(heights.ravel(), steps[0]) if shape == "profile" else HeightMap(heights, one)
     except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+        raise error.at(str(path)) from None
     points = [heights.size] if shape == "profile" else list(heights.shape)
     spacing = [float(step) for step in np.atleast_1d(made.spacing)]
     noun = "Profile" if shape == "profile" else "Height map"

@@ -29,12 +29,15 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
         except DataFileError as error:
             if error.code != "missing-columns":
                 raise
-            raise InputError(f"{error} A table of friction curves has a column 'viscoelastic friction'.") from error
+            raise InputError(
+                f"{error} A table of friction curves has a column 'viscoelastic friction'.", code="missing-columns"
+            ) from error
     other = [path for path in paths if path not in tables]
     if other:
         raise InputError(
             f"{tables[0]} is a table of friction curves, {other[0]} is none: give either such tables or the runs of "
-            "a tribometer."
+            "a tribometer.",
+            code="mixed-inputs",
         )
     refuse_settings(settings, tables[0])
     return joined([_plain(read_friction_curves(path)) for path in tables])
@@ -70,7 +73,10 @@ def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
     if len(parts) == 1:
         return parts[0]
     if len({part.load_unit for part in parts}) > 1:
-        raise InputError("friction curves of point and of line contacts, whose loads are per length, make no one set.")
+        raise InputError(
+            "friction curves of point and of line contacts, whose loads are per length, make no one set.",
+            code="mixed-geometries",
+        )
     columns: dict[str, Any] = {}
     for field in fields(FrictionCurves):
         values = [getattr(part, field.name) for part in parts]
@@ -96,5 +102,5 @@ def shifts(name: str) -> tuple[ShiftLaw, VerticalShift | None]:
 
     rubber = find_rubber(name)
     if rubber.shift is None:
-        raise InputError(f"{name}: this rubber has no shift factors to compare with.")
+        raise InputError(f"{name}: this rubber has no shift factors to compare with.", code="no-shift")
     return rubber.shift, rubber.vertical_shift

@@ -137,7 +137,9 @@ def _insist_on(*written: Path) -> None:
 
     for path in written:
         if not path.is_file():
-            raise DataFileError(path, "was removed while the study ran; run it again, and leave its folder alone.")
+            raise DataFileError(
+                path, "was removed while the study ran; run it again, and leave its folder alone.", code="removed"
+            )
 
 
 def _kept(output: Path) -> str:

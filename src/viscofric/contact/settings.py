@@ -64,13 +64,15 @@ class ContactSettings:
         least, loosest = TIGHTEST / LOOSEST, LOOSEST * number(self.accuracy, "accuracy")
         if not least <= self.accuracy < 1.0:
             raise InputError(
-                f"accuracy = {brief(self.accuracy)}: must be a number from {least:g} to below 1, such as 1e-3."
+                f"accuracy = {brief(self.accuracy)}: must be a number from {least:g} to below 1, such as 1e-3.",
+                code="out-of-range",
             )
         if not TIGHTEST <= number(self.tolerance, "tolerance") <= loosest:
             raise InputError(
                 f"tolerance = {brief(self.tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the "
                 f"accuracy, which is {loosest:g} for accuracy = {self.accuracy:g}, so that it does not spoil the "
-                "friction."
+                "friction.",
+                code="out-of-range",
             )
         if self.finest is not None:
             whole_number(self.finest, "finest", LEAST_FINEST)
@@ -78,7 +80,9 @@ class ContactSettings:
             right = f"the number of cells along the window's longer edge, {LEAST_FINEST} or more"
             whole_number(self.grid, "grid", LEAST_FINEST, right=right)
         if not (self.layer is None or isinstance(self.layer, Layer)):
-            raise InputError(f"layer = {brief(self.layer)}: must be a Layer, such as Layer(thickness='2 mm').")
+            raise InputError(
+                f"layer = {brief(self.layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
+            )
         self._derived  # noqa: B018  raises where indenter, direction or backend cannot be used
 
     @property

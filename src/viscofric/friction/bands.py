@@ -54,22 +54,26 @@ class DrawnMaterials:
     def __init__(self, samples: MaterialSamples, material: Material) -> None:
         if not isinstance(samples, MaterialSamples):
             raise InputError(
-                f"samples = {brief(samples)}: must be MaterialSamples, as sample_materials and identify_material give."
+                f"samples = {brief(samples)}: must be MaterialSamples, as sample_materials and identify_material give.",
+                code="wrong-type",
             )
         if not isinstance(material.spectrum, RetardationSpectrum):
             raise InputError(
                 "material of a prediction with samples must have a spectrum, not a table of moduli: samples scatter "
-                "about a spectrum, from fit_retardation_spectrum."
+                "about a spectrum, from fit_retardation_spectrum.",
+                code="no-modes",
             )
         for one in samples.materials:
             if one.shift is None:
                 raise InputError(
-                    "samples: a material among them has no shift, so its friction at a temperature is open."
+                    "samples: a material among them has no shift, so its friction at a temperature is open.",
+                    code="no-shift",
                 )
             if abs(one.poisson_ratio - material.poisson_ratio) > 1e-9:
                 raise InputError(
                     f"samples have Poisson's ratio {one.poisson_ratio:g}, the material {material.poisson_ratio:g}: "
-                    "must be the same; give poisson_ratio to sample_materials."
+                    "must be the same; give poisson_ratio to sample_materials.",
+                    code="poisson-ratio",
                 )
         self.misfit = samples.misfit
         self.materials = samples.materials

@@ -101,7 +101,7 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
     """
     target = file_path(path)
     if not len(insist_on_curves(curves, "curves")):
-        raise InputError("friction curves without an entry make no file.")
+        raise InputError("friction curves without an entry make no file.", code="empty-list")
     text = io.StringIO()
     remarks = [("source", curves.source), ("assumption", curves.assumption)]
     remarks += [("note", note) for note in curves.notes]
@@ -190,7 +190,7 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
             **columns,
         )
     except InputError as error:
-        raise DataFileError(path, f"holds no friction curves: {error}") from None
+        raise DataFileError(path, f"holds no friction curves: {error}", code="not-friction-curves") from None
 
 
 def holds_friction_curves(path: str | PathLike[str]) -> bool:
@@ -223,7 +223,7 @@ def _places(table: Table) -> dict[str, int]:
         example = {"m/s": "mm/s", "K": "degC"}.get(unit, unit)
         right = f"{heading} ({example})" if unit else heading
         problem = f"there is no column {right!r}; there are {table.headings()}."
-        raise DataFileError(table.path, problem)
+        raise DataFileError(table.path, problem, code="missing-columns")
     return places
 
 
@@ -248,7 +248,7 @@ def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
         factor, shift = 0.01, 0.0
     else:
         problem = f"column {column.heading!r} has the unit {column.unit!r}; it is a number without a unit, or in '%'."
-        raise DataFileError(table.path, problem)
+        raise DataFileError(table.path, problem, code="wrong-unit")
     values = factor * values + shift
     if name in ("speed", "temperature", "load"):
         bad, right = values <= 0.0, "must be above absolute zero" if name == "temperature" else "must be above zero"
@@ -263,7 +263,7 @@ def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
     if np.any(bad):
         row = int(np.argmax(bad))
         problem = f"{table.rows[row][place].strip()!r} in column {column.heading!r} {right}."
-        raise DataFileError(table.path, problem, int(table.lines[row]))
+        raise DataFileError(table.path, problem, int(table.lines[row]), code="out-of-range")
     return np.asarray(values)
 
 

@@ -105,9 +105,11 @@ def predict_friction(
     force = positive(load, indenter.geometry.load_unit, "load")
     for name, values, unit in (("speeds", velocities, "m/s"), ("temperatures", kelvins, "K")):
         if not values.size:
-            raise InputError(f"{name} must hold at least one value.")
+            raise InputError(f"{name} must hold at least one value.", code="empty-list")
         if not np.all(values > 0.0):
-            raise InputError(f"{name} must be above zero everywhere, but one is {values.min():g} {unit}.")
+            raise InputError(
+                f"{name} must be above zero everywhere, but one is {values.min():g} {unit}.", code="not-positive"
+            )
     drawn = None if samples is None else DrawnMaterials(samples, material)
     contacts = [
         {

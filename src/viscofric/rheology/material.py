@@ -211,4 +211,6 @@ class Material:
 def insist_on_material(given: object) -> None:
     """Raise `InputError` where something else is given."""
     if not isinstance(given, Material):
-        raise InputError(f"material = {brief(given)}: must be a Material, such as vf.read_card('rubber.json').")
+        raise InputError(
+            f"material = {brief(given)}: must be a Material, such as vf.read_card('rubber.json').", code="wrong-type"
+        )

@@ -232,12 +232,12 @@ def predict_rough_friction(
     named = _named(surfaces)
     velocities = to_si_array(speeds, "m/s", "speeds")
     if not velocities.size:
-        raise InputError("speeds must hold at least one value.")
+        raise InputError("speeds must hold at least one value.", code="empty-list")
     kelvins: list[float | None] = [None]
     if temperatures is not None:
         kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
         if not kelvins:
-            raise InputError("temperatures must hold at least one value.")
+            raise InputError("temperatures must hold at least one value.", code="empty-list")
     insist_on_function(progress, "progress")
     load = positive(pressure, "Pa", "pressure")
     calls: list[dict[str, Any]] = [
@@ -314,7 +314,7 @@ def solve_one(name: str, surface: PeriodicSurface | _OnDisk, **call: Any) -> _Nu
     try:
         solution = solve_periodic(surface=surface.read() if isinstance(surface, _OnDisk) else surface, **call)
     except ConvergenceError as error:
-        raise ConvergenceError(f"surface {name!r} at {call['speed']:g} m/s: {error}") from None
+        raise error.at(f"surface {name!r} at {call['speed']:g} m/s") from None
     described = contact_statistics(solution)
     return _Numbers(
         solution.friction_coefficient,
@@ -328,7 +328,10 @@ def solve_one(name: str, surface: PeriodicSurface | _OnDisk, **call: Any) -> _Nu
 def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:
     each = [surfaces] if isinstance(surfaces, (Topography, PeriodicSurface)) else surfaces
     if not isinstance(each, Sequence) or not each:
-        raise InputError(f"surfaces = {brief(surfaces)}: must be a Topography or PeriodicSurface, or a list of them.")
+        raise InputError(
+            f"surfaces = {brief(surfaces)}: must be a Topography or PeriodicSurface, or a list of them.",
+            code="wrong-type",
+        )
     found = []
     for place, one in enumerate(each, 1):
         if isinstance(one, Topography):
@@ -336,5 +339,7 @@ def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:
         elif isinstance(one, PeriodicSurface):
             found.append((f"surface {place}", one))
         else:
-            raise InputError(f"surfaces: number {place} is {brief(one)}, not a Topography or PeriodicSurface.")
+            raise InputError(
+                f"surfaces: number {place} is {brief(one)}, not a Topography or PeriodicSurface.", code="wrong-type"
+            )
     return found

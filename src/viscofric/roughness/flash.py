@@ -92,7 +92,8 @@ class Flash:
             rise = rise + step * change
         raise ConvergenceError(
             f"the flash temperature at {speed:g} m/s did not settle after {_MOST_ITERATIONS} iterations; it still "
-            f"changes by {largest:.2g} K."
+            f"changes by {largest:.2g} K.",
+            code="not-converged",
         )
 
     def rise(self, q: Array, log_weights: Array, speed: float, area: Array, dissipated: Array) -> Array:

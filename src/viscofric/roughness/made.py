@@ -178,7 +178,10 @@ def surface_from_spectrum(
     wanted = LineSpectrum if points[1] == 1 else PowerSpectrum
     other = PowerSpectrum if wanted is LineSpectrum else LineSpectrum
     if isinstance(spectrum, other) or not hasattr(spectrum, "__call__"):  # noqa: B004 - mypy knows callable() too well
-        raise InputError(f"spectrum = {brief(spectrum)}: must be a {wanted.__name__} for this shape, or a function.")
+        raise InputError(
+            f"spectrum = {brief(spectrum)}: must be a {wanted.__name__} for this shape, or a function.",
+            code="wrong-type",
+        )
     waves = _Waves(points, steps, seed, aspect, angle)
     if not waves.expected(spectrum, 0.0) > 0.0:
         raise InputError("the spectrum has no wave between the period and two points of the grid.", code="no-wave")
@@ -193,7 +196,7 @@ def _grid(
     points: tuple[int, ...] = shape if isinstance(shape, (tuple, list)) else (shape, 1)
     right = "the points along x (four at least) and y, or of a profile"
     if len(points) != 2:
-        raise InputError(f"shape = {brief(shape)}: must be {right}.")
+        raise InputError(f"shape = {brief(shape)}: must be {right}.", code="wrong-shape")
     points = tuple(whole_number(n, "shape", least, right=right) for n, least in zip(points, (4, 1), strict=True))
     check_cost(points, "shape: the surface")
     return (points[0], points[1]), two_lengths(spacing)
@@ -246,9 +249,13 @@ class _Waves:
         except InputError:
             raise
         except ValueError:  # another number of values
-            raise InputError("the spectrum must return one density for each of the wave numbers it is given.") from None
+            raise InputError(
+                "the spectrum must return one density for each of the wave numbers it is given.", code="wrong-length"
+            ) from None
         if not np.all(np.isfinite(found) & (found >= 0.0)):
-            raise InputError("the spectrum's density must be finite and not below zero at all wave numbers.")
+            raise InputError(
+                "the spectrum's density must be finite and not below zero at all wave numbers.", code="not-positive"
+            )
         return found
 
     def expected(self, density: Density, order: float) -> float:

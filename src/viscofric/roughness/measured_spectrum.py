@@ -102,7 +102,10 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     place = "xy".index(axis)
     points, step = topography.shape[place], topography.spacing[place]
     if points < 4:
-        raise InputError(f"axis = {axis!r}: a spectrum needs four points at least; there are {points} along it.")
+        raise InputError(
+            f"axis = {axis!r}: a spectrum needs four points at least; there are {points} along it.",
+            code="too-few-points",
+        )
     heights: Array = np.moveaxis(_windowed(topography, (place,)), place, 0)
     waves = np.square(np.abs(scipy.fft.rfft(heights, axis=0) / points)).mean(axis=1)
     q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, step).astype(np.float64)
@@ -115,7 +118,9 @@ def _insist(topography: object) -> None:
     from viscofric.roughness.topography import Topography
 
     if not isinstance(topography, Topography):
-        raise InputError(f"topography = {brief(topography)}: must be a Topography; see read_topography.")
+        raise InputError(
+            f"topography = {brief(topography)}: must be a Topography; see read_topography.", code="wrong-type"
+        )
 
 
 def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:
@@ -152,7 +157,9 @@ def _rings(
     mean_q = np.exp(np.bincount(ring, counts * np.log(q))[there] / weight[there])
     mean_density = np.bincount(ring, counts * density)[there] / weight[there]
     if len(mean_q) < 2:
-        raise InputError("the surface has waves of one length only; a power spectrum needs several.")
+        raise InputError(
+            "the surface has waves of one length only; a power spectrum needs several.", code="too-few-points"
+        )
     end = float(q.max())
     if start < mean_q[0] * (1.0 - 1e-6):
         mean_q, mean_density = np.append(start, mean_q), np.append(mean_density[0], mean_density)

@@ -174,14 +174,18 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
     else:
         limits = numbers(edges, "edges", infinite=True)
         if limits.ndim != 1 or len(limits) < 2 or not np.all(np.diff(limits) > 0.0):
-            raise InputError(f"edges = {brief(edges)}: must be two pressures at least, Pa, that increase.")
+            raise InputError(
+                f"edges = {brief(edges)}: must be two pressures at least, Pa, that increase.", code="not-ascending"
+            )
     counts, found = np.histogram(loaded, limits)
     return 0.5 * (found[1:] + found[:-1]), counts / (solution.pressure.size * np.diff(found))
 
 
 def _insist(solution: object) -> None:
     if not isinstance(solution, PeriodicSolution):
-        raise InputError(f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().")
+        raise InputError(
+            f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().", code="wrong-type"
+        )
 
 
 def _patches(loaded: Mask) -> int:

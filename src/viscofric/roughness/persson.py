@@ -171,26 +171,28 @@ def persson_theory(
     """
     insist_on_material(material)
     if not isinstance(spectrum, PowerSpectrum):
-        raise InputError(f"spectrum = {brief(spectrum)}: must be a PowerSpectrum; see power_spectrum(topography).")
+        raise InputError(
+            f"spectrum = {brief(spectrum)}: must be a PowerSpectrum; see power_spectrum(topography).", code="wrong-type"
+        )
     velocities = to_si_array(speeds, "m/s", "speeds")
     if not velocities.size or not np.all(velocities >= 0.0):
-        raise InputError("speeds must hold at least one value, none of them below zero.")
+        raise InputError("speeds must hold at least one value, none of them below zero.", code="empty-list")
     kelvins: list[float | None] = [None]
     if temperatures is not None:
         kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
         if not kelvins:
-            raise InputError("temperatures must hold at least one value.")
+            raise InputError("temperatures must hold at least one value.", code="empty-list")
     sharing = to_si(gamma, "dimensionless", "gamma")
     if not 0.0 <= sharing <= 1.0:
-        raise InputError(f"gamma = {sharing:g}: must lie between 0 and 1.")
+        raise InputError(f"gamma = {sharing:g}: must lie between 0 and 1.", code="out-of-range")
     wanted = to_si(accuracy, "dimensionless", "accuracy")
     if not _CLOSEST <= wanted <= _LOOSEST:
-        raise InputError(f"accuracy = {wanted:g}: must lie between {_CLOSEST:g} and {_LOOSEST:g}.")
+        raise InputError(f"accuracy = {wanted:g}: must lie between {_CLOSEST:g} and {_LOOSEST:g}.", code="out-of-range")
     spots = share(macroasperity_area, "macroasperity_area", example=0.3)
     flash = None
     if thermal is not None:
         if not isinstance(thermal, ThermalProperties):
-            raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.")
+            raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.", code="wrong-type")
         if material.shift is None or temperatures is None:
             raise InputError(
                 "thermal: a flash temperature needs a material with a shift, and temperatures.", code="no-shift"

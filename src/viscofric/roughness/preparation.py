@@ -37,7 +37,7 @@ def without_trend(heights: Array, what: str) -> tuple[Array, str]:
         (i, j) for i in range(_DEGREES[what] + 1) for j in range(_DEGREES[what] + 1 - i if heights.shape[1] > 1 else 1)
     ]
     if np.count_nonzero(known) < len(pairs):
-        raise InputError(f"the {what} has {len(pairs)} terms, more than there are heights.")
+        raise InputError(f"the {what} has {len(pairs)} terms, more than there are heights.", code="too-few-points")
     # Normal equations, term by term, so that a large scan is not copied once per term.
     z = np.where(known, heights, 0.0)
     weight = known.astype(float)
@@ -54,7 +54,7 @@ def tapered(heights: Array, edge: float) -> Array:
     """Return heights that fall to their mean towards all edges, over a share of each length."""
     share = to_si(edge, "dimensionless", "edge")
     if not 0.0 < share <= 0.5:
-        raise InputError(f"edge = {share:g}: must lie above 0 and be 0.5 at most.")
+        raise InputError(f"edge = {share:g}: must lie above 0 and be 0.5 at most.", code="out-of-range")
     window = np.ones(heights.shape)
     for axis, points in enumerate(heights.shape):
         if points > 1:
@@ -85,12 +85,15 @@ def cropped(
         except (TypeError, ValueError) as error:
             if isinstance(error, InputError):
                 raise
-            raise InputError(f"{axis} = {brief(given)}: must be two positions, from and to.") from None
+            raise InputError(
+                f"{axis} = {brief(given)}: must be two positions, from and to.", code="wrong-count"
+            ) from None
         # A position counts as on a point within a millionth of the spacing.
         start, stop = max(math.ceil(first / step - 1e-6), 0), min(math.floor(last / step + 1e-6) + 1, points)
         if stop - start < (2 if axis == "x" else 1):
             raise InputError(
-                f"{axis} = {brief(given)}: too few points lie there; it ends at {(points - 1) * step:.4g} m."
+                f"{axis} = {brief(given)}: too few points lie there; it ends at {(points - 1) * step:.4g} m.",
+                code="too-few-points",
             )
         cut.append(slice(start, stop))
         steps.append(f"{axis} from {start * step:.4g} to {(stop - 1) * step:.4g} m")
@@ -113,7 +116,9 @@ def resampled(
         length = (points - 1) * given
         count = math.floor(length / step * (1.0 + 1e-9)) + 1
         if count < 2:
-            raise InputError(f"spacing = {step:g} m: fewer than two points would be left of {length:.4g} m.")
+            raise InputError(
+                f"spacing = {step:g} m: fewer than two points would be left of {length:.4g} m.", code="too-few-points"
+            )
         cell = round(step / given)
         if cell > 1:
             heights = uniform_filter1d(heights, cell, axis, mode="nearest")

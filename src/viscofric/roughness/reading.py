@@ -89,7 +89,7 @@ def read_topography(
     try:
         found = Topography(heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.origin, *notes))
     except InputError as error:
-        raise DataFileError(path, str(error)) from None
+        raise DataFileError(path, error.note) from None
     if found.missing == found.heights.size:
         raise DataFileError(path, "holds no height at all: all of its points are without a reading.", code="no-points")
     return found

@@ -104,7 +104,9 @@ def friction_by_wavelength(
     True
     """
     if not isinstance(solution, PeriodicSolution):
-        raise InputError(f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().")
+        raise InputError(
+            f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().", code="wrong-type"
+        )
     whole_number(per_decade, "per_decade", 1, MOST_PER_DECADE)
     shape = solution.pressure.shape[0], solution.pressure.shape[1]
     spacing = tuple(float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (solution.x, solution.y))
@@ -133,7 +135,7 @@ def _limits(edges: Quantities | None, q: Array, per_decade: int) -> Array:
     if edges is not None:
         given = np.sort(to_si_array(edges, "m", "edges"))[::-1]
         if len(given) < 2 or given[-1] <= 0.0 or np.any(np.diff(given) == 0.0):
-            raise InputError("edges: must be two wavelengths at least, different and above zero.")
+            raise InputError("edges: must be two wavelengths at least, different and above zero.", code="not-positive")
         return given
     first, last = float(q.min()), float(q[np.isfinite(q)].max())
     count = max(1, math.ceil(per_decade * math.log10(last / first) - _ROUNDING))

@@ -195,7 +195,7 @@ def hurst_exponent(hurst: float) -> float:
     """Return a Hurst exponent, above 0 and at most 1, or raise `InputError`."""
     H = to_si(hurst, "dimensionless", "hurst")
     if not 0.0 < H <= 1.0:
-        raise InputError(f"hurst = {H:g}: must lie above 0 and be 1 at most, such as 0.8.")
+        raise InputError(f"hurst = {H:g}: must lie above 0 and be 1 at most, such as 0.8.", code="out-of-range")
     return H
 
 
@@ -275,14 +275,15 @@ def _checked(q: ArrayLike, density: ArrayLike) -> tuple[Array, Array]:
     if found[0].ndim != 1 or found[0].shape != found[1].shape or found[0].size < 2:
         raise InputError(
             f"a power spectrum must be two rows of equal length, two points at least, not {np.shape(q)} wave numbers "
-            f"and {np.shape(density)} densities."
+            f"and {np.shape(density)} densities.",
+            code="wrong-length",
         )
     for values, name in zip(found, ("wave numbers", "densities"), strict=True):
         if not np.all(np.isfinite(values) & (values > 0.0)):
-            raise InputError(f"a power spectrum's {name} must be finite and above zero.")
+            raise InputError(f"a power spectrum's {name} must be finite and above zero.", code="not-positive")
         values.flags.writeable = False
     if not np.all(np.diff(found[0]) > 0.0):
-        raise InputError("a power spectrum's wave numbers must increase from point to point.")
+        raise InputError("a power spectrum's wave numbers must increase from point to point.", code="not-ascending")
     return found
 
 

@@ -78,10 +78,14 @@ class Topography:
         if z.ndim != 2 or z.shape[0] < 2 or z.size == 0:
             raise InputError(
                 "heights of a topography must be (nx, ny) of them, or a row, two at least along x; they have the "
-                f"shape {np.shape(heights)}."
+                f"shape {np.shape(heights)}.",
+                code="not-heights",
             )
         if np.any(np.isinf(z)):
-            raise InputError(f"heights of a topography: {np.count_nonzero(np.isinf(z))} are infinite; NaN is missing.")
+            raise InputError(
+                f"heights of a topography: {np.count_nonzero(np.isinf(z))} are infinite; NaN is missing.",
+                code="not-finite",
+            )
         z.flags.writeable = False
         object.__setattr__(self, "heights", z)
         object.__setattr__(self, "spacing", two_lengths(spacing))

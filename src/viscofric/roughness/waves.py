@@ -88,7 +88,9 @@ def resampled(
         period = points * spacing[axis]
         count = round(period / step)
         if count < 2:
-            raise InputError(f"spacing = {step:g} m: fewer than two points would be left of {period:.4g} m.")
+            raise InputError(
+                f"spacing = {step:g} m: fewer than two points would be left of {period:.4g} m.", code="too-few-points"
+            )
         heights = _resampled_along(heights, axis, count)
         found[axis] = period / count
     return heights, (found[0], found[1])

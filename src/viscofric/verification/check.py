@@ -184,5 +184,5 @@ def select(checks: Sequence[Check], names: Sequence[str]) -> tuple[Check, ...]:
 
             near = difflib.get_close_matches(name, known, n=1)
             hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(one.name for one in checks)}."
-            raise InputError(f"there is no check named {name!r}; {hint}")
+            raise InputError(f"there is no check named {name!r}; {hint}", code="unknown-check")
     return tuple(one for one in checks if one.name in names or one.group in names)

@@ -85,7 +85,9 @@ def stages(geometry: Geometry, solid: SteadyMaterial, extent: tuple[float, float
         height = problem.shape.height(window.x[:, None] - shift * window.spacing, window.y)
         result = problem.control.solve(operator, height, pressure, problem.tolerance)
         if not result.converged:
-            raise ConvergenceError(f"the contact did not converge on {window.shape[0]} x {window.shape[1]} cells.")
+            raise ConvergenceError(
+                f"the contact did not converge on {window.shape[0]} x {window.shape[1]} cells.", code="not-converged"
+            )
         found.append(Stage(problem, window, operator, result))
         finer = window.refined()
         pressure, window = window.resample(result.pressure, finer), finer

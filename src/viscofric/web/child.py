@@ -134,7 +134,8 @@ class Desk:
         if len(body) > LARGEST_MESSAGE:
             raise ViscofricError(
                 f"The reply has {len(body) / 1e6:.0f} MB, more than a browser is handed "
-                f"({LARGEST_MESSAGE / 1e6:.0f} MB); ask for fewer points."
+                f"({LARGEST_MESSAGE / 1e6:.0f} MB); ask for fewer points.",
+                code="too-large",
             )
         self._replies.put(f"{number} {event} {'stays' if stays else 'ends'} {len(body)}\n".encode() + body)
 

@@ -47,7 +47,9 @@ def bound(host: str, port: int) -> socket.socket:
             return _listening(host, wanted)
         except OSError as error:
             last = error
-    raise ViscofricError(f"The page cannot be served at {host}:{port} ({last.strerror or last}).") from None
+    raise ViscofricError(
+        f"The page cannot be served at {host}:{port} ({last.strerror or last}).", code="not-served"
+    ) from None
 
 
 def _listening(host: str, port: int) -> socket.socket:
@@ -100,7 +102,7 @@ def serve(
     from viscofric.web.workspace import Workspaces
 
     if not all(map(importlib.util.find_spec, ("fastapi", "uvicorn", "tomli_w"))):
-        raise ViscofricError(_NO_EXTRA)
+        raise ViscofricError(_NO_EXTRA, code="not-installed")
     with contextlib.ExitStack() as stack, _stopped_by_signals() as stopping:
         listening = stack.enter_context(bound(host, port))
         door = Door(listening.getsockname()[1], host)

@@ -67,6 +67,7 @@ def check_confined(document: dict[str, Any]) -> None:
                 raise JobError(
                     f"{named.place}: '{name[:200]}' is no file of the page; upload it, and give its name alone.",
                     named.place,
+                    code="file-not-here",
                 )
 
 
@@ -94,7 +95,7 @@ def opened_study(path: Path) -> tuple[dict[str, Any], dict[str, Path]]:
     study = parse_study(text, path)
     for one in study.inputs:
         if not one.is_file():
-            raise DataFileError(one, "no such file.")
+            raise DataFileError(one, "no such file.", code="no-file")
     document = parse_toml(text)
     files: dict[str, Path] = {}
     for named in named_files(document):

@@ -48,12 +48,18 @@ def checked_name(name: str) -> str:
     name = unicodedata.normalize("NFC", name)
     if not name or name != name.strip() or name.startswith(".") or name.endswith("."):
         raise InputError(
-            f"{brief(name)} is not the name of a file; it has a letter or more, and no dot or space around it."
+            f"{brief(name)} is not the name of a file; it has a letter or more, and no dot or space around it.",
+            code="not-a-name",
         )
     if _NOT_IN_NAMES.search(name) or _DEVICE.match(name):
-        raise InputError(f"{brief(name)} is not a plain name of a file that every system can have, like 'sweeps.csv'.")
+        raise InputError(
+            f"{brief(name)} is not a plain name of a file that every system can have, like 'sweeps.csv'.",
+            code="not-a-name",
+        )
     if len(name.encode()) > _LONGEST_NAME:
-        raise InputError(f"{brief(name)} is too long for the name of a file; at most {_LONGEST_NAME} bytes.")
+        raise InputError(
+            f"{brief(name)} is too long for the name of a file; at most {_LONGEST_NAME} bytes.", code="too-long"
+        )
     return name
 
 
@@ -94,11 +100,18 @@ class Workspace:
         """
         others = [size for other, size in self.listing() if other != name]
         if len(content) > LARGEST_UPLOAD:
-            raise InputError(f"{name} has more than {LARGEST_UPLOAD / 1e6:.0f} MB, too much for measurements.")
+            raise InputError(
+                f"{name} has more than {LARGEST_UPLOAD / 1e6:.0f} MB, too much for measurements.", code="too-large"
+            )
         if len(others) >= MOST_FILES:
-            raise InputError(f"There are {len(others)} files already, and no more can be kept; remove some first.")
+            raise InputError(
+                f"There are {len(others)} files already, and no more can be kept; remove some first.",
+                code="too-many-files",
+            )
         if sum(others) + len(content) > _MOST_BYTES:
-            raise InputError(f"All files together have more than {_MOST_BYTES / 1e6:.0f} MB; remove some first.")
+            raise InputError(
+                f"All files together have more than {_MOST_BYTES / 1e6:.0f} MB; remove some first.", code="no-space"
+            )
         handle, temporary = tempfile.mkstemp(dir=self.files, prefix=".")
         with os.fdopen(handle, "wb") as file:
             file.write(content)
@@ -147,7 +160,9 @@ class Workspaces:
         while len(self._known) >= _MOST_WORKSPACES:
             resting = [one for one, workspace in self._known.items() if not workspace.jobs]
             if not resting:
-                raise InputError(f"{len(self._known)} tabs are at work already; close some first.")
+                raise InputError(
+                    f"{len(self._known)} tabs are at work already; close some first.", code="too-many-tabs"
+                )
             oldest = min(resting, key=lambda one: self._known[one].used)
             shutil.rmtree(self._known.pop(oldest).folder, ignore_errors=True)
         workspace = Workspace(self.root / f"{len(key)}-{key.encode().hex()}")

@@ -166,10 +166,13 @@ def spacing(position: ArrayLike, name: str) -> float:
     """
     centres = numbers(position, name)
     if centres.ndim != 1 or len(centres) < 2:
-        raise InputError(f"{name} must be an array of at least two cell centres; its shape is {centres.shape}.")
+        raise InputError(
+            f"{name} must be an array of at least two cell centres; its shape is {centres.shape}.",
+            code="too-few-points",
+        )
     step = (centres[-1] - centres[0]) / (len(centres) - 1)
     if not step > 0.0 or np.any(np.abs(np.diff(centres) - step) > _UNEVEN * step):
-        raise InputError(f"{name} must ascend in equal steps.")
+        raise InputError(f"{name} must ascend in equal steps.", code="not-ascending")
     return float(step)
 
 
@@ -183,7 +186,9 @@ def on_cells(values: ArrayLike, shape: tuple[int, ...], name: str) -> Array:
     """
     array = numbers(values, name)
     if array.shape != shape:
-        raise InputError(f"{name} must have one value for each cell, {shape}; its shape is {array.shape}.")
+        raise InputError(
+            f"{name} must have one value for each cell, {shape}; its shape is {array.shape}.", code="wrong-length"
+        )
     return array
 
 

@@ -240,7 +240,7 @@ def _planes(load: Array, depths: ArrayLike, influence: Callable[[float], Array])
     columns = []
     below = to_si_array(depths, "m", "depths")
     if not below.size:
-        raise InputError("depths must hold at least one depth.")
+        raise InputError("depths must hold at least one depth.", code="empty-list")
     for depth in below.tolist():
         ahead = influence(_depth(depth))
         circulant = np.zeros((6, padded, load.shape[1]))

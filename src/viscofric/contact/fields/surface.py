@@ -146,7 +146,7 @@ def surface_displacement(
     aspect = 1.0 if abs(width / step - 1.0) < _NOT_SQUARE else width / step
     beyond = [to_si(value, "m", name) for name, value in (("behind", behind), ("ahead", ahead), ("beside", beside))]
     if min(beyond) < 0.0:
-        raise InputError("behind, ahead and beside must not be negative.")
+        raise InputError("behind, ahead and beside must not be negative.", code="not-positive")
     sliding = velocity(speed)
     modes = _Modes.at(sliding, E_inf, C, tau, step)
     below, above = (math.ceil(distance / step - 1e-9) for distance in beyond[:2])
@@ -155,7 +155,10 @@ def surface_displacement(
     sides = 0 if is_line else math.ceil(beyond[2] / width - 1e-9)
     cells = (len(along) + below + above) * (len(across) + 2 * sides)
     if cells > LARGEST or sides > WIDEST:
-        raise InputError(f"the window has {cells} cells, more than {LARGEST}, or is too wide; give smaller distances.")
+        raise InputError(
+            f"the window has {cells} cells, more than {LARGEST}, or is too wide; give smaller distances.",
+            code="too-large",
+        )
     larger = np.pad(load, ((below, above), (sides, sides)))
     # The influence functions hold for motion towards +x.
     mirrored = larger[::-1] if sliding < 0.0 else larger
@@ -186,9 +189,12 @@ class _Modes:
     def at(cls, speed: float, E_inf: float, C: ArrayLike, tau: ArrayLike, step: float) -> _Modes:
         compliances, times = numbers(C, "C"), numbers(tau, "tau")
         if compliances.ndim != 1 or compliances.shape != times.shape:
-            raise InputError(f"C and tau must be as many: their shapes are {compliances.shape} and {times.shape}.")
+            raise InputError(
+                f"C and tau must be as many: their shapes are {compliances.shape} and {times.shape}.",
+                code="wrong-length",
+            )
         if np.any(compliances < 0.0) or np.any(times <= 0.0):
-            raise InputError("tau must be above zero, and C must not be below it.")
+            raise InputError("tau must be above zero, and C must not be below it.", code="not-positive")
         glassy = 1.0 / positive(E_inf, "Pa", "E_inf")
         if speed == 0.0:
             glassy += float(compliances.sum())

@@ -65,7 +65,9 @@ class HeightMap(Indenter):
         z = _heights(self.z, 2)
         pair = self.spacing if isinstance(self.spacing, (tuple, list)) else (self.spacing, self.spacing)
         if len(pair) != 2:
-            raise InputError(f"spacing = {self.spacing!r}: must be one length, or two, along x and along y.")
+            raise InputError(
+                f"spacing = {self.spacing!r}: must be one length, or two, along x and along y.", code="wrong-count"
+            )
         spacing = (positive(pair[0], "m", "spacing along x"), positive(pair[1], "m", "spacing along y"))
         lowest = np.unravel_index(int(np.argmin(z)), z.shape)
         object.__setattr__(self, "z", z)
@@ -227,7 +229,8 @@ def _heights(z: ArrayLike, dimensions: int) -> Array:
         shape = " x ".join(str(count) for count in heights.shape) or "a single number"
         raise InputError(
             f"z: the heights are {shape}, but must be a {dimensions}-dimensional array of at least {_FEWEST} points "
-            "along each axis."
+            "along each axis.",
+            code="not-heights",
         )
     heights.setflags(write=False)
     return heights

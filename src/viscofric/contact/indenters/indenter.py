@@ -95,7 +95,9 @@ class Indenter(ABC):
 def insist_on_indenter(given: object) -> None:
     """Raise `InputError` where something else is given."""
     if not isinstance(given, Indenter):
-        raise InputError(f"indenter = {brief(given)}: must be an indenter, such as Ball(radius='10 mm').")
+        raise InputError(
+            f"indenter = {brief(given)}: must be an indenter, such as Ball(radius='10 mm').", code="wrong-type"
+        )
 
 
 def insist_on_round_edges(indenter: Indenter) -> None:

@@ -201,7 +201,9 @@ class Cone(Indenter):
     def __post_init__(self) -> None:
         angle = positive(self.angle, "rad", "angle")
         if angle >= 0.5 * math.pi:
-            raise InputError(f"angle = {self.angle!r}: must be less than a right angle, such as '10 deg'.")
+            raise InputError(
+                f"angle = {self.angle!r}: must be less than a right angle, such as '10 deg'.", code="out-of-range"
+            )
         object.__setattr__(self, "angle", angle)
 
     def height(self, x: Array, y: Array) -> Array:

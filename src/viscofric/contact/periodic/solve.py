@@ -123,11 +123,14 @@ def solve_periodic(
     (True, 0.0001465)
     """
     if not hasattr(material, "poisson_ratio"):
-        raise InputError(f"material = {brief(material)}: must be a Material, such as vf.read_card('rubber.json').")
+        raise InputError(
+            f"material = {brief(material)}: must be a Material, such as vf.read_card('rubber.json').", code="wrong-type"
+        )
     whole_number(most_products, "most_products", 1)
     if not hasattr(surface, "z"):  # of a topography, heights may be missing, or not repeat themselves
         raise InputError(
-            f"surface = {brief(surface)}: must be a PeriodicSurface, such as that of Topography.to_surface()."
+            f"surface = {brief(surface)}: must be a PeriodicSurface, such as that of Topography.to_surface().",
+            code="wrong-type",
         )
     sliding, toward = velocity(speed), unit_direction(direction)
     if (pressure is None) == (gap is None):
@@ -136,9 +139,13 @@ def solve_periodic(
             f"pressure and gap: {both} given; give exactly one of them, mean pressure or mean gap.", code="give-one"
         )
     if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST:
-        raise InputError(f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.")
+        raise InputError(
+            f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.", code="out-of-range"
+        )
     if not (layer is None or isinstance(layer, Layer)):
-        raise InputError(f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').")
+        raise InputError(
+            f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
+        )
     where = Backend.of(backend)
     modulus = material.at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")

@@ -68,7 +68,8 @@ class PeriodicSurface:
         if heights.ndim != 2 or heights.size < 2:
             raise InputError(
                 f"z of a periodic surface must be heights on (nx, ny) points or on a row of them, two at least; it has "
-                f"the shape {np.shape(z)}."
+                f"the shape {np.shape(z)}.",
+                code="not-heights",
             )
         if np.ptp(heights) == 0.0:
             raise InputError(

@@ -21,7 +21,7 @@ def poisson(value: float) -> float:
     """
     ratio = to_si(value, "dimensionless", "poisson_ratio")
     if not 0.0 <= ratio <= 0.5:
-        raise InputError(f"poisson_ratio = {ratio:g}: must lie between 0 and 0.5.")
+        raise InputError(f"poisson_ratio = {ratio:g}: must lie between 0 and 0.5.", code="poisson-ratio")
     return ratio
 
 

@@ -195,11 +195,15 @@ class _Strips:
         ratio = positive(glassy, "Pa", "glassy_foundation") / M
         memory = positive(speed, "m/s", "speed") * positive(tau, "s", "tau") / a0
         if not MODULUS_RANGE[0] <= ratio <= MODULUS_RANGE[1]:
-            raise InputError(f"glassy_foundation/foundation = {ratio:g}: must lie between 1 and {MODULUS_RANGE[1]:g}.")
+            raise InputError(
+                f"glassy_foundation/foundation = {ratio:g}: must lie between 1 and {MODULUS_RANGE[1]:g}.",
+                code="out-of-range",
+            )
         if not MEMORY_RANGE[0] <= memory <= MEMORY_RANGE[1]:
             raise InputError(
                 f"speed × tau is {memory:g} elastic half-widths: must lie between {MEMORY_RANGE[0]:g} and "
-                f"{MEMORY_RANGE[1]:g}."
+                f"{MEMORY_RANGE[1]:g}.",
+                code="out-of-range",
             )
         return cls(ratio, memory)
 

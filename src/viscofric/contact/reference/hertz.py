@@ -187,7 +187,8 @@ def hertz_ellipse(
     if wanted > math.log(1e9):
         raise InputError(
             f"the radii {radii[0]:g} m and {radii[1]:g} m are more than a factor of 1e9 apart: this is a line contact; "
-            "use hertz_line."
+            "use hertz_line.",
+            code="out-of-range",
         )
 
     def mismatch(log_g: float) -> float:

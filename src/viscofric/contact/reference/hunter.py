@@ -145,12 +145,13 @@ def hunter_line(
     hertz = hertz_line(load_per_length, radius, E0, poisson_ratio)
     ratio = plane_strain_modulus(E_inf, poisson_ratio, "E_inf") / plane_strain_modulus(E0, poisson_ratio, "E0")
     if not MODULUS_RANGE[0] <= ratio <= MODULUS_RANGE[1]:
-        raise InputError(f"E_inf/E0 = {ratio:g}: must lie between 1 and {MODULUS_RANGE[1]:g}.")
+        raise InputError(f"E_inf/E0 = {ratio:g}: must lie between 1 and {MODULUS_RANGE[1]:g}.", code="out-of-range")
     memory = positive(speed, "m/s", "speed") * positive(tau, "s", "tau") / hertz.half_width
     if not MEMORY_RANGE[0] <= memory <= MEMORY_RANGE[1]:
         raise InputError(
             f"speed × tau is {memory:g} Hertz half-widths: must lie between {MEMORY_RANGE[0]:g} and "
-            f"{MEMORY_RANGE[1]:g}; beyond, the contact is Hertz's with E0 or E_inf."
+            f"{MEMORY_RANGE[1]:g}; beyond, the contact is Hertz's with E0 or E_inf.",
+            code="out-of-range",
         )
     edges = _edges(ratio, memory)
     slope = hertz.half_width / positive(radius, "m", "radius")

@@ -75,13 +75,14 @@ def foundation_modulus(
     K. L. Johnson, Contact Mechanics (1985), Sec. 5.8.
     """
     if base not in ("bonded", "frictionless"):
-        raise InputError(f"base = {base!r}: must be 'bonded' or 'frictionless'.")
+        raise InputError(f"base = {base!r}: must be 'bonded' or 'frictionless'.", code="wrong-choice")
     E, nu = positive(modulus, "Pa", "modulus"), poisson(poisson_ratio)
     if base == "frictionless":
         return E / (1.0 - nu**2)
     if nu == 0.5:
         raise InputError(
-            "poisson_ratio = 0.5: a bonded incompressible layer is no foundation; see incompressible_ball."
+            "poisson_ratio = 0.5: a bonded incompressible layer is no foundation; see incompressible_ball.",
+            code="incompressible",
         )
     return E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
 

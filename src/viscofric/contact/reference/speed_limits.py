@@ -146,14 +146,16 @@ def high_speed_line_friction(
 def _moving(speed: Quantity) -> float:
     value = to_si(speed, "m/s", "speed")
     if value == 0.0:
-        raise InputError("speed = 0: the law of high speed needs a speed.")
+        raise InputError("speed = 0: the law of high speed needs a speed.", code="no-speed")
     return value
 
 
 def _modes(C: Quantities, tau: Quantities) -> tuple[Array, Array]:
     compliance, time = to_si_array(C, "1/Pa", "C"), to_si_array(tau, "s", "tau")
     if compliance.shape != time.shape:
-        raise InputError(f"C and tau must be as many: there are {len(compliance)} and {len(time)}.")
+        raise InputError(
+            f"C and tau must be as many: there are {len(compliance)} and {len(time)}.", code="wrong-length"
+        )
     if np.any(compliance < 0.0) or np.any(time <= 0.0):
-        raise InputError("C must not be below zero and tau must be above zero in every mode.")
+        raise InputError("C must not be below zero and tau must be above zero in every mode.", code="not-positive")
     return compliance, time

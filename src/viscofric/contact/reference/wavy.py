@@ -111,7 +111,9 @@ class CrossedWaves:
         """
         if mean_pressure < self.full_contact_pressure:
             raise InputError(
-                f"mean_pressure = {mean_pressure:g} Pa: contact is full from {self.full_contact_pressure:g} Pa on only."
+                f"mean_pressure = {mean_pressure:g} Pa: contact is full from "
+                f"{self.full_contact_pressure:g} Pa on only.",
+                code="partial-contact",
             )
         q = 2.0 * np.pi / self.wavelength
         wave = np.cos(q * np.asarray(x, dtype=float)) * np.cos(q * np.asarray(y, dtype=float))
@@ -216,8 +218,12 @@ def full_contact_wave(
     steepness = q * positive(amplitude, "m", "amplitude")
     modulus = complex(complex_modulus)
     if modulus.real <= 0.0 or modulus.imag < 0.0:
-        raise InputError(f"complex_modulus = {modulus}: E' must be above zero and E'' not below it.")
+        raise InputError(
+            f"complex_modulus = {modulus}: E' must be above zero and E'' not below it.", code="not-positive"
+        )
     wave = steepness * modulus / (2.0 * (1.0 - poisson(poisson_ratio) ** 2))
     if abs(wave) > mean:
-        raise InputError(f"mean_pressure = {mean:g} Pa: contact is full from {abs(wave):g} Pa on only.")
+        raise InputError(
+            f"mean_pressure = {mean:g} Pa: contact is full from {abs(wave):g} Pa on only.", code="partial-contact"
+        )
     return FullContactWave(mean, wave.real, wave.imag, q, 0.5 * steepness * wave.imag / mean)

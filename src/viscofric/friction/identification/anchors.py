@@ -32,7 +32,10 @@ _LOAD_STEP = 0.05
 def _relative(error: float) -> float:
     value = positive(error, "dimensionless", "error of the anchor")
     if value >= 1.0:
-        raise InputError(f"error of the anchor = {value:g}: must be a relative standard error below 1, such as 0.02.")
+        raise InputError(
+            f"error of the anchor = {value:g}: must be a relative standard error below 1, such as 0.02.",
+            code="out-of-range",
+        )
     return value
 
 
@@ -124,7 +127,8 @@ class ContactAnchor:
         if len(given) != 1:
             raise InputError(
                 f"a contact anchor has {' and '.join(given) or 'no size'}; give exactly one of indentation, "
-                "contact_area and half_width."
+                "contact_area and half_width.",
+                code="give-one",
             )
         for name, unit in (("speed", "m/s"), ("temperature", "K"), *((name, _UNITS[name]) for name in given)):
             object.__setattr__(self, name, positive(getattr(self, name), unit, name))

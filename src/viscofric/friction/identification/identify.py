@@ -168,7 +168,7 @@ def identify_material(
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
     moduli = anchored(one for one in anchors if isinstance(one, ModulusAnchor))
     if prior is None and prior_band is not None:
-        raise InputError(f"prior_band = {brief(prior_band)}: belongs to a prior; give it too.")
+        raise InputError(f"prior_band = {brief(prior_band)}: belongs to a prior; give it too.", code="no-prior")
     if prior is not None:
         moduli.append(known_part(prior, prior_band, prior_error, shifts.reference))
     sizes = tuple(one for one in anchors if isinstance(one, ContactAnchor))
@@ -196,8 +196,10 @@ def _check_numbers(**numbers: int) -> None:
 def _check_parts(levels: Sequence[float], **parts: float) -> None:
     for name, value in parts.items():
         if positive(value, "dimensionless", name) >= 1.0:
-            raise InputError(f"{name} = {value!r}: must be a relative error above 0 and below 1.")
+            raise InputError(f"{name} = {value!r}: must be a relative error above 0 and below 1.", code="out-of-range")
     if not isinstance(levels, (tuple, list)):
-        raise InputError(f"levels = {brief(levels)}: must be factors of the modulus, such as (0.5, 1.0, 2.0).")
+        raise InputError(
+            f"levels = {brief(levels)}: must be factors of the modulus, such as (0.5, 1.0, 2.0).", code="not-a-number"
+        )
     for one in levels:
         positive(one, "dimensionless", "levels")

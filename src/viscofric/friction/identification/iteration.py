@@ -64,7 +64,9 @@ def weighed(problem: Problem, start: Array) -> list[Weighed]:
             place = minimum.place
     settled = [found[number] for number in sorted(found) if found[number].minimum.settled]
     if not settled:
-        raise ConvergenceError("the fit of the spectrum to the friction does not settle; give an anchor or a prior.")
+        raise ConvergenceError(
+            "the fit of the spectrum to the friction does not settle; give an anchor or a prior.", code="not-converged"
+        )
     return settled
 
 
@@ -112,7 +114,8 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
             raise ConvergenceError(
                 f"the identification did not settle with contacts solved for {number} rubbers: the friction should "
                 f"still change by {100.0 * float(np.sqrt(np.mean(change**2))):.2g} %; give an anchor, a prior or fewer "
-                "modes."
+                "modes.",
+                code="not-converged",
             )
         here = moved._replace(problem=replace(moved.problem, observations=observations))
 

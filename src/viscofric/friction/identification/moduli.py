@@ -107,7 +107,7 @@ def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: floa
         own = prior.frequency_range
     else:
         kind = type(prior).__name__
-        raise InputError(f"prior must be a Material, MaterialSamples or a MasterCurve, not {kind}.")
+        raise InputError(f"prior must be a Material, MaterialSamples or a MasterCurve, not {kind}.", code="wrong-type")
     low, high = _checked(own if band is None else band)
     count = max(2, round(PER_DECADE * np.log10(high / low)) + 1)
     frequency = np.geomspace(low, high, count)
@@ -130,7 +130,9 @@ def _of_curve(curve: MasterCurve, band: tuple[Quantity, Quantity] | None, error:
     )
     within = (curve.angular_frequency >= low) & (curve.angular_frequency <= high)
     if not within.any():
-        raise InputError(f"prior_band = {low:.3g} to {high:.3g} rad/s: the master curve has no point there.")
+        raise InputError(
+            f"prior_band = {low:.3g} to {high:.3g} rad/s: the master curve has no point there.", code="no-points"
+        )
     E = curve.complex_modulus[within]
     columns = np.log(np.stack([curve.angular_frequency[within], E.real, E.imag]))
     part = np.floor(PER_DECADE * columns[0] / np.log(10.0))
@@ -151,11 +153,17 @@ def _checked(band: tuple[Quantity, Quantity] | None) -> tuple[float, float]:
     if band is None:
         raise InputError(
             "prior_band is missing: the measured frequencies of a material that was not fitted are unknown; give "
-            "(lowest, highest) in rad/s at its reference temperature."
+            "(lowest, highest) in rad/s at its reference temperature.",
+            code="no-prior-band",
         )
     if np.shape(band) != (2,):
-        raise InputError(f"prior_band = {band!r}: must be two frequencies, such as ('0.1 Hz', '10 Hz').")
+        raise InputError(
+            f"prior_band = {band!r}: must be two frequencies, such as ('0.1 Hz', '10 Hz').", code="wrong-count"
+        )
     low, high = (float(frequency_of(end, "prior_band")) for end in band)
     if low >= high:
-        raise InputError(f"prior_band = {low:g} to {high:g} rad/s: must be two frequencies above zero that ascend.")
+        raise InputError(
+            f"prior_band = {low:g} to {high:g} rad/s: must be two frequencies above zero that ascend.",
+            code="not-positive",
+        )
     return low, high

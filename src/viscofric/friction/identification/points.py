@@ -78,7 +78,8 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
     if load is None and len(curves) and curves.load_unit != unit:
         raise InputError(
             f"load of the friction curves is in {curves.load_unit}, but a {indenter.noun} takes a load in {unit}; "
-            "give the indenter that was measured with, or load=."
+            "give the indenter that was measured with, or load=.",
+            code="load-unit",
         )
     notes: list[str] = []
     if len(curves) and not np.any(np.isfinite(curves.viscoelastic_error)):
@@ -93,7 +94,8 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
     if len(rows) < FEWEST_POINTS:
         raise InputError(
             f"friction curves hold {len(rows)} usable points: too few to identify a material; give {FEWEST_POINTS} or "
-            "more, better ten per decade of reduced speed."
+            "more, better ten per decade of reduced speed.",
+            code="too-few-points",
         )
     friction = curves.viscoelastic[rows]
     if not np.all(friction > 0.0):
@@ -152,7 +154,8 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
     if freedom < FEWEST_POINTS:
         raise InputError(
             "friction curves have no standard errors that are known, and too few points at each temperature to find "
-            "the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard error')."
+            "the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard error').",
+            code="no-errors",
         )
     error = float(np.sqrt(squares / max(freedom - 2.0, 0.5 * freedom)))  # of Student's distribution
     note = Note(

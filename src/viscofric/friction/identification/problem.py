@@ -84,7 +84,8 @@ class Shifts:
             raise InputError(
                 f"temperature = {celsius(temperature):.1f} °C of an anchor or prior lies outside those of the friction "
                 f"curves, {celsius(float(low)):.1f} to {celsius(float(high)):.1f} °C, so that its shift factor is not "
-                "found; give shift=, or one measured among them."
+                "found; give shift=, or one measured among them.",
+                code="outside-measured",
             )
         inverse = 1.0 / self.temperatures[::-1]
         return np.array([np.interp(1.0 / temperature, inverse, unit) for unit in np.eye(len(inverse))])[::-1]

@@ -51,7 +51,9 @@ def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...
     anchors = tuple(anchor) if isinstance(anchor, (list, tuple)) else (anchor,)
     for one in anchors:
         if not isinstance(one, (ModulusAnchor, ContactAnchor)):
-            raise InputError(f"anchor must be a ModulusAnchor or a ContactAnchor, not {type(one).__name__}.")
+            raise InputError(
+                f"anchor must be a ModulusAnchor or a ContactAnchor, not {type(one).__name__}.", code="wrong-type"
+            )
     return anchors
 
 
@@ -66,7 +68,9 @@ def shifts_of(
     """
     if shift is not None:
         if not isinstance(shift, ShiftLaw):
-            raise InputError(f"shift must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}.")
+            raise InputError(
+                f"shift must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}.", code="wrong-type"
+            )
         law = shift if reference is None else shift.at_reference(reference)
         everywhere = np.unique(np.concatenate([points.temperatures, [law.reference], others]))
         number = np.searchsorted(everywhere, points.temperatures)[points.number]
@@ -75,7 +79,9 @@ def shifts_of(
         only = float(points.temperatures[0])
         if reference is not None and abs(reference - only) > SAME_TEMPERATURE:
             asked = f"reference = {celsius(reference):.1f} °C"
-            raise InputError(f"{asked} was not measured, only {celsius(only):.1f} °C was; give shift=.")
+            raise InputError(
+                f"{asked} was not measured, only {celsius(only):.1f} °C was; give shift=.", code="no-such-temperature"
+            )
         return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]))
     # Points are at one load already, as far as contacts at different loads are alike.
     alike = points.at_one_load(curves)
@@ -100,12 +106,14 @@ def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputEr
     if np.abs(points.temperatures - reference).min() > SAME_TEMPERATURE:
         return InputError(
             f"reference = {asked} was not measured, and α(T) is to be found; choose one of {shown} °C, and describe "
-            "the material at another with its at_reference()."
+            "the material at another with its at_reference().",
+            code="no-such-temperature",
         )
     why = "; ".join(f"{note[0].lower()}{note[1:-1]}" for note in found.notes if codes([note]) == {LEFT_OUT})
     return InputError(
         f"reference = {asked}: α(T) is to be found, and {why}; choose one of {shown} °C, give "
-        "shift=, or measure there over more speeds."
+        "shift=, or measure there over more speeds.",
+        code="no-such-temperature",
     )
 
 

@@ -120,7 +120,7 @@ def respond(
         )
     except ConvergenceError as failure:
         unit = indenter.geometry.load_unit
-        raise ConvergenceError(f"speed {speed:g} m/s under {load:g} {unit}: {failure}") from failure
+        raise failure.at(f"speed {speed:g} m/s under {load:g} {unit}") from failure
     logarithmic = found.logarithmic
     return np.array([friction, error, logarithmic.E_inf, logarithmic.speed, logarithmic.load, *found.C])
 
@@ -130,12 +130,15 @@ def contacts(indenter: Indenter, speeds: Quantities, load: Quantities) -> tuple[
     velocities = to_si_array(speeds, "m/s", "speeds")
     forces = to_si_array(load, indenter.geometry.load_unit, "load")
     if not velocities.size:
-        raise InputError("speeds must hold at least one value.")
+        raise InputError("speeds must hold at least one value.", code="empty-list")
     if not np.all(velocities > 0.0):
-        raise InputError(f"speeds must be above zero everywhere, but one is {velocities.min():g} m/s.")
+        raise InputError(
+            f"speeds must be above zero everywhere, but one is {velocities.min():g} m/s.", code="not-positive"
+        )
     if forces.size not in (1, velocities.size):
         raise InputError(
-            f"load holds {forces.size} values: must hold one, or one for each of {velocities.size} speeds."
+            f"load holds {forces.size} values: must hold one, or one for each of {velocities.size} speeds.",
+            code="empty-list",
         )
     for force in forces:
         positive(float(force), indenter.geometry.load_unit, "load")
@@ -176,7 +179,9 @@ class Contacts:
         )
         friction = response.friction
         if not np.all(friction > 0.0):
-            raise ConvergenceError("the friction of a contact came out negative; solve more accurately.")
+            raise ConvergenceError(
+                "the friction of a contact came out negative; solve more accurately.", code="negative-friction"
+            )
         by_glass = np.column_stack([-response.log_E_inf, response.log_C])
         solved = Solved(
             compliances,

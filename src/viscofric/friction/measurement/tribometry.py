@@ -147,7 +147,9 @@ def separate(
     (array([0.1]), array([0.02]), array([0.04]))
     """
     if not isinstance(runs, TractionRuns):
-        raise InputError(f"runs must be TractionRuns, as read_mtm() gives them, not {type(runs).__name__}.")
+        raise InputError(
+            f"runs must be TractionRuns, as read_mtm() gives them, not {type(runs).__name__}.", code="wrong-type"
+        )
     check_choice(outliers, "outliers", "keep", "leave out")
     gap = share(speed_tolerance, "speed_tolerance", example=0.05)
     assumed = Assumed.of(coulomb)

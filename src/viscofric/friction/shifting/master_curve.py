@@ -261,7 +261,9 @@ class FrictionMasterCurve:
                 code="different-lengths",
             ) from None
         if not np.all(velocity > 0.0):
-            raise InputError(f"speed must be above zero everywhere, but one is {velocity.min():g} m/s.")
+            raise InputError(
+                f"speed must be above zero everywhere, but one is {velocity.min():g} m/s.", code="not-positive"
+            )
         return velocity, kelvin, single
 
     def _relative_load(self, load: Quantity | None) -> float:

@@ -60,7 +60,9 @@ def plot_friction_curves(axes: Axes, prediction: Friction | None = None, measure
         If there is neither.
     """
     if prediction is None and measurement is None:
-        raise InputError("there is no friction to draw: give a prediction, a measurement or both.")
+        raise InputError(
+            "there is no friction to draw: give a prediction, a measurement or both.", code="nothing-to-draw"
+        )
     lines = None if prediction is None else predicted(prediction)
     points = None if measurement is None else measured(measurement)
     nominal = nominal_temperatures(*(part.temperature for part in (lines, points) if part is not None))
@@ -111,7 +113,9 @@ def plot_friction_master_curve(
         If there is neither.
     """
     if prediction is None and measurement is None:
-        raise InputError("there is no friction to draw: give a prediction, a measurement or both.")
+        raise InputError(
+            "there is no friction to draw: give a prediction, a measurement or both.", code="nothing-to-draw"
+        )
     handles: list[Any] = []
     if prediction is not None:
         handles += _plot_line(axes, predicted(prediction), "predicted")
@@ -173,7 +177,9 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction) -> None:
     """
     points = measured(measurement, "coulomb")
     if not np.isfinite(points.friction).any():
-        raise InputError("the friction curves hold no Coulomb friction: measure with slip, in both directions.")
+        raise InputError(
+            "the friction curves hold no Coulomb friction: measure with slip, in both directions.", code="no-coulomb"
+        )
     nominal = nominal_temperatures(points.temperature)
     _plot_measured(axes, points, nominal)
     handles = [

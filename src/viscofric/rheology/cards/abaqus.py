@@ -115,15 +115,20 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     chosen, name = _material(blocks, notes)
     viscoelastic = _only(chosen, "VISCOELASTIC")
     if viscoelastic is None:
-        raise InputError("holds no *VISCOELASTIC; expected *VISCOELASTIC, TIME=PRONY with lines g, k, tau.")
+        raise InputError(
+            "holds no *VISCOELASTIC; expected *VISCOELASTIC, TIME=PRONY with lines g, k, tau.", code="no-terms"
+        )
     if "PRONY" not in (viscoelastic.options.get("TIME", "").upper(), viscoelastic.options.get("FREQUENCY", "").upper()):
         raise InputError(
             f"line {viscoelastic.row}: *VISCOELASTIC must have TIME=PRONY or FREQUENCY=PRONY; other ways of giving it "
-            "are not read."
+            "are not read.",
+            code="not-prony",
         )
     rows = [(*row, 0.0, 0.0, 0.0)[:3] for row in viscoelastic.data if row]
     if not rows or any(row[2] <= 0.0 for row in rows):
-        raise InputError(f"line {viscoelastic.row}: *VISCOELASTIC needs lines of g, k, tau with tau above zero.")
+        raise InputError(
+            f"line {viscoelastic.row}: *VISCOELASTIC needs lines of g, k, tau with tau above zero.", code="no-terms"
+        )
     shares = [row[0] for row in rows], [row[1] for row in rows]
     times = [row[2] * reading.second for row in rows]
     shear, bulk, instantaneous = _elasticity(chosen, reading, notes)
@@ -162,7 +167,9 @@ def _blocks(text: str) -> list[_Block]:
             try:
                 numbers = [float(part) if part.strip() else 0.0 for part in line.rstrip(",").split(",")]
             except ValueError:
-                raise InputError(f"line {row}: {line[:40]!r} is not a row of numbers parted by commas.") from None
+                raise InputError(
+                    f"line {row}: {line[:40]!r} is not a row of numbers parted by commas.", code="not-a-number"
+                ) from None
             blocks[-1].data.append(numbers)
     return blocks
 
@@ -204,7 +211,8 @@ def _left(shares: list[float], row: int) -> float:
     if left <= 0.0:
         raise InputError(
             f"line {row}: the relative moduli add up to {1.0 - left:.6g}; with long-term moduli given they must stay "
-            "below 1."
+            "below 1.",
+            code="relative-moduli",
         )
     return left
 
@@ -227,7 +235,9 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
     elastic, hyperelastic = _only(blocks, "ELASTIC"), _only(blocks, "HYPERELASTIC")
     block = elastic or hyperelastic
     if block is None or not block.data:
-        raise InputError("holds no *ELASTIC or *HYPERELASTIC with numbers, so that its moduli are not known.")
+        raise InputError(
+            "holds no *ELASTIC or *HYPERELASTIC with numbers, so that its moduli are not known.", code="no-modulus"
+        )
     if len(block.data) > 1 and elastic is not None:
         notes.append(
             Note("first-line-taken", f"Line {block.row}: elasticity depends on temperature; its first line was taken.")
@@ -236,10 +246,13 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
     values = block.data[0]
     if elastic is not None:
         if elastic.options.get("TYPE", "ISOTROPIC").upper() not in ("ISOTROPIC", "ISO"):
-            raise InputError(f"line {block.row}: *ELASTIC must be isotropic.")
+            raise InputError(f"line {block.row}: *ELASTIC must be isotropic.", code="not-isotropic")
         modulus, ratio = (*values, 0.0)[:2]
         if not (modulus > 0.0 and 0.0 <= ratio <= 0.5):
-            raise InputError(f"line {block.row}: *ELASTIC needs a modulus above zero, a Poisson ratio from 0 to 0.5.")
+            raise InputError(
+                f"line {block.row}: *ELASTIC needs a modulus above zero, a Poisson ratio from 0 to 0.5.",
+                code="no-modulus",
+            )
         shear = modulus * reading.pascal / (2.0 * (1.0 + ratio))
         return shear, None if ratio == 0.5 else modulus * reading.pascal / (3.0 * (1.0 - 2.0 * ratio)), instantaneous
     notes.append(Note("hyperelastic", "The card is hyperelastic; the material is its small-strain limit."))
@@ -258,11 +271,14 @@ def _hyperelastic(block: _Block) -> tuple[float, float]:
         if model in options:
             shear = 2.0 * sum(values[index] for index in stiff if index < len(values))
             if shear <= 0.0:
-                raise InputError(f"line {block.row}: *HYPERELASTIC gives no shear modulus above zero.")
+                raise InputError(
+                    f"line {block.row}: *HYPERELASTIC gives no shear modulus above zero.", code="no-modulus"
+                )
             return shear, values[place] if place < len(values) else 0.0
     raise InputError(
         f"line {block.row}: *HYPERELASTIC is read as NEO HOOKE, MOONEY-RIVLIN or YEOH with constants, not with test "
-        "data or another model."
+        "data or another model.",
+        code="other-model",
     )
 
 
@@ -270,7 +286,9 @@ def _number(block: _Block, option: str) -> float:
     try:
         return float(block.options[option])
     except ValueError:
-        raise InputError(f"line {block.row}: {option} = {block.options[option]!r} is not a number.") from None
+        raise InputError(
+            f"line {block.row}: {option} = {block.options[option]!r} is not a number.", code="not-a-number"
+        ) from None
 
 
 def _shift(
@@ -293,7 +311,10 @@ def _shift(
         # Only E0/R matters, whatever the unit of energy.
         return Arrhenius(values[1] / gas * GAS_CONSTANT, reading.kelvin(values[0], notes, zero))
     if kind in ("WLF", "ARRHENIUS"):
-        raise InputError(f"line {block.row}: *TRS, DEFINITION={kind} lacks numbers; WLF has 3, ARRHENIUS 2.")
+        raise InputError(
+            f"line {block.row}: *TRS, DEFINITION={kind} lacks numbers; WLF has 3, ARRHENIUS 2.",
+            code="missing-constants",
+        )
     notes.append(
         Note(
             "shift-in-subroutine",

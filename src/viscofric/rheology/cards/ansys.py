@@ -95,7 +95,10 @@ class _Table:
         count = max(self.values, default=0)
         missing = [place for place in range(1, count + 1) if place not in self.values]
         if missing:
-            raise InputError(f"line {self.row}: TB,{self.name},…,{self.option} lacks constant {missing[0]} of {count}.")
+            raise InputError(
+                f"line {self.row}: TB,{self.name},…,{self.option} lacks constant {missing[0]} of {count}.",
+                code="missing-constants",
+            )
         return [self.values[place] for place in range(1, count + 1)]
 
 
@@ -108,14 +111,19 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     modulus = properties.get("EX")
     ratio = properties.get("PRXY", properties.get("NUXY"))
     if modulus is None or ratio is None:
-        raise InputError("holds no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.")
+        raise InputError(
+            "holds no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.",
+            code="no-modulus",
+        )
     if not (modulus > 0.0 and 0.0 <= ratio < 0.5):
-        raise InputError(f"MP,EX = {modulus:g} must be above zero and MP,PRXY = {ratio:g} from 0 to below 0.5.")
+        raise InputError(
+            f"MP,EX = {modulus:g} must be above zero and MP,PRXY = {ratio:g} from 0 to below 0.5.", code="not-positive"
+        )
     modulus *= reading.pascal
     series = {table.option: _pairs(table, reading) for table in tables if table.name == "PRONY"}
     unknown = sorted(set(series) - {"SHEAR", "BULK"})
     if unknown or "SHEAR" not in series:
-        raise InputError("needs TB,PRONY,…,SHEAR (and BULK); other options of TB,PRONY are not read.")
+        raise InputError("needs TB,PRONY,…,SHEAR (and BULK); other options of TB,PRONY are not read.", code="no-terms")
     stated = number_of(content, "E0")
     shear = modulus / (2.0 * (1.0 + ratio))
     bulk = modulus / (3.0 * (1.0 - 2.0 * ratio))
@@ -146,7 +154,9 @@ def _commands(text: str) -> tuple[dict[str, float], list[_Table], set[str]]:
             elif head == "TBDATA" and tables and fields:
                 first = _number(fields[0], row) if fields[0] else 1.0
                 if not 1 <= first <= _MOST_CONSTANTS:
-                    raise InputError(f"line {row}: TBDATA begins at constant {first:g}; expected 1 or above.")
+                    raise InputError(
+                        f"line {row}: TBDATA begins at constant {first:g}; expected 1 or above.", code="out-of-range"
+                    )
                 for place, value in enumerate(fields[1:], start=int(first)):
                     if value:
                         tables[-1].values[place] = _number(value, row)
@@ -167,7 +177,9 @@ def _number(field_text: str, row: int) -> float:
             raise ValueError
         return _value(ast.parse(field_text, mode="eval").body)
     except (ValueError, SyntaxError, ZeroDivisionError, OverflowError, MemoryError, RecursionError):
-        raise InputError(f"line {row}: {field_text[:40]!r} is neither a number nor simple arithmetic.") from None
+        raise InputError(
+            f"line {row}: {field_text[:40]!r} is neither a number nor simple arithmetic.", code="not-a-number"
+        ) from None
 
 
 def _value(node: ast.expr) -> float:
@@ -184,7 +196,8 @@ def _pairs(table: _Table, reading: Reading) -> tuple[list[float], list[float]]:
     values = table.constants()
     if not values or len(values) % 2 or any(time <= 0.0 for time in values[1::2]):
         raise InputError(
-            f"line {table.row}: TB,PRONY,…,{table.option} needs pairs of relative modulus and relaxation time > 0."
+            f"line {table.row}: TB,PRONY,…,{table.option} needs pairs of relative modulus and relaxation time > 0.",
+            code="row-length",
         )
     return values[0::2], [time * reading.second for time in values[1::2]]
 
@@ -203,7 +216,8 @@ def _shift(
         return Arrhenius(values[1] * GAS_CONSTANT, reference)
     if table.option in ("WLF", "TN"):
         raise InputError(
-            f"line {table.row}: TB,SHIFT,…,{table.option} needs {3 if table.option == 'WLF' else 2} constants."
+            f"line {table.row}: TB,SHIFT,…,{table.option} needs {3 if table.option == 'WLF' else 2} constants.",
+            code="missing-constants",
         )
     notes.append(
         Note(

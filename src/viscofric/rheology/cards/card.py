@@ -149,7 +149,7 @@ def number_text(value: float, longest: int) -> str:
         for one in (short, re.sub(r"^(-?)0\.", r"\1.", short)):
             if len(one) <= longest:
                 return one
-    raise InputError(f"{value!r} does not fit into {longest} characters.")
+    raise InputError(f"{value!r} does not fit into {longest} characters.", code="too-long")
 
 
 def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:
@@ -206,17 +206,19 @@ def tensile(shear: RelaxationSpectrum, bulk: RelaxationSpectrum | None) -> tuple
     if shear.E0 <= 0.0:
         raise InputError(
             "the long-term shear modulus is zero (the relative moduli add up to 1): a liquid has no rubber plateau, "
-            "which a Material needs."
+            "which a Material needs.",
+            code="relative-moduli",
         )
     if bulk is None:
         return RelaxationSpectrum(3.0 * shear.E0, 3.0 * shear.E, shear.tau).to_retardation(), 0.5, []
     if bulk.E0 <= 0.0:
-        raise InputError("the long-term bulk modulus is zero; a solid needs one above zero.")
+        raise InputError("the long-term bulk modulus is zero; a solid needs one above zero.", code="not-positive")
     poisson = [(3 * K - 2 * G) / (2 * (3 * K + G)) for G, K in ((shear.E0, bulk.E0), (shear.E_inf, bulk.E_inf))]
     if not all(0.0 <= ratio <= 0.5 for ratio in poisson):
         raise InputError(
             f"shear and bulk moduli give Poisson ratios of {poisson[0]:.4g} (long-term) and {poisson[1]:.4g} "
-            "(instantaneous); both must lie between 0 and 0.5."
+            "(instantaneous); both must lie between 0 and 0.5.",
+            code="out-of-range",
         )
     if _alike(shear, bulk):
         factor = 2.0 * (1.0 + poisson[0])
@@ -259,5 +261,7 @@ def relative_series(modulus: float, ratios: Any, times: Any, long_term: float | 
     if abs(share) < 1e-12:
         rubber = 0.0
     if share < -1e-12:
-        raise InputError(f"the relative moduli add up to {1.0 - share:.6g}; they must stay below 1.")
+        raise InputError(
+            f"the relative moduli add up to {1.0 - share:.6g}; they must stay below 1.", code="relative-moduli"
+        )
     return RelaxationSpectrum(rubber, modulus * np.asarray(ratios, dtype=float), times)

@@ -200,7 +200,7 @@ def _best_law(factors: ShiftFactors) -> ParametricLaw:
     laws = factors.compare_laws()
     known = [row.law for row in (laws.chosen, *laws.rows) if row.law is not None and card_law(row.law) is not None]
     if not known:
-        raise InputError("law = 'best': neither a WLF nor an Arrhenius law describes the shift factors.")
+        raise InputError("law = 'best': neither a WLF nor an Arrhenius law describes the shift factors.", code="no-law")
     return known[0]
 
 

@@ -138,7 +138,10 @@ def stored_content(text: str) -> dict[str, Any] | None:
             f"the lines marked {_MARK!r} are damaged; restore them, or delete all lines so marked.", code="damaged"
         )
     if content.get("version") != VERSION:
-        raise InputError(f"the lines marked {_MARK!r} are of version {content.get('version')!r}, not {VERSION}.")
+        raise InputError(
+            f"the lines marked {_MARK!r} are of version {content.get('version')!r}, not {VERSION}.",
+            code="newer-version",
+        )
     return content
 
 

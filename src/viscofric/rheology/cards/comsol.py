@@ -140,7 +140,8 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
         match = _LINE.fullmatch(line.strip())
         if match is None:
             raise InputError(
-                f"line {row}: {line.strip()[:40]!r} is not a name, a number with [unit] and a description."
+                f"line {row}: {line.strip()[:40]!r} is not a name, a number with [unit] and a description.",
+                code="not-a-number",
             )
         if not re.fullmatch(
             r"nu|rho|[GK]_long_term|K_constant|([GK]|tau)_\d{1,4}|T_reference|C[12]_WLF|Q_arrhenius",
@@ -174,7 +175,8 @@ def read_branches(text: str, reading: Reading, content: dict[str, Any] | None) -
     if content is None or E0 is None or ratio is None:
         raise InputError(
             "is a table of branches without a long-term modulus, which a rubber needs; write the parameters "
-            "(format='comsol') instead, or build RelaxationSpectrum(E0, E, tau).to_retardation() in Python."
+            "(format='comsol') instead, or build RelaxationSpectrum(E0, E, tau).to_retardation() in Python.",
+            code="no-modulus",
         )
     del reading
     rows = [line.split() for line in text.splitlines() if line.strip() and not line.startswith("%")]
@@ -197,14 +199,14 @@ def _bulk_note(values: dict[str, str], ratio: float) -> list[str]:
 
 def _value(values: dict[str, str], name: str, unit: str) -> float:
     if name not in values:
-        raise InputError(f"lacks the parameter {name}.")
+        raise InputError(f"lacks the parameter {name}.", code="missing-constants")
     given = values[name]
     if " " in given:
         return to_si(given, unit, name)
     try:
         return to_si(float(given), unit, name)
     except ValueError:
-        raise InputError(f"{name} = {given!r}: is not a number.") from None
+        raise InputError(f"{name} = {given!r}: is not a number.", code="not-a-number") from None
 
 
 def _long_term(E0: float, content: dict[str, Any] | None) -> float:

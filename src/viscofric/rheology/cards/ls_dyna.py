@@ -69,7 +69,9 @@ def write(material: Material, writing: Writing) -> str:
         )
     law = card_law(material.shift)
     if writing.temperature_unit != "K" and isinstance(law, Arrhenius):
-        raise InputError(f"{NAME} counts temperatures of an Arrhenius law in K; leave temperature_unit out.")
+        raise InputError(
+            f"{NAME} counts temperatures of an Arrhenius law in K; leave temperature_unit out.", code="temperature-unit"
+        )
     sentences = remarks(material, writing, ratio, law is not None)
     sentences.append("Long format, fields of 20 characters.")
     reference, A, B = 0.0, 0.0, 0.0
@@ -83,7 +85,9 @@ def write(material: Material, writing: Writing) -> str:
     elif law is not None:
         reference, A = law.reference, law.activation_energy / GAS_CONSTANT
     if law is not None and reference <= 0.0:
-        raise InputError(f"TREF = {reference:g}: {NAME} needs it above zero; leave temperature_unit out, for K.")
+        raise InputError(
+            f"TREF = {reference:g}: {NAME} needs it above zero; leave temperature_unit out, for K.", code="not-positive"
+        )
     content = stored(material, writing, ratio, relaxation, law is not None)
     lines = ["*KEYWORD", *comment_lines("$", sentences, content), "*MAT_GENERAL_VISCOELASTIC_TITLE +"]
     title = material.name.encode("ascii", "replace").decode() or "rubber"
@@ -109,7 +113,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     name, head, terms = _cards(text, notes)
     _, _, elastic_bulk, _, elastic, reference, A, B = head
     if elastic == 1.0:
-        raise InputError("EF = 1: the card makes the layer elastic, not viscoelastic.")
+        raise InputError("EF = 1: the card makes the layer elastic, not viscoelastic.", code="elastic-card")
     pascal, per_second = reading.pascal, 1.0 / reading.second
     shear = _series([(row[0] * pascal, row[1] * per_second) for row in terms], "GI, BETAI")
     bulk_terms = [(row[2] * pascal, row[3] * per_second) for row in terms if row[2] != 0.0]
@@ -118,7 +122,9 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     elif elastic_bulk > 0.0:
         bulk = RelaxationSpectrum(elastic_bulk * pascal, [], [])
     else:
-        raise InputError("the bulk modulus BULK and all KI are zero; one of them must be above zero.")
+        raise InputError(
+            "the bulk modulus BULK and all KI are zero; one of them must be above zero.", code="not-positive"
+        )
     spectrum, poisson, found = tensile(shear, bulk)
     stated = number_of(content, "poisson_ratio")
     if stated is not None and abs(stated - poisson) <= 1e-9:
@@ -147,13 +153,17 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
     title = body.pop(0)[1].strip() if match[2] and body else ""
     rows = [_values(line, row, 20 if wide else 10) for row, line in body]
     if len(rows) < 2:
-        raise InputError("*MAT_GENERAL_VISCOELASTIC is cut short; it needs two cards and terms G, BETA, K, BETAK.")
+        raise InputError(
+            "*MAT_GENERAL_VISCOELASTIC is cut short; it needs two cards and terms G, BETA, K, BETAK.", code="cut-short"
+        )
     head, curves = rows[:2]
     if curves[0] != 0.0 or curves[4] != 0.0:
-        raise InputError("the terms come from load curves (LCID, LCIDK), which are not read; give GI and BETAI.")
+        raise InputError(
+            "the terms come from load curves (LCID, LCIDK), which are not read; give GI and BETAI.", code="load-curves"
+        )
     terms = [row[:4] for row in rows[2:] if any(row[:4])]
     if not terms:
-        raise InputError("*MAT_GENERAL_VISCOELASTIC holds no terms GI, BETAI.")
+        raise InputError("*MAT_GENERAL_VISCOELASTIC holds no terms GI, BETAI.", code="no-terms")
     return title, head, terms
 
 
@@ -164,12 +174,14 @@ def _values(line: str, row: int, width: int) -> list[float]:
     try:
         return [float(part) if part else 0.0 for part in parts] + [0.0] * (8 - len(parts))
     except ValueError:
-        raise InputError(f"line {row}: {line.strip()[:40]!r} is not a row of numbers in fields of {width}.") from None
+        raise InputError(
+            f"line {row}: {line.strip()[:40]!r} is not a row of numbers in fields of {width}.", code="not-a-number"
+        ) from None
 
 
 def _series(terms: list[tuple[float, float]], names: str) -> RelaxationSpectrum:
     if any(modulus < 0.0 or rate < 0.0 for modulus, rate in terms):
-        raise InputError(f"{names} must not be below zero.")
+        raise InputError(f"{names} must not be below zero.", code="not-positive")
     modes = [(modulus, 1.0 / rate) for modulus, rate in terms if rate > 0.0]
     rest = math.fsum(modulus for modulus, rate in terms if rate == 0.0)
     return RelaxationSpectrum(rest, [modulus for modulus, _ in modes], [time for _, time in modes])

@@ -48,7 +48,7 @@ def plain(value: Any) -> Any:
         return [plain(one) for one in value]
     if is_dataclass(value) and type(value).__name__ in _kinds():
         return {name: plain(content) for name, content in as_record(value).items()}
-    raise InputError(f"a material file cannot hold a {type(value).__name__}.")
+    raise InputError(f"a material file cannot hold a {type(value).__name__}.", code="wrong-type")
 
 
 def restored(value: Any, allowed: tuple[type, ...]) -> Any:
@@ -58,17 +58,22 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
     names = [one.__name__ for one in allowed]
     kind = value.get("kind") if isinstance(value, dict) else None
     if kind not in names:
-        raise InputError(f"kind = {kind!r}: must be one of {', '.join(names)}.")
+        raise InputError(f"kind = {kind!r}: must be one of {', '.join(names)}.", code="wrong-choice")
     one = _kinds()[kind]
     arguments = {name: content for name, content in value.items() if name != "kind"}
     unknown = sorted(set(arguments) - set(kept_arguments(one)))
     if unknown:
-        raise InputError(f"{kind} has no {', '.join(unknown)}; the file may be of a newer version of viscofric.")
+        raise InputError(
+            f"{kind} has no {', '.join(unknown)}; the file may be of a newer version of viscofric.",
+            code="unknown-field",
+        )
     arguments = {name: tuple(content) if _is_row(content) else content for name, content in arguments.items()}
     try:
         return one(**arguments)
     except TypeError as error:
-        raise InputError(f"{kind} cannot be made of {', '.join(sorted(arguments)) or 'nothing'} ({error}).") from None
+        raise InputError(
+            f"{kind} cannot be made of {', '.join(sorted(arguments)) or 'nothing'} ({error}).", code="missing-fields"
+        ) from None
 
 
 def _is_row(content: Any) -> bool:
@@ -149,19 +154,26 @@ def to_plain(material: Material) -> dict[str, Any]:
 def from_plain(content: Any) -> Material:
     """Return the material of `to_plain`; InputError says what is missing, unknown or out of range."""
     if not isinstance(content, dict) or content.get("format") != "viscofric material":
-        raise InputError('is not a material of viscofric: it lacks "format": "viscofric material".')
+        raise InputError(
+            'is not a material of viscofric: it lacks "format": "viscofric material".', code="not-a-material"
+        )
     version = content.get("version")
     if not isinstance(version, int) or not 1 <= version <= VERSION:
-        raise InputError(f"version = {version!r}: this viscofric reads version 1 to {VERSION}.")
+        raise InputError(f"version = {version!r}: this viscofric reads version 1 to {VERSION}.", code="newer-version")
     known = {"format", "version", "name", "citation", "poisson_ratio", "shift", "vertical_shift", "fit", "spectrum"}
     unknown = sorted(set(content) - known)
     if unknown:
-        raise InputError(f"{', '.join(unknown)}: no such field in a material; expected {', '.join(sorted(known))}.")
+        raise InputError(
+            f"{', '.join(unknown)}: no such field in a material; expected {', '.join(sorted(known))}.",
+            code="unknown-field",
+        )
     spectrum = content.get("spectrum")
     spectrum = spectrum if isinstance(spectrum, dict) else {}
     kind = spectrum.get("kind")
     if kind not in ("RetardationSpectrum", "ModulusTable"):
-        raise InputError(f"spectrum of kind {kind!r}: must be RetardationSpectrum or ModulusTable.")
+        raise InputError(
+            f"spectrum of kind {kind!r}: must be RetardationSpectrum or ModulusTable.", code="wrong-choice"
+        )
     values = {name: value for name, value in spectrum.items() if name != "kind"}
     try:
         if kind == "ModulusTable":
@@ -174,7 +186,9 @@ def from_plain(content: Any) -> Material:
     except (TypeError, ValueError) as error:
         if isinstance(error, InputError):
             raise
-        raise InputError(f"{kind} cannot be made of {', '.join(sorted(values)) or 'nothing'} ({error}).") from None
+        raise InputError(
+            f"{kind} cannot be made of {', '.join(sorted(values)) or 'nothing'} ({error}).", code="missing-fields"
+        ) from None
 
 
 NAME_JSON = "viscofric JSON"
@@ -210,7 +224,7 @@ def read_json(text: str) -> Material:
     except json.JSONDecodeError as error:
         raise InputError(f"line {error.lineno}: is not JSON ({error.msg}).", code="damaged") from None
     except ValueError as error:  # nested too deeply, or with numbers of thousands of digits
-        raise InputError(f"is no JSON of a material ({error}).") from None
+        raise InputError(f"is no JSON of a material ({error}).", code="damaged") from None
     return from_plain(content)
 
 
@@ -266,7 +280,8 @@ def read_csv(text: str) -> Material:
     columns = _COLUMNS.get(str(spectrum.get("kind")))
     if columns is None:
         raise InputError(
-            f"spectrum.kind must be one of {', '.join(_COLUMNS)}; the line '# spectrum.kind = …' is missing."
+            f"spectrum.kind must be one of {', '.join(_COLUMNS)}; the line '# spectrum.kind = …' is missing.",
+            code="wrong-choice",
         )
     spectrum.update(_table(rows, columns))
     return from_plain({**content, "spectrum": spectrum})
@@ -274,14 +289,16 @@ def read_csv(text: str) -> Material:
 
 def _table(rows: list[tuple[int, str]], columns: dict[str, str]) -> dict[str, list[float]]:
     if not rows or next(csv.reader([rows[0][1]])) != list(columns.values()):
-        raise InputError(f"the table must be headed {','.join(columns.values())}.")
+        raise InputError(f"the table must be headed {','.join(columns.values())}.", code="missing-columns")
     table: dict[str, list[float]] = {name: [] for name in columns}
     for number, line in rows[1:]:
         cells = line.split(",")
         try:
             values = [float(cell) for cell in cells]
         except ValueError:
-            raise InputError(f"line {number}: {line[:40]!r} is not a row of numbers parted by commas.") from None
+            raise InputError(
+                f"line {number}: {line[:40]!r} is not a row of numbers parted by commas.", code="not-a-number"
+            ) from None
         if len(values) != len(columns):
             raise InputError(f"line {number}: {len(values)} numbers where {len(columns)} are wanted.", code="damaged")
         for name, value in zip(columns, values, strict=True):

@@ -28,9 +28,11 @@ def checked_columns(
     kelvin = to_si_array(temperatures, "K", "temperatures")
     values = np.array(numbers(log10_values, what))
     if kelvin.size < 2 or values.shape != kelvin.shape:
-        raise InputError(f"{what} need at least two temperatures, and one finite value for each.")
+        raise InputError(f"{what} need at least two temperatures, and one finite value for each.", code="wrong-length")
     if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
-        raise InputError(f"temperatures of {what} must ascend without repeats, above absolute zero.")
+        raise InputError(
+            f"temperatures of {what} must ascend without repeats, above absolute zero.", code="not-ascending"
+        )
     if covariance is None:
         return kelvin, values, np.zeros((kelvin.size, kelvin.size))
     return kelvin, values, checked_covariance(covariance, kelvin.size, what)
@@ -40,7 +42,9 @@ def checked_covariance(values: Any, size: int, what: str) -> Array:
     """Return the covariance of so many values as a copy; `what` they are is named in errors."""
     covariance = np.array(numbers(values, f"covariance of {what}"))
     if covariance.shape != (size, size) or np.any(np.diag(covariance) < 0.0):
-        raise InputError(f"covariance of {what} must be {size} × {size} numbers, no variance below zero.")
+        raise InputError(
+            f"covariance of {what} must be {size} × {size} numbers, no variance below zero.", code="not-positive"
+        )
     return covariance
 
 

@@ -74,7 +74,7 @@ class InversePolynomial(ParametricLaw):
     ) -> None:
         factors = tuple(np.ravel(numbers(coefficients, "coefficients")).tolist())
         if not factors:
-            raise InputError("coefficients of a polynomial law: there must be at least one.")
+            raise InputError("coefficients of a polynomial law: there must be at least one.", code="empty-list")
         if fitted_range is None or not flag(bounded, "bounded"):
             self._refuse_to_extrapolate()
         object.__setattr__(self, "coefficients", factors)

@@ -189,7 +189,7 @@ def polynomial(table: FactorTable) -> InversePolynomial:
     """
     row = _polynomial_row(table)
     if not isinstance(row.law, InversePolynomial):
-        raise InputError(row.refusal)
+        raise InputError(row.refusal, code="no-law")
     return row.law
 
 

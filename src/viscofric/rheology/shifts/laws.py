@@ -192,7 +192,8 @@ class VFT(ParametricLaw):
         self._set((B, T0), reference, covariance, fitted_range, bounded)
         if self.reference <= self.T0:
             raise InputError(
-                f"T0 = {celsius(self.T0):z.1f} °C must lie below the reference, {celsius(self.reference):z.1f} °C."
+                f"T0 = {celsius(self.T0):z.1f} °C must lie below the reference, {celsius(self.reference):z.1f} °C.",
+                code="below-pole",
             )
 
     @property

@@ -104,10 +104,12 @@ class ParametricLaw(ShiftLaw):
         if fitted_range is not None:
             ends = to_si_array(fitted_range, "K", "fitted_range")
             if ends.size != 2:
-                raise InputError(f"fitted_range = {brief(fitted_range)}: must be two temperatures.")
+                raise InputError(f"fitted_range = {brief(fitted_range)}: must be two temperatures.", code="wrong-count")
             low, high = (positive(end, "K", "fitted_range") for end in ends.tolist())
             if not low < high:
-                raise InputError(f"fitted_range = {low:g} to {high:g} K: the first must lie below the second.")
+                raise InputError(
+                    f"fitted_range = {low:g} to {high:g} K: the first must lie below the second.", code="not-ascending"
+                )
             fitted_range = (low, high)
         object.__setattr__(self, "fitted_range", fitted_range)
         object.__setattr__(self, "bounded", flag(bounded, "bounded"))
@@ -137,7 +139,9 @@ class ParametricLaw(ShiftLaw):
         """Return a law of this kind with other constants at the same reference, as if typed in (not fitted)."""
         values = numbers(parameters, "parameters")
         if values.shape != (len(self._constants),):
-            raise InputError(f"parameters = {brief(parameters)}: must be {', '.join(self._constants)}.")
+            raise InputError(
+                f"parameters = {brief(parameters)}: must be {', '.join(self._constants)}.", code="wrong-choice"
+            )
         constants = dict(zip(self._constants, values.tolist(), strict=True))
         return replace(self, **constants, covariance=None, fitted_range=None)
 

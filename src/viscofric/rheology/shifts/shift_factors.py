@@ -206,7 +206,9 @@ class ShiftFactors(ShiftLaw):
         value = to_si(log10, "dimensionless", "log10")
         error = to_si(standard_error, "dimensionless", "standard_error")
         if not 0.0 <= error <= _MOST_DECADES:
-            raise InputError(f"standard_error = {error:g}: must lie between 0 and {_MOST_DECADES} decades.")
+            raise InputError(
+                f"standard_error = {error:g}: must lie between 0 and {_MOST_DECADES} decades.", code="out-of-range"
+            )
         place = int(np.argmin(np.abs(self.temperatures - kelvin)))
         if abs(self.temperatures[place] - kelvin) > _NAMED_TEMPERATURE:
             shown = ", ".join(f"{celsius(one):z.1f}" for one in self.temperatures)

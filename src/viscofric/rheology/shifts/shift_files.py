@@ -73,7 +73,7 @@ def read_shift_factors(
     spread = None if found.covariance is None else found.covariance[np.ix_(order, order)]
     if kelvin.size < 2 or np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
         problem = "shift factors need at least two temperatures, none twice, all above absolute zero."
-        raise DataFileError(source.path, problem)
+        raise DataFileError(source.path, problem, code="wrong-length")
     values = _falling(source.path, kelvin, values, flag(inverse, "inverse"))
     notes = found.notes
     if spread is None:
@@ -94,7 +94,9 @@ def read_shift_factors(
     try:
         factors = ShiftFactors(kelvin, values, stated, spread, notes)
     except InputError as error:
-        raise DataFileError(source.path, f"the reference does not fit the table: {error}") from None
+        raise DataFileError(
+            source.path, f"the reference does not fit the table: {error}", code="no-reference"
+        ) from None
     return factors if wanted is None else factors.at_reference(wanted)
 
 
@@ -124,7 +126,9 @@ def read_vendor_law(path: str | PathLike[str]) -> WLF:
     try:
         return WLF(*found.wlf, found.reference)
     except InputError as error:
-        raise DataFileError(source.path, f"the constants in sheet {SHIFT_LIST!r} are no WLF law: {error}") from None
+        raise DataFileError(
+            source.path, f"the constants in sheet {SHIFT_LIST!r} are no WLF law: {error}", code="no-law"
+        ) from None
 
 
 def _eplexor_list(source: Source) -> ShiftList | None:
@@ -143,7 +147,9 @@ def _from_workbook(source: Source) -> ShiftTable:
 
 def _from_text(source: Source) -> ShiftTable:
     if source.text is None:
-        raise DataFileError(source.path, "is a binary file; a table of shift factors is text, or an Eplexor workbook.")
+        raise DataFileError(
+            source.path, "is a binary file; a table of shift factors is text, or an Eplexor workbook.", code="binary"
+        )
     return read_shift_table(source.text, source.path)
 
 

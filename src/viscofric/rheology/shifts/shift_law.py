@@ -101,7 +101,8 @@ class ShiftLaw(ABC):
             kelvin = np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))]
             raise InputError(
                 f"temperature = {kelvin:.4g} K: the shift factor there is more than {_MOST_DECADES} decades from 1"
-                f"{kelvin_hint(float(kelvin))}."
+                f"{kelvin_hint(float(kelvin))}.",
+                code="out-of-range",
             )
         return 10.0**decades
 
@@ -277,5 +278,5 @@ def in_kelvin(temperature: Any) -> Array:
     """Return one temperature, or many in their shape, as an array in K; refuse those not above absolute zero."""
     kelvin = to_si_in_shape(temperature, "K", "temperature")
     if np.any(kelvin <= 0.0):
-        raise InputError(f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.")
+        raise InputError(f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.", code="not-positive")
     return kelvin

@@ -76,6 +76,7 @@ def read_shift_table(text: str, path: str) -> ShiftTable:
             path,
             "a table of shift factors has one column of temperatures, such as 'T_C', and one of 'log10 aT' or 'aT'; "
             f"this one has {', '.join(repr(heading) for heading in lines.headings)}.",
+            code="missing-columns",
         )
     cells = _Cells(path, lines)
     factor, offset = _temperature_unit(path, units[at[0]])
@@ -84,11 +85,13 @@ def read_shift_table(text: str, path: str) -> ShiftTable:
     if scale is None:
         if np.any(values <= 0.0):
             problem = "a shift factor aT must be above zero; name the column 'log10 aT' if it holds logarithms."
-            raise DataFileError(path, problem, lines.rows[int(np.argmax(values <= 0.0))][0])
+            raise DataFileError(path, problem, lines.rows[int(np.argmax(values <= 0.0))][0], code="not-positive")
         values, scale = np.log10(values), 1.0
     if np.any(np.abs(values) > _LARGEST_LOGARITHM):
         row = lines.rows[int(np.argmax(np.abs(values) > _LARGEST_LOGARITHM))][0]
-        raise DataFileError(path, "a logarithm of a shift factor beyond 300 is none of a material.", row)
+        raise DataFileError(
+            path, "a logarithm of a shift factor beyond 300 is none of a material.", row, code="out-of-range"
+        )
     kelvin = factor * cells.column(at[0]) + offset
     return ShiftTable(kelvin, scale * values, lines.reference, _covariance(names, cells), tuple(lines.notes))
 
@@ -110,13 +113,13 @@ def _lines(text: str, path: str) -> _Lines:
             cells.pop()
         if len(cells) != len(lines.headings):
             problem = f"the row has {len(cells)} cells where the header names {len(lines.headings)} columns."
-            raise DataFileError(path, problem, number)
+            raise DataFileError(path, problem, number, code="row-length")
         if not lines.rows and not lines.units and not any(any(sign.isdigit() for sign in cell) for cell in cells):
             lines.units = cells
         else:
             lines.rows.append((number, cells))
     if not lines.rows:
-        raise DataFileError(path, "holds no table: headings and rows of numbers are wanted.")
+        raise DataFileError(path, "holds no table: headings and rows of numbers are wanted.", code="no-table")
     return lines
 
 
@@ -133,7 +136,7 @@ def _stated(path: str, match: re.Match[str], number: int) -> float:
     try:
         value = float(match["number"])
     except ValueError:
-        raise DataFileError(path, f"{match['number']!r} is no temperature.", number) from None
+        raise DataFileError(path, f"{match['number']!r} is no temperature.", number, code="not-a-number") from None
     return factor * value + offset
 
 
@@ -152,7 +155,9 @@ def _temperature_unit(path: str, unit: str) -> tuple[float, float]:
     plain = {"celsius": "c", "kelvin": "k"}.get(plain, plain)
     if plain not in _UNITS:
         shown = f"the unit {unit!r}" if unit else "no unit"
-        raise DataFileError(path, f"the temperatures have {shown}; write 'T_C' or 'T (K)' above them, or C below T.")
+        raise DataFileError(
+            path, f"the temperatures have {shown}; write 'T_C' or 'T (K)' above them, or C below T.", code="no-unit"
+        )
     return _UNITS[plain]
 
 
@@ -172,7 +177,9 @@ class _Cells:
         except ValueError:
             value = math.nan
         if not math.isfinite(value) or "_" in cell:
-            raise DataFileError(self.path, f"{cell!r} in column {heading!r} is not a finite number.", line)
+            raise DataFileError(
+                self.path, f"{cell!r} in column {heading!r} is not a finite number.", line, code="not-a-number"
+            )
         return value
 
 
@@ -183,7 +190,7 @@ def _covariance(names: tuple[str, ...], cells: _Cells) -> Array | None:
     if numbered:
         if set(numbered) != {f"cov {place}" for place in range(1, size + 1)} or len(numbered) != size:
             problem = f"the covariance must have the columns cov 1 to cov {size}, one for each row."
-            raise DataFileError(cells.path, problem)
+            raise DataFileError(cells.path, problem, code="missing-columns")
         return np.column_stack([cells.column(names.index(f"cov {place}")) for place in range(1, size + 1)])
     if "standarderror" in names:
         return np.diag(cells.column(names.index("standarderror")) ** 2)

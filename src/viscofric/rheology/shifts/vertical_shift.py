@@ -66,7 +66,9 @@ class VerticalShift(ABC):
         """
         kelvin = to_si_array(temperature, "K", "temperature")
         if np.any(kelvin <= 0.0):
-            raise InputError(f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.")
+            raise InputError(
+                f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.", code="not-positive"
+            )
         self._refuse(kelvin)
         values = self._log10(kelvin)
         single = isinstance(temperature, str) or np.ndim(getattr(temperature, "magnitude", temperature)) == 0
@@ -152,7 +154,9 @@ class DensityShift(VerticalShift):
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         expansion = to_si(self.expansion, "1/K", "expansion")
         if expansion < 0.0:
-            raise InputError(f"expansion = {self.expansion!r}: must not be below zero (1/K); 0 leaves b = T/T0.")
+            raise InputError(
+                f"expansion = {self.expansion!r}: must not be below zero (1/K); 0 leaves b = T/T0.", code="not-positive"
+            )
         object.__setattr__(self, "expansion", expansion)
 
     def _log10(self, kelvin: Array) -> Array:

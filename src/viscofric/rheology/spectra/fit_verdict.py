@@ -63,7 +63,8 @@ def solid_modes(misfit: ModulusMisfit, tau: Array, master_curve: MasterCurve) ->
         f"the material flows like a liquid at its lowest frequency, {low:.3g} rad/s (tan δ = "
         f"{master_curve.loss_tangent[0]:.3g}): a spectrum with a rubber plateau misses E' and E'' of the lowest decade "
         f"by {missed:.2g} decades (rms), one with E0 = 0 by {left:.2g}, and contacts need E0 above zero; leave out the "
-        "hottest isotherms to fit what lies above the flow."
+        "hottest isotherms to fit what lies above the flow.",
+        code="liquid",
     )
 
 

@@ -95,10 +95,13 @@ class ModulusTable(FrequencyResponse):
         if len(set(sizes)) > 1:
             raise InputError(
                 "a modulus table must have as many frequencies as storage and loss moduli: there are "
-                f"{sizes[0]}, {sizes[1]} and {sizes[2]}."
+                f"{sizes[0]}, {sizes[1]} and {sizes[2]}.",
+                code="wrong-length",
             )
         if sizes[0] < 2 or np.any(np.diff(omega) <= 0.0):
-            raise InputError("angular_frequency of a modulus table must ascend without repeats, two at least.")
+            raise InputError(
+                "angular_frequency of a modulus table must ascend without repeats, two at least.", code="not-ascending"
+            )
         check_choice(extrapolate, "extrapolate", "refuse", "plateau")
 
     def __repr__(self) -> str:
@@ -129,7 +132,9 @@ class ModulusTable(FrequencyResponse):
         insist_on(master_curve, "master_curve", MasterCurve)
         decades = to_si(resolution, "dimensionless", "resolution")
         if decades < 0.0:
-            raise InputError(f"resolution = {resolution!r}: must be a number of decades, not below zero.")
+            raise InputError(
+                f"resolution = {resolution!r}: must be a number of decades, not below zero.", code="not-positive"
+            )
         log_omega = np.log(master_curve.angular_frequency)
         width, groups, first = decades * np.log(10.0) + _ROUNDING, [], 0
         for index in range(len(log_omega)):
@@ -222,7 +227,9 @@ class ModulusTable(FrequencyResponse):
 def _column(values: ArrayLike, name: str) -> Array:
     column = np.atleast_1d(np.array(numbers(values, name)))
     if column.ndim != 1 or not np.all(column > 0.0):
-        raise InputError(f"{name} of a modulus table must be one row of finite numbers above zero.")
+        raise InputError(
+            f"{name} of a modulus table must be one row of finite numbers above zero.", code="not-a-number"
+        )
     column.flags.writeable = False
     return column
 

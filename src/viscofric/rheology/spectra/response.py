@@ -110,7 +110,9 @@ class FrequencyResponse(ABC):
 def _times(values: ArrayLike) -> Array:
     time = numbers(values, "time")
     if not np.all(time > 0.0):
-        raise InputError("times of a relaxation or retardation density must be above zero and finite, in s.")
+        raise InputError(
+            "times of a relaxation or retardation density must be above zero and finite, in s.", code="not-positive"
+        )
     return time
 
 
@@ -118,7 +120,7 @@ def checked_times(values: ArrayLike, name: str) -> Array:
     """Return times at which a step response is asked for: not below zero."""
     time = numbers(values, "time", infinite=True)
     if not np.all(time >= 0.0):
-        raise InputError(f"time of a {name} must not be below zero, nor NaN.")
+        raise InputError(f"time of a {name} must not be below zero, nor NaN.", code="not-positive")
     return time
 
 
@@ -131,7 +133,7 @@ def mode_column(values: ArrayLike, name: str, unit: str) -> Array:
     """Return one value for each mode, as a read-only copy."""
     column = np.atleast_1d(np.array(numbers(values, name)))
     if column.ndim != 1:
-        raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.")
+        raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.", code="not-a-number")
     column.flags.writeable = False
     return column
 

@@ -88,14 +88,17 @@ class RetardationSpectrum(FrequencyResponse):
         insist_on(fit, "fit", SpectrumFit, type(None), right="a SpectrumFit or None")
         object.__setattr__(self, "fit", fit)
         if self.C.shape != self.tau.shape:
-            raise InputError(f"C and tau must be as many: there are {len(self.C)} and {len(self.tau)}.")
+            raise InputError(
+                f"C and tau must be as many: there are {len(self.C)} and {len(self.tau)}.", code="wrong-length"
+            )
         if np.any(self.C < 0.0) or np.any(self.tau <= 0.0):
-            raise InputError("C must not be below zero and tau must be above zero in every mode.")
+            raise InputError("C must not be below zero and tau must be above zero in every mode.", code="not-positive")
         glass = 1.0 / self.E0 - float(np.sum(self.C))
         if abs(glass - 1.0 / self.E_inf) > BALANCE / self.E0:
             raise InputError(
                 f"the modes do not join E0 to E_inf: 1/E0 − ΣC = {glass:.6g} 1/Pa, but 1/E_inf = "
-                f"{1.0 / self.E_inf:.6g} 1/Pa; give C with ΣC = 1/E0 − 1/E_inf."
+                f"{1.0 / self.E_inf:.6g} 1/Pa; give C with ΣC = 1/E0 − 1/E_inf.",
+                code="modes-contradict",
             )
 
     def __len__(self) -> int:
@@ -242,16 +245,18 @@ class RelaxationSpectrum(FrequencyResponse):
     def __init__(self, E0: Quantity, E: ArrayLike, tau: ArrayLike) -> None:
         rubber = to_si(E0, "Pa", "E0")
         if rubber < 0.0:
-            raise InputError(f"E0 = {E0!r}: must not be below zero; write, for example, '3 MPa'.")
+            raise InputError(f"E0 = {E0!r}: must not be below zero; write, for example, '3 MPa'.", code="not-positive")
         object.__setattr__(self, "E0", rubber)
         object.__setattr__(self, "E", mode_column(E, "E", "Pa"))
         object.__setattr__(self, "tau", mode_column(tau, "tau", "s"))
         if self.E.shape != self.tau.shape:
-            raise InputError(f"E and tau must be as many: there are {len(self.E)} and {len(self.tau)}.")
+            raise InputError(
+                f"E and tau must be as many: there are {len(self.E)} and {len(self.tau)}.", code="wrong-length"
+            )
         if np.any(self.E < 0.0) or np.any(self.tau <= 0.0):
-            raise InputError("E must not be below zero and tau must be above zero in every mode.")
+            raise InputError("E must not be below zero and tau must be above zero in every mode.", code="not-positive")
         if not self.E_inf > 0.0:
-            raise InputError("E0 and all E are zero: there is no modulus at all.")
+            raise InputError("E0 and all E are zero: there is no modulus at all.", code="no-modulus")
 
     def __len__(self) -> int:
         return len(self.E)

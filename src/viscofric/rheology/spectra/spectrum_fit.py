@@ -114,7 +114,8 @@ def _curve_of(given: object) -> MasterCurve:
     if not isinstance(curve, MasterCurve):
         raise InputError(
             "a spectrum is fitted to a MasterCurve, or to the Superposition that superpose(…) returns, not to "
-            f"{type(given).__name__}."
+            f"{type(given).__name__}.",
+            code="wrong-type",
         )
     return curve
 
@@ -179,7 +180,7 @@ def _check(
 ) -> None:
     check_choice(method, "method", *METHODS)
     if positive(tau_ratio, "dimensionless", "tau_ratio") <= 1.0:
-        raise InputError(f"tau_ratio = {tau_ratio!r}: must be above 1.")
+        raise InputError(f"tau_ratio = {tau_ratio!r}: must be above 1.", code="out-of-range")
     if len(master_curve) < 4:
         raise InputError(
             f"a master curve of {len(master_curve)} points is too short to fit a spectrum; give 4 or more.",
@@ -188,11 +189,19 @@ def _check(
     if method != "sparse":
         for name, value in (("modes", modes), ("largest_error", largest_error)):
             if value is not None:
-                raise InputError(f"{name} = {value!r}: belongs to method='sparse', not to {method!r}.")
+                raise InputError(
+                    f"{name} = {value!r}: belongs to method='sparse', not to {method!r}.", code="other-method"
+                )
     if method != "regularised" and regularisation is not None:
-        raise InputError(f"regularisation = {regularisation!r}: belongs to method='regularised', not to {method!r}.")
+        raise InputError(
+            f"regularisation = {regularisation!r}: belongs to method='regularised', not to {method!r}.",
+            code="other-method",
+        )
     if isinstance(regularisation, str) and regularisation not in ("l-curve", "cross-validation"):
-        raise InputError(f"regularisation = {regularisation!r}: must be a number, 'l-curve' or 'cross-validation'.")
+        raise InputError(
+            f"regularisation = {regularisation!r}: must be a number, 'l-curve' or 'cross-validation'.",
+            code="wrong-choice",
+        )
     if not (regularisation is None or isinstance(regularisation, str)):
         positive(regularisation, "dimensionless", "regularisation")
     if largest_error is not None:

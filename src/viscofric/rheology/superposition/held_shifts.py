@@ -43,20 +43,26 @@ def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: floa
         if abs(temperatures[place] - kelvin) > NEAR * gap:
             raise InputError(
                 f"a shift factor is fixed at {shown(kelvin)}, where none of the joined isotherms is; the nearest is at "
-                f"{shown(temperatures[place])}."
+                f"{shown(temperatures[place])}.",
+                code="no-such-temperature",
             )
         if place in held:
-            raise InputError(f"two shift factors are fixed for the isotherm at {shown(temperatures[place])}; give one.")
+            raise InputError(
+                f"two shift factors are fixed for the isotherm at {shown(temperatures[place])}; give one.",
+                code="given-twice",
+            )
         held[place] = log10_alpha
     around = np.flatnonzero(_weights(1.0 / reference, 1.0 / temperatures[::-1])[::-1])
     if len(around) == 1 and held.get(int(around[0]), 0.0) != 0.0:
         raise InputError(
-            f"a shift factor is fixed at {shown(reference)}, which is the reference, where log10 α is 0; leave it out."
+            f"a shift factor is fixed at {shown(reference)}, which is the reference, where log10 α is 0; leave it out.",
+            code="is-reference",
         )
     if len(around) > 1 and all(int(place) in held for place in around):
         raise InputError(
             f"the reference, {shown(reference)}, lies between two isotherms whose shift factors are both fixed; "
-            "fix one of them only."
+            "fix one of them only.",
+            code="reference-fixed",
         )
     return held
 
@@ -90,7 +96,8 @@ def given_shifts(joined: JoinedIsotherms, reference: float, shift: ShiftLaw, fre
     if abs(values[farthest]) > LARGEST_SHIFT:
         raise InputError(
             f"the given shift factors move the sweep at {shown(temperatures[farthest])} by "
-            f"{values[farthest]:.0f} decades from the reference, {shown(reference)}: their law does not hold there."
+            f"{values[farthest]:.0f} decades from the reference, {shown(reference)}: their law does not hold there.",
+            code="out-of-range",
         )
     nothing = np.zeros((len(values), len(values)))
     covariance = nothing

@@ -148,14 +148,17 @@ def superpose(
     if not isinstance(sweeps, IsothermalSweeps):
         raise InputError(
             f"sweeps must be IsothermalSweeps, not {type(sweeps).__name__}; read them with read_dma(…), as in "
-            "superpose(read_dma('sweeps.csv'), '20 degC')."
+            "superpose(read_dma('sweeps.csv'), '20 degC').",
+            code="wrong-type",
         )
     kelvin = positive(reference, "K", "reference")
     ratio = checked_poisson_ratio(poisson_ratio)
     insist_on(shift, "shift", ShiftLaw, type(None), right="a shift law, ShiftFactors or None")
     insist_on(fixed, "fixed", Mapping, type(None), right="a mapping of temperatures to log10 α")
     if shift is not None and fixed:
-        raise InputError("shift and fixed: give one of them; with shift no factor is left to be fitted.")
+        raise InputError(
+            "shift and fixed: give one of them; with shift no factor is left to be fitted.", code="give-one"
+        )
     tensile = sweeps.in_tension(ratio)
     usable(tensile.isotherms)
     known = _known_vertical(vertical, kelvin)
@@ -172,7 +175,8 @@ def superpose(
         raise InputError(
             f"reference = {celsius(kelvin):z.1f} °C lies outside the joined isotherms, "
             f"{shown(temperatures[0])} to {shown(temperatures[-1])}{kelvin_hint(kelvin)}. "
-            f"{' '.join(joined.notes)}".rstrip()
+            f"{' '.join(joined.notes)}".rstrip(),
+            code="reference-outside",
         )
     free = vertical == "free"
     if shift is None:
@@ -247,7 +251,9 @@ def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None,
     if vertical == "density":
         return DensityShift(kelvin)
     if vertical not in (None, "free"):
-        raise InputError(f"vertical shift {vertical!r}: must be 'free', 'density', a VerticalShift or None.")
+        raise InputError(
+            f"vertical shift {vertical!r}: must be 'free', 'density', a VerticalShift or None.", code="wrong-choice"
+        )
     return None
 
 

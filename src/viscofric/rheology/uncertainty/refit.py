@@ -33,7 +33,8 @@ class Refit:
         if spectrum.fit is None or not spectrum.fit.method or spectrum.fit.from_friction:
             raise InputError(
                 "spectrum: was not fitted to a master curve, so that it cannot be fitted to samples of one; "
-                "give what fit_retardation_spectrum returned."
+                "give what fit_retardation_spectrum returned.",
+                code="not-fitted",
             )
         self.strength = spectrum.fit.regularisation
         self.on_lattice = spectrum.fit.tau_ratio is not None

@@ -156,7 +156,8 @@ def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> 
         return
     raise InputError(
         f"the spectrum was not fitted to this master curve: it was fitted {ranges}; fit it to the superposition's own "
-        f"master curve, at its reference, {celsius(curve.reference):z.1f} °C."
+        f"master curve, at its reference, {celsius(curve.reference):z.1f} °C.",
+        code="other-master-curve",
     )
 
 

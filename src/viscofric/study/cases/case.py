@@ -136,7 +136,10 @@ class Case(ABC):
     def insist_on_motion(self) -> None:
         """Raise `InputError` if it is on no curve because its speed is not above zero."""
         if not 0.0 < self.speed < math.inf:
-            raise InputError(f"speed = {self.speed:g} m/s: must be above zero and finite to lie on a friction curve.")
+            raise InputError(
+                f"speed = {self.speed:g} m/s: must be above zero and finite to lie on a friction curve.",
+                code="not-positive",
+            )
 
     @abstractmethod
     def place(self, rubbers: Rubbers) -> Place:

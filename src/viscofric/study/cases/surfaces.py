@@ -175,7 +175,9 @@ def file_digest(path: Path) -> str:
     except FileNotFoundError:
         raise DataFileError(path, "no such file.", code="no-file") from None
     except (OSError, ValueError) as error:
-        raise DataFileError(path, f"cannot be read ({getattr(error, 'strerror', None) or error}).") from None
+        raise DataFileError(
+            path, f"cannot be read ({getattr(error, 'strerror', None) or error}).", code="unreadable"
+        ) from None
 
 
 def unit_vector(angle: float) -> tuple[float, float]:
@@ -236,26 +238,28 @@ def _parted(words: str) -> tuple[str, str]:
             return name, said.removeprefix(name).strip()
     near = difflib.get_close_matches(said[:_LONGEST_STEP], [*STEPS, *STEPS.values()], n=1, cutoff=0.5)
     hint = f"did you mean '{near[0]}'?" if near else f"expected {', '.join(repr(one) for one in STEPS.values())}"
-    raise InputError(f"{brief(words)} is not a preparation step; {hint}")
+    raise InputError(f"{brief(words)} is not a preparation step; {hint}", code="wrong-step")
 
 
 def _alone(name: str, rest: str, applied: _Applied) -> _Applied:
     if rest:
-        raise InputError(f"{brief(f'{name} {rest}')}: '{name}' takes no argument")
+        raise InputError(f"{brief(f'{name} {rest}')}: '{name}' takes no argument", code="wrong-step")
     return applied
 
 
 def _fill(rest: str) -> _Applied:
     method: Any = rest or _FILL[0]
     if method not in _FILL:
-        raise InputError(f"{brief(f'fill {rest}')}: expected 'fill harmonic' or 'fill nearest'")
+        raise InputError(f"{brief(f'fill {rest}')}: expected 'fill harmonic' or 'fill nearest'", code="wrong-step")
     return lambda one: one.fill(method)
 
 
 def _remove(rest: str) -> _Applied:
     what: Any = rest
     if what not in _REMOVE:
-        raise InputError(f"{brief(f'remove {rest}')}: expected 'remove mean', 'remove tilt' or 'remove curvature'")
+        raise InputError(
+            f"{brief(f'remove {rest}')}: expected 'remove mean', 'remove tilt' or 'remove curvature'", code="wrong-step"
+        )
     return lambda one: one.remove(what)
 
 
@@ -266,14 +270,15 @@ def _window(rest: str) -> _Applied:
         edge = -1.0
     if not 0.0 < edge <= 0.5:
         raise InputError(
-            f"{brief(f'window {rest}')}: expected a fraction of each length up to 0.5, such as 'window 0.1'"
+            f"{brief(f'window {rest}')}: expected a fraction of each length up to 0.5, such as 'window 0.1'",
+            code="wrong-step",
         )
     return lambda one: one.window(edge)
 
 
 def _length(name: str, rest: str, applied: Callable[[Topography, float], Topography]) -> _Applied:
     if not rest:
-        raise InputError(f"'{name}' needs a length, such as '{STEPS[name]}'")
+        raise InputError(f"'{name}' needs a length, such as '{STEPS[name]}'", code="wrong-step")
     value = positive(rest, "m", name)
     return lambda one: applied(one, value)
 
@@ -281,7 +286,7 @@ def _length(name: str, rest: str, applied: Callable[[Topography, float], Topogra
 def _crop(rest: str) -> _Applied:
     found = re.fullmatch(r"([xy]) (.+) to (.+)", rest)
     if found is None:
-        raise InputError(f"{brief(f'crop {rest}')}: expected '{STEPS['crop']}'")
+        raise InputError(f"{brief(f'crop {rest}')}: expected '{STEPS['crop']}'", code="wrong-step")
     first, last = (to_si(text, "m", "crop") for text in found.groups()[1:])
     if found[1] == "x":
         return lambda one: one.crop(x=(first, last))

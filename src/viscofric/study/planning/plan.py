@@ -60,7 +60,7 @@ class Plan:
         if key in self._known:
             return
         if key not in self._waiting:
-            raise InputError(f"key = {key!r}: this plan has no such task.")
+            raise InputError(f"key = {key!r}: this plan has no such task.", code="no-such-task")
         del self._waiting[key]
         self._known[key] = outcome
         for call in self._callbacks.pop(key):

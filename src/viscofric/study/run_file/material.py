@@ -182,5 +182,7 @@ def files_of(folder: Path, path: Path) -> tuple[Path, ...]:
     pattern = path.relative_to(path.anchor) if path.is_absolute() else path
     found = list(itertools.islice((one for one in base.glob(str(pattern)) if one.is_file()), _MOST_FILES + 1))
     if len(found) > _MOST_FILES:
-        raise InputError(f"{path} matches more than {_MOST_FILES:,} files; write a narrower pattern")
+        raise InputError(
+            f"{path} matches more than {_MOST_FILES:,} files; write a narrower pattern", code="too-many-files"
+        )
     return tuple(sorted(found)) or (whole,)

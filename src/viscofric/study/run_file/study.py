@@ -212,7 +212,9 @@ def read_study_text(path: Path) -> str:
     except StudyError:
         raise
     except (OSError, ValueError) as error:
-        raise StudyError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error}).") from None
+        raise StudyError(
+            f"{path}: cannot be read ({getattr(error, 'strerror', None) or error}).", code="unreadable"
+        ) from None
 
 
 def decoded(data: bytes, path: Path) -> str:
@@ -324,5 +326,5 @@ def _resolve_paths(study: Study, path: Path) -> Study:
         measurement = None if study.measurement is None else study.measurement.relative_to(folder)
         surface = None if study.surface is None else study.surface.relative_to(folder)
     except (OSError, ValueError) as error:
-        raise StudyError(f"{path}: {getattr(error, 'strerror', None) or error}.") from None
+        raise StudyError(f"{path}: {getattr(error, 'strerror', None) or error}.", code="unreadable") from None
     return study.model_copy(update={"materials": materials, "measurement": measurement, "surface": surface})

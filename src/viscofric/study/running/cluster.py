@@ -167,13 +167,14 @@ class Dask(Executor):
         except self._distributed.KilledWorker:
             return Lost("several workers ended while solving it, mostly for lack of memory.", task.label)
         except self._distributed.CancelledError as error:
-            raise ViscofricError("the Dask scheduler ended, or cancelled the tasks.") from error
+            raise ViscofricError("the Dask scheduler ended, or cancelled the tasks.", code="scheduler-ended") from error
         except ViscofricError:
             raise
         except Exception as error:
             raise ViscofricError(
                 f"the workers of the Dask cluster cannot solve the tasks ({type(error).__name__}: {error}); "
-                "viscofric must be installed on all machines, in the same version."
+                "viscofric must be installed on all machines, in the same version.",
+                code="workers-unusable",
             ) from error
         return outcome
 

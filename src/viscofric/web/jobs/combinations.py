@@ -33,6 +33,7 @@ def page_sweep(study: Study) -> Sweep:
             f"{len(sweep.cases):,} cases are more than the {MOST_CASES:,} that the page solves; take fewer "
             "speeds, temperatures or loads here, or export the run file and solve it with viscofric run.",
             "conditions",
+            code="too-many-cases",
         )
     return sweep
 
@@ -68,7 +69,9 @@ def of_combination(sweep: Sweep, number: int) -> Case:
     for case in sweep.cases:
         cases.setdefault(case.alike, case)
     if number >= len(cases):
-        raise JobError(f"combination = {number}: the study has {len(cases)} of them, counted from 0.")
+        raise JobError(
+            f"combination = {number}: the study has {len(cases)} of them, counted from 0.", code="no-such-combination"
+        )
     return list(cases.values())[number]
 
 

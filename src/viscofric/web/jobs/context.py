@@ -25,10 +25,12 @@ class JobError(ViscofricError):
     ----------
     field : str, optional
         Path in the study, such as ``conditions.load``.
+    code : str, optional
+        As for `ViscofricError`.
     """
 
-    def __init__(self, message: str | Note, field: str | None = None) -> None:
-        super().__init__(message, field=field)
+    def __init__(self, message: str | Note, field: str | None = None, *, code: str = "") -> None:
+        super().__init__(message, field=field, code=code)
 
 
 def beside_field(problem: Note) -> dict[str, str]:

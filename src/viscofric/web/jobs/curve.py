@@ -82,7 +82,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         run_plan(contacts.plan, store, executor, progress)
     requested, at_points, along = contacts.results()
     if not requested.records:
-        raise JobError(f"No case could be solved; the first one failed: {requested.failures[0]}")
+        first = requested.failures[0]
+        raise JobError(f"No case could be solved; the first one failed: {first}", code=first.code)
     return {
         **layout,
         **columns(contacts, requested),

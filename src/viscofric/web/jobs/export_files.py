@@ -48,7 +48,7 @@ def lay_out(text: str, study: Study, folder: Path) -> Path:
         If a data file is not there, or the folder cannot be written.
     """
     if missing := missing_files(study):
-        raise DataFileError(missing[0], "is not one of the page's files; drop it on the page first.")
+        raise DataFileError(missing[0], "is not one of the page's files; drop it on the page first.", code="no-file")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for old in folder.iterdir():

@@ -87,7 +87,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     chosen: dict[str, Any] = {"accuracy": options.accuracy, "samples": options.samples}
     if options.shift == "rubber":
         if rubber is None or rubber.shift is None:
-            raise JobError("The page's rubber has no shift factors: let them be found from friction.", "material")
+            raise JobError(
+                "The page's rubber has no shift factors: let them be found from friction.", "material", code="no-shift"
+            )
         chosen["shift"] = rubber.shift
     anchor = None if options.anchor is None else _anchor(options.anchor, rubber, curves)
     steps = _STEPS + (len(LEVELS) if anchor is None else 0)
@@ -285,7 +287,7 @@ def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: st
             else _of_contact(requested, load_unit)
         )
     except InputError as error:
-        raise JobError(f"The anchor cannot be used: {error}", "anchor") from error
+        raise JobError(f"The anchor cannot be used: {error}", "anchor", code=error.code) from error
 
 
 def _given(requested: AnchorOptions, *names: str) -> list[str]:
@@ -293,7 +295,7 @@ def _given(requested: AnchorOptions, *names: str) -> list[str]:
 
     missing = [_NAMES.get(name, f"the {name}") for name in names if not getattr(requested, name)]
     if missing:
-        raise InputError(f"{' and '.join(missing)} of the anchor is missing.")
+        raise InputError(f"{' and '.join(missing)} of the anchor is missing.", code="missing")
     return [getattr(requested, name) for name in names]
 
 
@@ -307,7 +309,7 @@ def _of_modulus(requested: AnchorOptions, rubber: Material | None) -> Anchor:
         (modulus,) = _given(requested, "modulus")
         return ModulusAnchor(modulus, frequency, requested.temperature, error=requested.error)
     if rubber is None:
-        raise InputError("there is no rubber whose modulus could be taken.")
+        raise InputError("there is no rubber whose modulus could be taken.", code="no-rubber")
     at = angular_frequency(frequency, "frequency")
     known = abs(complex(rubber.complex_modulus(at, requested.temperature)))
     return ModulusAnchor(known, at, requested.temperature, error=requested.error)

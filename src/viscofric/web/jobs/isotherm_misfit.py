@@ -54,11 +54,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     fit = made_rubber(study, context).fit
     if fit is None:
-        raise JobError("Only isotherms of sweeps can be shifted; this rubber is made of none.")
+        raise JobError("Only isotherms of sweeps can be shifted; this rubber is made of none.", code="no-isotherms")
     temperatures = fit.shift_factors.temperatures
     place = int(np.argmin(np.abs(temperatures - options.temperature)))
     if abs(temperatures[place] - options.temperature) > _NAMED:
-        raise JobError(f"None of the joined isotherms is at {options.temperature - 273.15:.1f} °C.")
+        raise JobError(
+            f"None of the joined isotherms is at {options.temperature - 273.15:.1f} °C.", code="no-such-temperature"
+        )
     half = round(options.reach / options.step)
     moved = options.step * np.arange(-half, half + 1)
     return {

@@ -54,7 +54,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     rubber = made_rubber(study, context)
     material, at = rubber.material, options.temperature
     if material.shift is None:
-        raise JobError("This rubber has no shift with temperature: valid at one temperature only.")
+        raise JobError("This rubber has no shift with temperature: valid at one temperature only.", code="no-shift")
     alpha = float(material.shift(at))
     omega = frequencies(rubber) / alpha
     samples = friction_bands(study, context).samples if options.bands else None

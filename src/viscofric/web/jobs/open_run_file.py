@@ -63,7 +63,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     try:
         return {"study": plain(document, digits=None), "missing": missing}
     except RecursionError:
-        raise StudyError(f"{RUN_FILE}: lists or tables lie within each other too deeply for a run file.") from None
+        raise StudyError(
+            f"{RUN_FILE}: lists or tables lie within each other too deeply for a run file.", code="too-deep"
+        ) from None
 
 
 def _is_there(name: str, folder: Path) -> bool:
