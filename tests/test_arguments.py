@@ -398,7 +398,7 @@ CALLS: dict[str, Any] = {
         "modes": None, "regularisation": None, "largest_error": None},
     "check_superposition": lambda: {"fit": superposition()},
     "superpose": lambda: {"sweeps": sweeps(), "reference": 300.0, "poisson_ratio": 0.5, "vertical": None, "shift": None,
-        "fixed": None},
+        "fixed": None, "by": "both", "weights": (1.0, 0.5)},
     "MaterialSamples.modulus_band": lambda: (samples(), {**at_frequencies(), "temperature": 300.0, "level": 0.9}),
     "MaterialSamples.to_dataset": lambda: (samples(), {**at_frequencies(), "temperature": 300.0, "level": 0.9}),
     "MaterialSamples.spectrum_band": lambda: (samples(), {"level": 0.9}),

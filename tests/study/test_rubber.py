@@ -53,6 +53,22 @@ def test_given_factors_are_used_as_they_are(sweeps: Path, tmp_path: Path) -> Non
     assert made.fit.quality.joint < 0.01
 
 
+def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
+    made = rubber(dma=str(sweeps), shift_by="storage", **REFERENCE)
+    assert "shifted-by" in codes(made.notes)
+    assert rubber_groups(made)["/shift_factors"].attrs["shifted_by"] == "storage"
+    weighted = rubber(dma=str(sweeps), shift_weights=[1.0, 0.25], **REFERENCE).fit
+    assert weighted.weights == pytest.approx((1.6, 0.4))
+    for wrong in (
+        {"shift_by": "loss", "shift_weights": [1.0, 1.0]},
+        {"shift_by": "loss-tangent", "vertical_shift": "free"},
+        {"shift_by": "loss", "shift_factors": "alpha.csv"},
+        {"shift_weights": [1.0, 0.0]},
+    ):
+        with pytest.raises(InputError, match="shift_(by|weights)"):
+            rubber(dma=str(sweeps), **wrong, **REFERENCE)
+
+
 def test_a_held_factor_is_held(sweeps: Path) -> None:
     made = rubber(dma=str(sweeps), fixed_shift_factors={"0 degC": 2.5}, **REFERENCE)
     assert made.shift_origin == "held"

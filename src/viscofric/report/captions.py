@@ -180,7 +180,9 @@ def _origin(tree: xr.DataTree) -> str:
     origin = "found" if factors is None else str(factors.attrs.get("shift_origin", "found"))
     if origin == "given":
         return "that were given, not fitted to the sweeps"
-    found = "from the superposition of the isotherms, with their standard errors"
+    by = "both" if factors is None else str(factors.attrs.get("shifted_by", "both"))
+    alone = {"storage": " by E' alone", "loss": " by E'' alone", "loss-tangent": " by tan δ alone"}.get(by, "")
+    found = f"from the superposition of the isotherms{alone}, with their standard errors"
     return f"{found}; some were fixed at given values, without an error" if origin == "held" else found
 
 

@@ -233,6 +233,8 @@ def _superposed(table: MaterialTable, sweeps: IsothermalSweeps) -> Superposition
         vertical=None if table.vertical_shift == "none" else table.vertical_shift,
         shift=given,
         fixed=table.fixed_shift_factors or None,
+        by=table.shift_by,
+        weights=table.shift_weights,
     )
 
 

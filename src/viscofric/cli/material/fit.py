@@ -40,6 +40,19 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
     help="Vertical shift b(T): none, fitted freely, or from density and temperature.",
 )
 @click.option(
+    "--shift-by",
+    type=click.Choice(["both", "storage", "loss", "loss-tangent"]),
+    default="both",
+    show_default=True,
+    help="Find shift factors from E' and E'', from one of the two, or from tan δ.",
+)
+@click.option(
+    "--shift-weights",
+    metavar="E' E''",
+    type=(float, float),
+    help="Weights of log E' and log E'' in the superposition, e.g. 1 0.2.",
+)
+@click.option(
     "--shift",
     type=click.Choice(_LAWS),
     default="measured",
@@ -175,14 +188,17 @@ def _fixed(text: str) -> tuple[str, float]:
 
 def _command(files: tuple[Path, ...], parameters: dict[str, Any]) -> str:
     """Return the command that does the same again, without what is the default anyway."""
-    defaults = {option.name: option.default for option in command.params}
+    options = {option.name: option for option in command.params}
     words = ["viscofric", "material", "fit", *map(str, files)]
     for name, value in parameters.items():
-        if value in (None, (), False, defaults.get(name)):
+        if value in (None, (), False, options[name].default if name in options else None):
             continue
         option = f"--{name.replace('_', '-')}"
         if value is True:
             words.append(option)
+            continue
+        if name in options and options[name].nargs > 1:
+            words += [option, *map(str, value)]
             continue
         for one in value if isinstance(value, tuple) else (value,):
             words += [option, str(one)]

@@ -78,11 +78,10 @@ class Curves:
     coefficients: Array  # (K, m)
     residual: Array  # (n, m), points minus curves, times √w
 
-    @property
-    def cost(self) -> float:
-        """What the fit minimised: squared residuals and penalised roughness of all quantities."""
+    def cost(self, weights: Array) -> float:
+        """Return what the fit minimised: squared residuals and penalised roughness of all quantities, weighted (m,)."""
         rough = np.einsum("im,ij,jm->m", self.coefficients, self.smoother.penalty, self.coefficients)
-        return float(np.sum(self.residual**2) + self.smoother.smoothing @ rough)
+        return float(weights @ (np.sum(self.residual**2, axis=0) + self.smoother.smoothing * rough))
 
     @property
     def freedom(self) -> float:

@@ -16,6 +16,7 @@ import numpy as np
 from viscofric.rheology.superposition.gauge import continued, continued_covariance, identified
 from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets, Offsets, estimated
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, parted
+from viscofric.rheology.superposition.quantity import BOTH
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
 from viscofric.rheology.superposition.step_profiles import StepProfiles
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.common_curve import Smoother
     from viscofric.rheology.superposition.gauge import Gauge
     from viscofric.rheology.superposition.overlap import Join, LogSweep
+    from viscofric.rheology.superposition.quantity import Quantities
 
 
 OFFSET_PASSES = 3  # each with the curves smoothed anew beside the offsets that were found
@@ -53,7 +55,9 @@ class CommonShifts:
     offsets: IsothermOffsets | None = None
 
 
-def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
+def common_shifts(
+    sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, quantities: Quantities = BOTH
+) -> CommonShifts:
     """Shift isotherms (ascending in temperature, two points or more each) onto one curve of log E' and one of log E''.
 
     E' and E'' have equal weights; the covariance follows from the scatter of each.  `joins` of each isotherm with the
@@ -69,15 +73,17 @@ def common_shifts(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> Co
     a common curve moves neighbours past each other although their storage moduli overlap (`overlap.parted`): sweeps
     that disagree in E'' alone, as at a resonance of the instrument, do not increase the misfit of a flexible curve once
     they are apart.
+
+    `sweeps` contain the `quantities`, which may be other ones than log E' and log E'', or have other weights.
     """
-    search, apart = _torn_apart(sweeps, joins, gauge)
+    search, apart = _torn_apart(sweeps, joins, gauge, quantities)
     inside = identified(search.signal, gauge)
     if inside is None:
-        return replace(_with_offsets(search, sweeps), parted=tuple(sorted(apart)))
+        return replace(_with_offsets(search, sweeps, quantities), parted=tuple(sorted(apart)))
     first, last = inside
     part = sweeps[first:last]
-    search, apart = _torn_apart(part, joins[first : last - 1], gauge.within(first, last))
-    found = _with_offsets(search, part)
+    search, apart = _torn_apart(part, joins[first : last - 1], gauge.within(first, last), quantities)
+    found = _with_offsets(search, part, quantities)
     nothing = np.zeros(len(sweeps))
     return replace(
         found,
@@ -113,12 +119,16 @@ class _Search:
         return self.problem.signal(self.parameters, self.smoothers)
 
 
-def _torn_apart(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> tuple[_Search, set[int]]:
+def _torn_apart(
+    sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, quantities: Quantities
+) -> tuple[_Search, set[int]]:
     """Fit all isotherms, join those pair by pair that the fit moves past each other, and return their indices too."""
     apart: set[int] = set()
     held = {place for place in gauge.held if place + 1 in gauge.held}
     while True:
-        search = _search(ShiftProblem(sweeps, joins, gauge, apart), joins)
+        search = _search(ShiftProblem(sweeps, joins, gauge, apart, quantities.weights), joins)
+        if not quantities.rising:
+            return search, apart
         values, _ = search.problem.split(search.parameters)
         more = set(parted(sweeps, values)) - apart - held
         if not more:
@@ -144,7 +154,7 @@ def _search(problem: ShiftProblem, joins: list[Join]) -> _Search:
     return _Search(problem, parameters, smoothers, noise)
 
 
-def _with_offsets(search: _Search, sweeps: list[LogSweep]) -> CommonShifts:
+def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantities) -> CommonShifts:
     """Go on with offsets of whole isotherms; errors hold these too, and what profiles of the steps show."""
     problem, expected = search.problem, None
     for _ in range(OFFSET_PASSES):
@@ -154,16 +164,17 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep]) -> CommonShifts:
         noise = _noise(problem, smoothers)
         search = _Search(problem, _descend(problem, search.parameters, smoothers, noise), smoothers, noise)
     covariance, freedom, inverse = _covariance(search, expected)
-    size = problem.size
-    both = np.zeros((2 * size, 2 * size))
+    size, moduli = problem.size, problem.moduli
+    both = np.zeros((2 * size, moduli * size))
     gain = inverse @ gradient / search.noise**2
     spread = np.kron(offsets.covariance, np.eye(size))
     both[: len(gain)] = gain @ spread
-    levels = spread + np.kron(np.ones((2, 2)), problem.vertical_prior())
+    levels = spread + np.kron(np.ones((moduli, moduli)), problem.vertical_prior())
     profiles = StepProfiles(problem, search.smoothers, sweeps, levels)
     covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
     return replace(
-        _result(search, covariance, freedom), offsets=IsothermOffsets(offsets.covariance, both, offsets.sizes)
+        _result(search, covariance, freedom),
+        offsets=IsothermOffsets(offsets.covariance, both, offsets.sizes, quantities.onto_moduli),
     )
 
 
@@ -178,9 +189,9 @@ def _result(search: _Search, covariance: Array, freedom: float) -> CommonShifts:
 
 
 def _noise(problem: ShiftProblem, smoothers: list[Smoother]) -> float:
-    """Return the scatter of both moduli about the curves, decades."""
+    """Return the scatter of the moduli about the curves, decades."""
     weights = np.array([len(piece.frequency) for piece in problem.pieces], dtype=float)
-    squares = np.array([np.mean(smoother.scatter**2) for smoother in smoothers])
+    squares = np.array([np.average(smoother.scatter**2, weights=problem.weights) for smoother in smoothers])
     return float(np.sqrt(weights @ squares / weights.sum())) + SMALLEST_NOISE
 
 
@@ -233,5 +244,5 @@ def _offsets(search: _Search, expected: Array | None) -> tuple[Offsets, Array]:
     turned[: len(ways), : ways.shape[1]] = ways
     prior = ways.T @ problem.prior.T @ problem.prior @ ways
     return estimated(
-        turned.T @ information @ turned, turned.T @ score, prior, tied=problem.gauge.free_vertical
+        turned.T @ information @ turned, turned.T @ score, prior, problem.moduli, tied=problem.gauge.free_vertical
     ), gradient

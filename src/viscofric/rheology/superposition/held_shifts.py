@@ -11,6 +11,7 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.superposition.common_shifts import CommonShifts, common_shifts
 from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.joined_isotherms import JoinedIsotherms, shown
+from viscofric.rheology.superposition.quantity import BOTH
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.superposition.quantity import Quantities
 
 
 #: A temperature is that of an isotherm if it is so much of the way, or less, to the next one.
@@ -67,17 +69,19 @@ def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: floa
     return held
 
 
-def fitted_shifts(joined: JoinedIsotherms, reference: float, held: dict[int, float], free: bool) -> CommonShifts:
+def fitted_shifts(
+    joined: JoinedIsotherms, reference: float, held: dict[int, float], free: bool, quantities: Quantities = BOTH
+) -> CommonShifts:
     """Fit all shifts except those `held` (log10 α by index); with `free`, vertical shifts too.  See `common_shifts`."""
-    temperatures = _temperatures(joined)
+    temperatures, sweeps = _temperatures(joined), quantities.of(joined.logs)
     around = _gauge(temperatures, reference, {}, free)
     if not held or np.max(around.weights) == 1.0:
-        return common_shifts(joined.logs, joined.joins, _gauge(temperatures, reference, held, free))
+        return common_shifts(sweeps, joined.joins, _gauge(temperatures, reference, held, free), quantities)
     # `ShiftFactors` interpolates by a cubic and finds another zero than the straight line that the fit knows.
     moved = 0.0
     for _ in range(REPETITIONS):
         shifted = {place: value + moved for place, value in held.items()}
-        found = common_shifts(joined.logs, joined.joins, _gauge(temperatures, reference, shifted, free))
+        found = common_shifts(sweeps, joined.joins, _gauge(temperatures, reference, shifted, free), quantities)
         table = ShiftFactors(temperatures, found.values, reference)
         before, moved = moved, float(found.values[0] - table.log10_values[0])
         if abs(moved - before) < EXACT:

@@ -10,7 +10,7 @@ with the probability of that size.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,40 +34,45 @@ NONE_BESIDE_VERTICAL = 0.3
 #: the two sizes are alike within a factor of 2: where the curves are power laws, a shift takes up the sum.  The
 #: variance of a factor that E' and E'' share is then found some 20 % too small.  A factor of 4 mends that, but sweeps
 #: of three points along a power law, without offsets, would get 1.8 times the errors that their points make.
-TURN = np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)
+TURNS = {1: np.ones((1, 1)), 2: np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)}
 
 
 @dataclass(frozen=True, eq=False)
 class OffsetSizes:
     """Possible sizes of offsets, and the probability of each."""
 
-    # (k, 2), standard deviations of sum and difference of both offsets of an isotherm, over √2; decades
+    # (k, m), standard deviations of sum and difference of two offsets of an isotherm, over √2, or of one; decades
     deviations: Array
     probability: Array  # (k,), sums to 1
 
     def draw(self, random: np.random.Generator, samples: int) -> Array:
-        """Return sizes (samples, 2), drawn by their probabilities."""
+        """Return sizes (samples, m), drawn by their probabilities."""
         return self.deviations[random.choice(len(self.probability), samples, p=self.probability)]
 
 
 @dataclass(frozen=True, eq=False)
 class IsothermOffsets:
-    """Offsets of log E' and of log E'' that all points of an isotherm share, and how found shifts follow them.
+    """Offsets that all points of an isotherm share, of the m quantities shifted, and how found shifts follow them.
+
+    The quantities are log E' and log E'', or one of them, or log tan δ.
 
     Parameters
     ----------
-    covariance : (2, 2) array
-        Of the offset of log E' and that of log E'' of one isotherm, decades²; isotherms are independent.
-    with_shifts : (2n, 2n) array
-        Covariance of errors of log10 α and then of log10 b of n isotherms (rows) with the offsets of log E' and then of
-        log E'' (columns), decades².
+    covariance : (m, m) array
+        Of the offsets of one isotherm, decades²; isotherms are independent.
+    with_shifts : (2n, m n) array
+        Covariance of errors of log10 α and then of log10 b of n isotherms (rows) with the offsets of the first quantity
+        and then of the second (columns), decades².
     sizes : OffsetSizes
         Which sizes offsets may have; `covariance` is the mean over them.
+    onto_moduli : (2, m) array
+        What offsets of the quantities make of log E' and log E''.
     """
 
     covariance: Array
     with_shifts: Array
     sizes: OffsetSizes
+    onto_moduli: Array = field(default_factory=lambda: np.eye(2))
 
     def __repr__(self) -> str:
         storage, loss = self.standard_deviations
@@ -76,31 +81,37 @@ class IsothermOffsets:
     @property
     def standard_deviations(self) -> Array:
         """Of log E' and of log E'', (2,), decades."""
-        return np.asarray(np.sqrt(np.diag(self.covariance)))
+        return np.asarray(np.sqrt(np.diag(self.onto_moduli @ self.covariance @ self.onto_moduli.T)))
+
+    def of_moduli(self, offsets: Array) -> Array:
+        """Return drawn offsets (samples, m n) as those of log E' and log E'' of each isotherm (samples, n, 2)."""
+        by_isotherm = offsets.reshape(len(offsets), len(self.covariance), -1)
+        return np.asarray(np.swapaxes(by_isotherm, 1, 2) @ self.onto_moduli.T)
 
     def continued(self, gauge: Gauge, first: int, last: int) -> IsothermOffsets:
         """Return those of all isotherms of a gauge, of which these are the ones from `first` to before `last`."""
-        size, part = len(gauge.weights), last - first
-        with_shifts = np.zeros((2, size, 2, size))
-        own = self.with_shifts.reshape(2, part, 2, part)
+        size, part, moduli = len(gauge.weights), last - first, len(self.covariance)
+        with_shifts = np.zeros((2, size, moduli, size))
+        own = self.with_shifts.reshape(2, part, moduli, part)
         for row in range(2):
-            for column in range(2):
+            for column in range(moduli):
                 with_shifts[row, :, column, first:last] = continued(own[row, :, column], gauge, first, last)
-        return IsothermOffsets(self.covariance, with_shifts.reshape(2 * size, 2 * size), self.sizes)
+        return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size))
 
     def resized(self, random: np.random.Generator, errors: Array) -> Array:
         """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly.
 
-        `errors` (samples, m + 2n), in decades, were drawn with the mean covariance: errors of log10 α, then of log10 b
-        if fitted (m = 2n), then offsets of log E' and those of log E''.
+        `errors` (samples, s + m n), in decades, were drawn with the mean covariance: errors of log10 α, then of log10 b
+        if fitted (s = 2n), then offsets of the first quantity and those of the second.
         """
-        count = len(self.with_shifts)
+        moduli, count = len(self.covariance), self.with_shifts.shape[1]
+        turn = TURNS[moduli]
         shifts, offsets = errors[:, :-count], errors[:, -count:]
-        mean = np.sqrt(np.diag(TURN @ self.covariance @ TURN.T))
+        mean = np.sqrt(np.diag(turn @ self.covariance @ turn.T))
         scale = self.sizes.draw(random, len(errors)) / mean
-        turned = TURN @ offsets.reshape(len(errors), 2, -1)
-        change = (TURN.T @ ((scale[:, :, None] - 1.0) * turned)).reshape(offsets.shape)
-        follow = self.with_shifts @ np.kron(np.linalg.inv(self.covariance), np.eye(count // 2))
+        turned = turn @ offsets.reshape(len(errors), moduli, -1)
+        change = (turn.T @ ((scale[:, :, None] - 1.0) * turned)).reshape(offsets.shape)
+        follow = self.with_shifts @ np.kron(np.linalg.inv(self.covariance), np.eye(count // moduli))
         return np.concatenate([shifts + change @ follow[: shifts.shape[1]].T, offsets + change], axis=1)
 
 
@@ -108,42 +119,55 @@ class IsothermOffsets:
 class Offsets:
     """Estimated offsets of n isotherms."""
 
-    covariance: Array  # (2, 2), of the offsets of log E' and log E'' of one isotherm, decades²; the mean over `sizes`
-    # (2n,), mean of log E' offsets, then of log E'' offsets, given the measurement and the shifts found; decades
+    covariance: Array  # (m, m), of the offsets of the quantities of one isotherm, decades²; the mean over `sizes`
+    # (m n,), mean of the offsets of log E', then of log E'', given the measurement and the shifts found; decades
     expected: Array
     sizes: OffsetSizes
 
 
-def estimated(information: Array, score: Array, prior: Array, *, tied: bool) -> Offsets:
-    """Estimate the variance of the offsets of n isotherms.
+def estimated(information: Array, score: Array, prior: Array, moduli: int = 2, *, tied: bool) -> Offsets:
+    """Estimate the variance of the offsets of the m quantities (`moduli`, 1 or 2) of n isotherms.
 
-    `information` (p + 2n, p + 2n) and `score` (p + 2n,), half of the decrease of the objective, are those of p free
+    `information` (p + m n, p + m n) and `score` (p + m n,), half of the decrease of the objective, are those of p free
     shifts, of the offsets of log E', and of those of log E'', in units of the scatter of the points, with the curves
     refitted.  `prior` (p, p) is information on the shifts apart from the points.  `tied` makes offsets of E' and E''
     independent of each other, as they must be where vertical shifts are fitted, which absorb whatever the two have in
     common.
     """
     free = len(prior)
-    size = (len(score) - free) // 2
-    turn = np.kron(TURN, np.eye(size))
+    size = (len(score) - free) // moduli
+    turn = np.kron(TURNS[moduli], np.eye(size))
     gain = np.linalg.solve(information[:free, :free] + prior, information[:free, free:]).T
     left = turn @ (information[free:, free:] - gain @ information[:free, free:]) @ turn.T
     wish = turn @ (score[free:] - gain @ score[:free])
-    sums, differences = SIZES[:, None], SIZES
-    ratio = np.log2(sums / differences)
-    before = np.exp(-0.5 * ratio**2) if not tied else np.where(ratio == 0.0, 1.0, 0.0)
-    likelihood = _likelihood(left, wish)
+    if moduli == 1:
+        tried, before = SIZES[:, None], np.ones(len(SIZES))
+        likelihood = _likelihood_of_sums(left, wish)
+    else:
+        tried = np.stack(np.meshgrid(SIZES, SIZES, indexing="ij"), axis=-1).reshape(-1, 2)
+        ratio = np.log2(tried[:, 0] / tried[:, 1])
+        before = np.exp(-0.5 * ratio**2) if not tied else np.where(ratio == 0.0, 1.0, 0.0)
+        likelihood = _likelihood(left, wish).ravel()
     weight = before / before.sum() * np.exp(likelihood - max(float(likelihood.max()), 0.0))
     none = (NONE_BESIDE_VERTICAL if tied else NONE) * np.exp(-max(float(likelihood.max()), 0.0))
     weight /= weight.sum() + none
-    variances = np.array([np.sum(weight * sums**2), np.sum(weight * differences**2)])
+    variances = weight @ tried**2
     deviations = np.repeat(np.sqrt(variances), size)
-    beside = np.eye(2 * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
+    beside = np.eye(moduli * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
     expected = deviations * np.linalg.solve(beside, deviations * (turn @ score[free:]))
-    pairs = np.stack(np.broadcast_arrays(sums, differences), axis=-1).reshape(-1, 2)
-    probability = np.append(weight.ravel(), max(1.0 - float(weight.sum()), 0.0))
-    sizes = OffsetSizes(np.append(pairs, [[0.0, 0.0]], axis=0), probability / probability.sum())
-    return Offsets(TURN.T @ np.diag(variances) @ TURN, turn.T @ expected, sizes)
+    probability = np.append(weight, max(1.0 - float(weight.sum()), 0.0))
+    sizes = OffsetSizes(np.append(tried, np.zeros((1, moduli)), axis=0), probability / probability.sum())
+    small = TURNS[moduli]
+    return Offsets(small.T @ np.diag(variances) @ small, turn.T @ expected, sizes)
+
+
+def _likelihood_of_sums(left: Array, wish: Array) -> Array:
+    """Return the log of the likelihood of sizes (s,) over that of none, from their information and score."""
+    known, modes = np.linalg.eigh(left)
+    variance = SIZES[:, None] ** 2
+    return np.asarray(
+        0.5 * np.sum(variance / (1.0 + variance * known) * (modes.T @ wish) ** 2 - np.log1p(variance * known), axis=1)
+    )
 
 
 def _likelihood(left: Array, wish: Array) -> Array:
@@ -156,7 +180,7 @@ def _likelihood(left: Array, wish: Array) -> Array:
     known, modes = np.linalg.eigh(left[:size, :size])
     part = variance / (1.0 + variance * known)  # of each size and mode of the sums
     across, score = modes.T @ left[:size, size:], modes.T @ wish[:size]
-    sums = 0.5 * np.sum(part * score**2 - np.log1p(variance * known), axis=1)
+    sums = _likelihood_of_sums(left[:size, :size], wish[:size])
     beside = left[size:, size:] - (across.T * part[:, None, :]) @ across
     remaining = wish[size:] - (part * score) @ across
     known, modes = np.linalg.eigh(beside)  # of the differences, beside sums of each size

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.errors import SuperpositionError
 from viscofric.notes import Note
 from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, join, join_at
+from viscofric.rheology.superposition.quantity import BOTH
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.data import Isotherm
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.superposition.quantity import Quantities
 
 
 #: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
@@ -93,12 +95,14 @@ def usable(isotherms: tuple[Isotherm, ...]) -> None:
             )
 
 
-def join_isotherms(isotherms: tuple[Isotherm, ...], logs: list[LogSweep]) -> JoinedIsotherms:
-    """Join neighbours, and leave out single isotherms at the ends that overlap no other.
+def join_isotherms(
+    isotherms: tuple[Isotherm, ...], logs: list[LogSweep], quantities: Quantities = BOTH
+) -> JoinedIsotherms:
+    """Join neighbours by their quantities, and leave out single isotherms at the ends that overlap no other.
 
     Raises SuperpositionError if neighbours in the middle do not overlap.
     """
-    joins = [join(colder, warmer) for colder, warmer in pairwise(logs)]
+    joins = [join(colder, warmer) for colder, warmer in pairwise(quantities.of(logs))]
     joined = np.array([found.misfit <= LARGEST_MISFIT for found in joins])
     if not joined.any():
         raise SuperpositionError(_gap(isotherms, 0), code="no-overlap")

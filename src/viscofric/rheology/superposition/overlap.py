@@ -84,7 +84,7 @@ class Join:
 
 
 def join(colder: LogSweep, warmer: LogSweep) -> Join:
-    """Slide one sweep along the other and find where E' and E'' overlap best, jointly.
+    """Slide one sweep along the other and find where their quantities (E' and E'') overlap best, jointly.
 
     The colder one is compared at its own points, as in `OverlapQuality`.  Where the data do not fix the step (a
     plateau), the smallest of the equally good steps is taken.
@@ -93,7 +93,8 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
     steps = np.linspace(lowest, highest, max(3, int((highest - lowest) / STEP)))
     frequency = colder.frequency + steps[:, None]
     inside = warmer.covers(frequency)
-    count = 2 * np.sum(inside, axis=1)
+    columns = colder.moduli.shape[1]
+    count = columns * np.sum(inside, axis=1)
     squares = np.stack(
         [
             np.sum((inside * (np.interp(frequency, warmer.frequency, there) - here)) ** 2, axis=1)
@@ -102,7 +103,7 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
         axis=1,
     )
     misfit = np.sqrt(np.sum(squares, axis=1) / np.maximum(count, 1))
-    misfit[count < 4] = np.inf  # two points of each modulus are the least that show a curve
+    misfit[count < 2 * columns] = np.inf  # two points of each modulus are the least that show a curve
     best = int(np.argmin(misfit))
     as_good = steps[misfit <= 1.05 * misfit[best] + 1e-4]
     if np.ptp(as_good) > FLAT:
@@ -110,7 +111,7 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
     if misfit[best] == np.inf:
         return Join(float(steps[best]), np.inf, np.inf)
     found = join_at(colder, warmer, float(steps[best]))
-    allowed = (found.misfit + SMALLEST_NOISE) ** 2 * (1.0 + LEVEL_95**2 / colder.moduli.shape[1])
+    allowed = (found.misfit + SMALLEST_NOISE) ** 2 * (1.0 + LEVEL_95**2 / columns)
     half = allowed_half_width(steps - found.step, misfit**2, allowed)
     means = np.where(np.isfinite(misfit)[:, None], squares, np.inf) / np.maximum(count, 1)[:, None]
     away = steps[np.argmin(means, axis=0)] - found.step

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
     from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
     from viscofric.rheology.superposition.overlap import OverlapQuality
+    from viscofric.rheology.superposition.quantity import ShiftBy
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +49,10 @@ class Superposition:
         How far whole isotherms are off, found from their overlaps where shifts were fitted.
     unidentified : tuple of (float, float)
         Colder and warmer temperature (K) of the steps of α that the sweeps do not fix.
+    shifted_by : {"both", "storage", "loss", "loss-tangent"}
+        The quantities that α was found from.
+    weights : (float, float) or None
+        Of log E' and log E'', with mean 1, where they were given.
     """
 
     shift_factors: ShiftFactors
@@ -59,6 +64,8 @@ class Superposition:
     cross_covariance: Array | None = None
     offsets: IsothermOffsets | None = None
     unidentified: tuple[tuple[float, float], ...] = ()
+    shifted_by: ShiftBy = "both"
+    weights: tuple[float, float] | None = None
 
     def __repr__(self) -> str:
         shifts = self.shift_factors
@@ -86,7 +93,10 @@ class Superposition:
             "overlap_rms_log10_loss": quality.loss,
             "neighbours": quality.neighbours,
             "neighbours_without_overlap": quality.without_overlap,
+            "shifted_by": self.shifted_by,
         }
+        if self.weights is not None:
+            found.attrs["shift_weights"] = list(self.weights)
         if self.vertical_shift is None:
             return found
         vertical = self.vertical_shift.to_dataset(self.shift_factors.temperatures)

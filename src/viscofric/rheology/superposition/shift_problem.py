@@ -101,9 +101,19 @@ class State:
 class ShiftProblem:
     """The measured points of all isotherms, the prior on the steps between them, and what is held."""
 
-    def __init__(self, sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, parted: Iterable[int] = ()) -> None:
+    def __init__(
+        self,
+        sweeps: list[LogSweep],
+        joins: list[Join],
+        gauge: Gauge,
+        parted: Iterable[int] = (),
+        weights: Array | None = None,
+    ) -> None:
         self.size = len(sweeps)
         self.gauge = gauge
+        self.moduli = sweeps[0].moduli.shape[1]
+        #: Of the squared residuals of each modulus (m,).
+        self.weights = np.ones(self.moduli) if weights is None else weights
         apart = {place for place, found in enumerate(joins) if found.uncertainty == np.inf}
         broken = sorted(apart.union(failures(joins), parted))
         starts = [0, *(place + 1 for place in broken), self.size]
@@ -157,8 +167,7 @@ class ShiftProblem:
 
     def _of_isotherms(self, offsets: Array | None) -> Array:
         """Return offsets (m n) as those of each isotherm (n, m), zeros if there are none."""
-        moduli = self.pieces[0].moduli.shape[1]
-        return np.zeros((self.size, moduli)) if offsets is None else offsets.reshape(moduli, self.size).T
+        return np.zeros((self.size, self.moduli)) if offsets is None else offsets.reshape(self.moduli, self.size).T
 
     def smoothers(self, parameters: Array, offsets: Array | None = None) -> list[Smoother]:
         """Choose knots and smoothing of every piece anew, of moduli less offsets (m n) of the isotherms if given."""
@@ -179,7 +188,7 @@ class ShiftProblem:
         what each offset adds to half of the decrease of the plain squares with the parameters.  With `expected` offsets
         (m n,), points of an isotherm whose residuals have a common part count for less.
         """
-        count, levels = len(self.start), self.pieces[0].moduli.shape[1] * self.size
+        count, levels = len(self.start), self.moduli * self.size
         information, score = np.zeros((count + levels, count + levels)), np.zeros(count + levels)
         gradient = np.zeros((count, levels))
         for piece, smoother in zip(self.pieces, smoothers, strict=True):
@@ -204,7 +213,7 @@ class ShiftProblem:
                 found = columns.T @ columns - onto.T @ curves.inverse[modulus] @ onto
                 information[np.ix_(places, places)] += found / scatter**2
                 score[places] += columns.T @ curves.residual[:, modulus] / scatter**2
-                gradient[np.ix_(shifts, offsets)] += found[: len(shifts), len(shifts) :]
+                gradient[np.ix_(shifts, offsets)] += self.weights[modulus] * found[: len(shifts), len(shifts) :]
         return information, score, gradient
 
     def state(
@@ -231,7 +240,9 @@ class ShiftProblem:
             if self.gauge.free_vertical:
                 places = np.concatenate([places, places + self.size])
             reduced = piece.reduced(*self.split(parameters))
-            found = _derivatives(piece, smoother, reduced, self.gauge.free_vertical, piece.own(less), exact)
+            found = _derivatives(
+                piece, smoother, reduced, self.gauge.free_vertical, piece.own(less), self.weights, exact
+            )
             square = np.ix_(places, places)
             cost += found.cost / noise**2
             gradient[places] += found.gradient / noise**2
@@ -248,11 +259,13 @@ def _derivatives(
     reduced: tuple[Array, Array, Array],
     free_vertical: bool,
     offsets: Array,
+    weights: Array,
     exact: bool,
 ) -> State:
     """Return cost, gradient and curvature of one piece, the curves being refitted wherever the shifts go.
 
-    With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y the moduli and s a shift, the cost is yᵀMy.  Both its derivatives are exact.
+    With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y a modulus, w its weight and s a shift, the cost is the sum of w yᵀMy.  Both its
+    derivatives are exact.
     """
     curves = smoother.curves(*reduced)
     slopes = curves.slopes_of_basis @ curves.coefficients
@@ -263,24 +276,25 @@ def _derivatives(
         lifted, bends, freedom = curves.residual, curves.bends, curves.freedom
         if np.any(offsets):
             lifted = smoother.curves(reduced[0], reduced[1] - offsets, reduced[2]).residual
-    for modulus, (residual, slope) in enumerate(zip(curves.residual.T, slopes.T, strict=True)):
+    for modulus, (residual, slope, weight) in enumerate(zip(curves.residual.T, slopes.T, weights, strict=True)):
         moved = [slope, curves.root[:, 0]] if free_vertical else [slope]
         onto = np.concatenate([piece.gathered(curves.basis * one[:, None]) for one in moved])
         square = np.block([[np.diag(piece.gathered(one * other)) for other in moved] for one in moved])
         information = square - onto @ curves.inverse[modulus] @ onto.T
-        gradient += np.concatenate([piece.gathered(one * residual) for one in moved])
-        normal += information
+        gradient += weight * np.concatenate([piece.gathered(one * residual) for one in moved])
+        normal += weight * information
         if exact:
             bent = -onto
             bent[: piece.size] += piece.gathered(curves.slopes_of_basis * residual[:, None])
             second = square - bent @ curves.inverse[modulus] @ bent.T
             second[: piece.size, : piece.size] -= np.diag(piece.gathered(bends[:, modulus] * residual))
-            curvature += second
-            score += smoother.scatter[modulus] ** 2 * _inflation(lifted[:, modulus], piece.same) * information
+            curvature += weight * second
+            alike = _inflation(lifted[:, modulus], piece.same)
+            score += (weight * smoother.scatter[modulus]) ** 2 * alike * information
     moves = np.eye(count)
     moves[: piece.size, : piece.size] -= 1.0 / piece.size  # see `Piece.reduced`
     normal, curvature, score = (moves @ matrix @ moves for matrix in (normal, curvature, score))
-    return State(curves.cost, moves @ gradient, normal, curvature, score, freedom)
+    return State(curves.cost(weights), moves @ gradient, normal, curvature, score, freedom)
 
 
 def _inflation(residual: Array, same: Mask) -> float:

@@ -164,7 +164,8 @@ class StepProfiles:
             level, weight = piece.gathered(weighted), np.diag(piece.gathered(piece.weights))
             for modulus in range(values.shape[1]):
                 products, logarithm = _eliminated(known, square, float(smoother.smoothing[modulus]))
-                own, scatter = piece.size + modulus, smoother.scatter[modulus]
+                own = piece.size + modulus
+                scatter = smoother.scatter[modulus] / np.sqrt(problem.weights[modulus])
                 left = (weight - products[:, : piece.size, : piece.size]) / scatter**2
                 gained = (level[:, modulus] - products[:, own, : piece.size]) / scatter**2
                 total += (weighted[:, modulus] @ values[:, modulus] - products[:, own, own]) / scatter**2 + logarithm

@@ -32,16 +32,18 @@ from viscofric.rheology.superposition.overlap import (
     overlap_quality,
     own_shifts,
 )
+from viscofric.rheology.superposition.quantity import Quantities
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius, checked_poisson_ratio, kelvin_hint, positive
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from viscofric.arrays import Array
     from viscofric.rheology.superposition.common_shifts import CommonShifts
+    from viscofric.rheology.superposition.quantity import ShiftBy
     from viscofric.units import Quantity
 
 
@@ -64,6 +66,8 @@ def superpose(
     vertical: Literal["free", "density"] | VerticalShift | None = None,
     shift: ShiftLaw | None = None,
     fixed: Mapping[Any, float] | None = None,
+    by: ShiftBy = "both",
+    weights: Sequence[float] | None = None,
 ) -> Superposition:
     """Shift isotherms onto one master curve, by E' and E'' jointly, all at once.
 
@@ -88,6 +92,11 @@ def superpose(
         log10 α, about the reference, of isotherms that are not to be fitted: ``{"60 degC": -2.1}``.  They are
         held exactly, the others are fitted around them.  The isotherm at the reference has 0 and needs no mention;
         where the reference lies between two isotherms, at most one of the two can be fixed.
+    by : {"both", "storage", "loss", "loss-tangent"}
+        What is brought onto common curves: log E' and log E'' (the default), one of the two alone, or log tan δ, which
+        no vertical shift changes.
+    weights : (float, float), optional
+        Of the squared residuals of log E' and of log E'', relative to each other; equal by default.
 
     Returns
     -------
@@ -100,15 +109,18 @@ def superpose(
         single isotherm at the cold or the hot end that does not reach the others is left out, with a note.
     InputError
         If what is given are no sweeps, the reference lies outside the temperatures that were joined, ν outside 0 to
-        0.5, a given shift does not hold at one of the temperatures, or a fixed temperature is not that of an isotherm
-        (to a quarter of the distance to its neighbours).
+        0.5, a given shift does not hold at one of the temperatures, a fixed temperature is not that of an isotherm
+        (to a quarter of the distance to its neighbours), or `by` and `weights` do not go with the other choices.
 
     Notes
     -----
     Neighbours are first joined pair by pair, then all shifts are refined together against common curves of
     log E' and log E'' (`common_shifts`), to which every measured point counts once.  How well an overlap
     identifies a shift is thereby its weight.  tan δ has no term of its own: log tan δ is the difference of the
-    two, so it is fitted already, and it would count the same points twice.
+    two, so it is fitted already, and it would count the same points twice.  Where one of the moduli is known to be
+    wrong, as by inertia or by clamping, `by` and `weights` leave it out or let it count for less; all else is the same,
+    and a note says which.  Vertical shifts cancel in tan δ: ``"free"`` ones are fitted to both moduli in a second
+    superposition with these shift factors as `shift`.
 
     A shift along a plateau cannot be seen.  There log10 α follows the trend of its neighbours in 1/T,
     has a standard error that grows from step to step, and a note names the temperatures.  With free
@@ -161,13 +173,15 @@ def superpose(
         )
     tensile = sweeps.in_tension(ratio)
     usable(tensile.isotherms)
+    quantities = Quantities.chosen(by, weights)
     known = _known_vertical(vertical, kelvin)
+    quantities.insist_on_use(vertical, shift)
     logs = [
         LogSweep.of(isotherm, 0.0 if known is None else known.log10(isotherm.temperature))
         for isotherm in tensile.isotherms
     ]
     if shift is None:
-        joined = join_isotherms(tensile.isotherms, logs)
+        joined = join_isotherms(tensile.isotherms, logs, quantities)
     else:
         joined = as_given(tensile.isotherms, logs, shift.at_reference(kelvin))
     temperatures = np.array([isotherm.temperature for isotherm in joined.isotherms])
@@ -181,15 +195,15 @@ def superpose(
     free = vertical == "free"
     if shift is None:
         held = held_places(fixed or {}, temperatures, kelvin)
-        found = fitted_shifts(joined, kelvin, held, free)
+        found = fitted_shifts(joined, kelvin, held, free, quantities)
         log10_b = found.vertical if known is None else np.asarray(known.log10(temperatures))
-        if drift(neighbour_distances(joined.isotherms, log10_b)) is not None:
-            found = _between_models(found, fitted_shifts(joined, kelvin, held, not free), free)
+        if by != "loss-tangent" and drift(neighbour_distances(joined.isotherms, log10_b)) is not None:
+            found = _between_models(found, fitted_shifts(joined, kelvin, held, not free, quantities), free)
     else:
         found = given_shifts(joined, kelvin, shift.at_reference(kelvin), free)
     factors = ShiftFactors(temperatures, found.values, kelvin, found.covariance)
     unidentified: tuple[tuple[float, float], ...] = ()
-    notes = [*tensile.notes, *joined.notes, *joined.disagreements(given=shift is not None)]
+    notes = [*tensile.notes, *quantities.notes, *joined.notes, *joined.disagreements(given=shift is not None)]
     if shift is None:
         notes += _joined_by_pairs(temperatures, found.parted)
         places = _unidentified(found.values, found.covariance)
@@ -213,6 +227,8 @@ def superpose(
         found.cross_covariance if free else None,
         found.offsets,
         unidentified,
+        quantities.by,
+        None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1])),
     )
 
 

@@ -268,7 +268,7 @@ def _tables(
     offsets = np.zeros((samples, size, 2))
     if fit.offsets is not None:
         errors = fit.offsets.resized(random.spawn(1)[0], errors)
-        offsets = np.swapaxes(errors[:, count:].reshape(samples, 2, size), 1, 2)
+        offsets = fit.offsets.of_moduli(errors[:, count:])
     tables = [ShiftFactors(shifts.temperatures, shifts.log10_values + row[:size], shifts.reference) for row in errors]
     if not isinstance(vertical, VerticalShiftFactors):
         return tables, [vertical] * samples, offsets

@@ -41,6 +41,8 @@ _HOW = (
     "modulus_unit",
     "poisson_ratio",
     "vertical_shift",
+    "shift_by",
+    "shift_weights",
     "shift",
     "shift_factors",
     "fixed_shift_factors",
@@ -49,7 +51,7 @@ _HOW = (
     "tau_ratio",
 )
 #: … and those invalid for a master curve.
-_OF_SWEEPS = ("temperature", "vertical_shift", "fixed_shift_factors")
+_OF_SWEEPS = ("temperature", "vertical_shift", "shift_by", "shift_weights", "fixed_shift_factors")
 
 
 def _by_kelvin(value: object) -> object:
@@ -105,6 +107,12 @@ class MaterialTable(Table):
     vertical_shift: Literal["none", "free", "density"] = Field(
         "none", description="Vertical shift b_T: none, fitted, or density times temperature."
     )
+    shift_by: Literal["both", "storage", "loss", "loss-tangent"] = Field(
+        "both", description="Moduli that shift factors are found from: E' and E'', one of the two, or tan δ."
+    )
+    shift_weights: Annotated[tuple[Annotated[Number, Field(gt=0.0)], ...] | None, Field(min_length=2, max_length=2)] = (
+        Field(None, description="Weights of log E' and log E'' in the superposition, [1, 0.2]; equal if left out.")
+    )
     shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = Field(
         "measured", description="Shift factors a_T: as found, or a law fitted to them."
     )
@@ -149,10 +157,20 @@ class MaterialTable(Table):
                 yield f"{' and '.join(useless)} cannot be chosen for a master curve, only for sweeps (dma)"
             if self.shift != "measured" and self.shift_factors is None:
                 yield "a law for shift needs the shift factors of the master curve; give them as shift_factors"
-        if self.shift_factors is not None and self.fixed_shift_factors:
-            yield "shift_factors and fixed_shift_factors are both given; the first one contains all"
+        yield from self._doubts_of_shifts()
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
+
+    def _doubts_of_shifts(self) -> Iterator[str]:
+        if self.shift_factors is not None and self.fixed_shift_factors:
+            yield "shift_factors and fixed_shift_factors are both given; the first one contains all"
+        found_by = [name for name in ("shift_by", "shift_weights") if name in self.model_fields_set]
+        if self.shift_factors is not None and found_by:
+            yield f"{' and '.join(found_by)} cannot be chosen with shift_factors, which leave no factor to be found"
+        if self.shift_weights is not None and self.shift_by != "both":
+            yield f"shift_weights are for E' and E'' together; leave them out with shift_by = \"{self.shift_by}\""
+        if self.vertical_shift == "free" and self.shift_by == "loss-tangent":
+            yield 'vertical_shift = "free" cannot be found from tan δ (shift_by = "loss-tangent"), where it cancels'
 
     def relative_to(self, folder: Path) -> MaterialTable:
         """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
