@@ -65,7 +65,7 @@ def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
         {"shift_by": "loss", "shift_factors": "alpha.csv"},
         {"shift_weights": [1.0, 0.0]},
     ):
-        with pytest.raises(InputError, match="shift_(by|weights)"):
+        with pytest.raises(InputError, match=r"shift_(by|weights)"):
             rubber(dma=str(sweeps), **wrong, **REFERENCE)
 
 
