@@ -150,24 +150,10 @@ def _scaled_excess_of_sinh(x: Array) -> Array:
 
 
 def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float:
-    """Return the compliance of an elastic indenter.
+    """Return (1 − ν_i²)/E_i of an elastic indenter, 1/Pa, zero if rigid (`modulus` None).
 
-    Parameters
-    ----------
-    modulus : float, str or pint.Quantity, optional
-        Young's modulus E_i, Pa; of a rigid indenter None.
-    poisson_ratio : float
-        ν_i.
-
-    Returns
-    -------
-    float
-        (1 − ν_i²)/E_i, 1/Pa; zero if rigid (K. L. Johnson, Contact Mechanics (1985), Eq. 4.6).
-
-    Raises
-    ------
-    InputError
-        If the modulus is not above zero, or the ratio not from −1 to 0.5.
+    K. L. Johnson, Contact Mechanics (1985), Eq. 4.6.  Raises InputError if the modulus (Pa if a plain number) is not
+    above zero, or the ratio not from −1 to 0.5.
     """
     if modulus is None:
         return 0.0
@@ -176,18 +162,7 @@ def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float
 
 
 def unit_direction(direction: Sequence[float]) -> tuple[float, float]:
-    """Return a direction in the plane at length one.
-
-    Parameters
-    ----------
-    direction : (float, float)
-        Of any length but zero.
-
-    Raises
-    ------
-    InputError
-        If it is not two finite numbers, or both are zero.
-    """
+    """Return a direction in the plane at length one; InputError if it is not two finite numbers, or both are zero."""
     try:
         x, y = real(direction).tolist()
         length = math.hypot(x, y)

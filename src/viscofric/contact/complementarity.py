@@ -59,35 +59,19 @@ class ContactOperator(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class ComplementaritySolution:
-    """Pressure and indentation with the residuals they leave.
+    """Pressure and indentation with their residuals."""
 
-    Attributes
-    ----------
-    pressure, displacement : (nx, ny) array
-        Of the operator's backend.
-    indentation : float
-    converged : bool
-        Whether `complementarity` came below the tolerance.
-    complementarity : float
-        Largest gap under pressure or overlap without it, relative to the indentation (or to the given depth).
-    load : float
-        Relative error of the load; zero where the indentation was given.
-    set_changes, linear_iterations, products : int
-        Looks at the contact set, GCR steps, and products with the operator.
-    linear : float
-        Residual of the last linear problem, relative to its right-hand side.
-    """
-
-    pressure: AnyArray
-    displacement: AnyArray
+    pressure: AnyArray  # (nx, ny), of the operator's backend
+    displacement: AnyArray  # (nx, ny), of the operator's backend
     indentation: float
-    converged: bool
+    converged: bool  # whether `complementarity` came below the tolerance
+    # largest gap under pressure or overlap without it, over the indentation (or the given depth)
     complementarity: float
-    load: float
-    set_changes: int
-    linear_iterations: int
-    products: int
-    linear: float = 0.0
+    load: float  # relative error of the load; zero where the indentation was given
+    set_changes: int  # evaluations of the contact set
+    linear_iterations: int  # GCR steps
+    products: int  # with the operator
+    linear: float = 0.0  # residual of the last linear problem, relative to its right-hand side
 
     def on_numpy(self, backend: Backend) -> ComplementaritySolution:
         """Return the same with NumPy's arrays."""
@@ -260,26 +244,10 @@ def solve_on_contact(
 ) -> tuple[AnyArray, int, float]:
     """Correct the pressures on a fixed contact set until its gap is closed, or level for a fixed load.
 
-    Parameters
-    ----------
-    gap : (n,) array
-        At the cells of the set.
-    reduction, floor : float
-        Where to stop: Euclidean norm of the gap over that at the start, or the largest gap.
-    directions : int
-        Search directions that are kept.
-    fixed_load : bool
-        Whether the corrections must sum to zero, and the gap need be level only.
-    extension : Extension, optional
-        See `solve_complementarity`.
-
-    Returns
-    -------
-    correction : (n,) array
-        At the cells of the set.
-    steps : int
-    residual : float
-        Relative.
+    `gap` (n,) is at the cells of the set.  The iteration stops where the Euclidean norm of the gap over that at the
+    start is below `reduction`, or the largest gap below `floor`; it keeps `directions` search directions.  With
+    `fixed_load`, the corrections sum to zero, and the gap need be level only.  `extension`: see
+    `solve_complementarity`.  Returns the correction (n,), the number of steps, and the relative residual.
     """
     backend, xp = operator.backend, operator.backend.xp
 

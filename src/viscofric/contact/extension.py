@@ -47,17 +47,9 @@ _SHORT_WAVES = (4, 8, 16)  # cells; the largest of their loss angles counts
 class Extension:
     """Extends values on the contact of a periodic grid over the whole of it.
 
-    Parameters
-    ----------
-    shape : (int, int)
-        Points along x and y.
-    dtype : dtype
-        Of the backend's arrays.
-    toward : (float, float), optional
-        Direction of the motion, in cells along x and y.
-    lag : float, optional
-        How late short waves answer: 0 for an elastic solid, 1 at the most, below zero for a motion the other way; see
-        `lag`.
+    `shape` has the points along x and y; `toward` is the direction of the motion, in cells along x and y; `lag` is the
+    delay of the response to short waves: 0 for an elastic solid, at most 1, below zero for the opposite motion; see
+    `lag`.
     """
 
     def __init__(
@@ -157,18 +149,9 @@ class Extension:
 
 
 def lag(symbol: AnyArray, points: int, toward: tuple[float, float]) -> float:
-    """Return the lag of short waves along a direction: their loss angle over `_LATE`, one at most.
+    """Return the lag of short waves along a direction (x and y, in cells): their loss angle over `_LATE`, one at most.
 
-    Below zero if they are late for a motion the other way.
-
-    Parameters
-    ----------
-    symbol : (nx, ny//2 + 1) array
-        Of the operator.
-    points : int
-        ny.
-    toward : (float, float)
-        Along x and y, in cells.
+    Below zero if they lag behind the opposite motion.  `symbol` (nx, ny//2 + 1) is the operator's, `points` is ny.
     """
     length, sign = math.hypot(*toward), 1.0
     x, y = toward[0] / length, toward[1] / length

@@ -36,17 +36,9 @@ class ContactOptions(TypedDict, total=False):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactSettings:
-    """What a contact has besides material, indenter, speed and load, and how it is solved.
+    """Settings of a contact besides material, indenter, speed and load; see `viscofric.contact.steady.solve_steady`.
 
-    Parameters
-    ----------
-    accuracy, tolerance, finest, window, grid, indenter_modulus, indenter_poisson_ratio, layer, backend, direction
-        As of `viscofric.contact.steady.solve_steady`.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, whatever the indenter.
+    Raises InputError if a value cannot be used, whatever the indenter.
     """
 
     accuracy: float = 1e-3

@@ -186,23 +186,12 @@ def solve_and_differentiate(
 def friction_and_derivatives(
     material: Material, indenter: Indenter, *, speed: float, load: float, accuracy: float, **settings: Any
 ) -> tuple[float, float, FrictionDerivatives]:
-    """Solve a contact for its friction alone, in half the time: for fits that solve many of them.
+    """Return friction, its error and derivatives of a contact, in half the time: for fits that solve many of them.
 
-    Parameters
-    ----------
-    material, indenter, speed, load, accuracy
-        As of `solve_steady`; the speed is neither zero nor infinite.  From an accuracy of 0.005 on, 64 cells along the
-        window are enough where they promise it, with which a contact takes half the time that it does with 128.
-    **settings
-        Likewise, but for `indentation`, `temperature` and `derivatives`.
-
-    Returns
-    -------
-    friction : float
-    error : float
-        Its estimate.
-    derivatives : FrictionDerivatives
-        Those of `solve_steady`, without an error estimate, which takes adjoint solves on three grids: it is infinite.
+    Arguments as of `solve_steady`, without `indentation`, `temperature` and `derivatives`; the speed is neither zero
+    nor infinite.  From an accuracy of 0.005 on, 64 cells along the window are enough where their errors allow it, with
+    which a contact takes half the time that it does with 128.  The derivatives have no error estimate, which takes
+    adjoint solves on three grids: it is infinite.
     """
     _check_derivatives(velocity(speed))
     coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
@@ -331,14 +320,10 @@ def _held(
 def _steady_material(
     spectrum: RetardationSpectrum, speed: float, plane_strain: float, counterface: float
 ) -> SteadyMaterial:
-    """Compliances relative to the relaxed one and memory lengths v τ_k; one spring in the elastic limits.
+    """Return compliances relative to the relaxed one and memory lengths v τ_k; one spring in the elastic limits.
 
-    Parameters
-    ----------
-    speed : float
-        Lengths per second.
-    plane_strain, counterface : float
-        1 − ν² in Pa and the indenter's share: over the relaxed compliance of both bodies.
+    `speed` is in lengths per second; `plane_strain`, 1 − ν² in Pa, and `counterface`, the indenter's part, are over the
+    relaxed compliance of both bodies.
     """
     none = np.empty(0)
     if speed == 0.0:

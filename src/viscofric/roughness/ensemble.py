@@ -137,25 +137,10 @@ class RoughFriction:
 
 
 def interval_of_mean(found: Array, probability: float = 0.95) -> tuple[Array, Array]:
-    """Return the confidence interval of the mean over all surfaces of a kind, from some of them.
+    """Return lower and upper limit (...) of the confidence interval of the mean over all surfaces of a kind.
 
-    By Student's t, for values that scatter normally from surface to surface.
-
-    Parameters
-    ----------
-    found : (..., k) array
-        Friction, or something else, on each of k surfaces.
-    probability : float
-        Between 0 and 1.
-
-    Returns
-    -------
-    lower, upper : (...) array
-
-    Raises
-    ------
-    InputError
-        If there is one surface only, or the probability is out of range.
+    By Student's t, for values `found` (..., k) on k surfaces that scatter normally.  Raises InputError if there is one
+    surface only, or the probability is not between 0 and 1.
     """
     from scipy.special import stdtrit
 

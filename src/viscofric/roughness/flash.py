@@ -43,39 +43,19 @@ _PER_DECADE = 12  # wave numbers k of the temperature field
 
 @dataclass(frozen=True)
 class Flash:
-    """Parameters of hot spots.
+    """Parameters of hot spots."""
 
-    Parameters
-    ----------
-    thermal : ThermalProperties
-        Of the rubber.
-    macroasperity_area : float
-        P(q_m).
-    """
-
-    thermal: ThermalProperties
-    macroasperity_area: float
+    thermal: ThermalProperties  # of the rubber
+    macroasperity_area: float  # P(q_m)
 
     def settled(
         self, q: Array, log_weights: Array, speed: float, heated: Callable[[Array], tuple[Array, Array]]
     ) -> tuple[Array, Array, Array]:
-        """Return P(q), the dissipation and the rise of temperature (K) that reproduce one another.
+        """Return P(q), the dissipation and the rise of temperature (K) that are consistent with one another.
 
-        Parameters
-        ----------
-        q : (n,) array
-            rad/m.
-        log_weights : (n,) array
-            Of a quadrature over ln q.
-        speed : float
-            m/s.
-        heated : callable
-            Gives P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, from the rise of temperature.
-
-        Raises
-        ------
-        ConvergenceError
-            If they do not settle.
+        `q` (n,) in rad/m; `log_weights` (n,) are those of a quadrature over ln q; `speed` in m/s; `heated` returns P(q)
+        and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, at a rise of temperature.  Raises ConvergenceError if the iteration does
+        not converge.
         """
         rise = np.zeros(len(q))
         step, before = 1.0, math.inf

@@ -36,23 +36,13 @@ QUANTITIES = ("friction", "indentation", "front", "rear", "half_width", "area", 
 
 @dataclass(frozen=True)
 class BallReference:
-    """One row of the reference table, in units of Hertz's contact at E0.
+    """One row of the reference table, in units of Hertz's contact at E0."""
 
-    Attributes
-    ----------
-    spectrum : str
-        "one time", or a name of `SPECTRA`.
-    modulus_ratio, memory_length : float
-        k, and vτ/a0 of the longest mode.
-    values, errors : dict
-        Name of `QUANTITIES` -> number.
-    """
-
-    spectrum: str
-    modulus_ratio: float
-    memory_length: float
-    values: dict[str, float]
-    errors: dict[str, float]
+    spectrum: str  # "one time", or a name of SPECTRA
+    modulus_ratio: float  # k
+    memory_length: float  # vτ/a0 of the longest mode
+    values: dict[str, float]  # by the name of QUANTITIES
+    errors: dict[str, float]  # by the name of QUANTITIES
 
     @property
     def case(self) -> str:

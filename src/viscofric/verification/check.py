@@ -20,26 +20,14 @@ Measure: TypeAlias = Literal["relative", "absolute", "at least", "at most"]
 
 @dataclass(frozen=True)
 class Comparison:
-    """One computed number and its expected value.
+    """One computed number and its expected value."""
 
-    Attributes
-    ----------
-    case : str
-        The solved problem.
-    quantity : str
-        What is compared, with its unit.
-    bound : float
-        Largest error that passes.
-    measure : {"relative", "absolute", "at least", "at most"}
-        Kind of error; of the last two, the amount below or above the expected number.
-    """
-
-    case: str
-    quantity: str
+    case: str  # the solved problem
+    quantity: str  # what is compared, with its unit
     computed: float
     expected: float
-    bound: float
-    measure: Measure = "relative"
+    bound: float  # largest error that passes
+    measure: Measure = "relative"  # kind of error; of the last two, the amount below or above the expected number
 
     @property
     def error(self) -> float:
@@ -70,40 +58,20 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Check:
-    """A set of comparisons of one kind.
+    """A set of comparisons of one kind."""
 
-    Attributes
-    ----------
-    name : str
-        On the command line.
-    title : str
-        Subject, in a few words.
-    group : str
-        Kind: closed forms, reference values, …
-    source : str
-        Source of the expected numbers.
-    reason : str
-        Reason for the bounds.
-    compare : callable
-        Computes and yields the comparisons.
-    """
-
-    name: str
-    title: str
-    group: str
-    source: str
-    reason: str
-    compare: Callable[[], Iterable[Comparison]]
+    name: str  # on the command line
+    title: str  # subject, in a few words
+    group: str  # kind: closed forms, reference values, …
+    source: str  # of the expected numbers
+    reason: str  # for the bounds
+    compare: Callable[[], Iterable[Comparison]]  # computes and yields the comparisons
 
     def run(self, backend: str = "scipy") -> Outcome:
         """Compute the comparisons; a contact that cannot be solved is a failure of the check.
 
-        `backend` names arrays and FFTs; see `viscofric.contact.arrays.backend.Backend`.
-
-        Raises
-        ------
-        InputError
-            If there is no such library or device.
+        `backend` names arrays and FFTs; see `viscofric.contact.arrays.backend.Backend`.  Raises InputError if there is
+        no such library or device.
         """
         began = time.perf_counter()
         found: list[Comparison] = []
@@ -118,20 +86,12 @@ class Check:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The result of a check.
-
-    Attributes
-    ----------
-    trouble : str
-        Why it could not be completed; empty if it was.
-    seconds : float
-        Wall-clock time.
-    """
+    """The result of a check."""
 
     check: Check
     comparisons: tuple[Comparison, ...]
-    trouble: str
-    seconds: float
+    trouble: str  # why it could not be completed; empty if it was
+    seconds: float  # wall-clock time
 
     @property
     def passed(self) -> bool:
@@ -147,20 +107,7 @@ class Outcome:
 def run_checks(
     checks: Sequence[Check], begin: Callable[[Check], None] | None = None, backend: str = "scipy"
 ) -> Iterator[Outcome]:
-    """Run checks one after the other.
-
-    Parameters
-    ----------
-    checks : sequence of Check
-    begin : callable, optional
-        Told of each check before it starts.
-    backend : str
-        Arrays and FFTs that are checked.
-
-    Yields
-    ------
-    Outcome
-    """
+    """Run checks one after the other with a backend of arrays and FFTs; `begin` is called before each."""
     for check in checks:
         if begin is not None:
             begin(check)
@@ -168,13 +115,7 @@ def run_checks(
 
 
 def select(checks: Sequence[Check], names: Sequence[str]) -> tuple[Check, ...]:
-    """Return the checks of these names or groups, all of them for none.
-
-    Raises
-    ------
-    InputError
-        If there is none of a name; the sentence names the nearest.
-    """
+    """Return the checks of these names or groups, all without names; InputError names the nearest to an unknown one."""
     if not names:
         return tuple(checks)
     known = {one.name for one in checks} | {one.group for one in checks}

@@ -24,13 +24,7 @@ _checked: ContextVar[Backend | None] = ContextVar("backend that is checked", def
 
 @contextmanager
 def checking(backend: Backend | str) -> Iterator[None]:
-    """Let the solvers below use a backend.
-
-    Raises
-    ------
-    InputError
-        If there is no such library or device.
-    """
+    """Make the solvers below use a backend; InputError if there is no such library or device."""
     token = _checked.set(Backend.of(backend))
     try:
         yield

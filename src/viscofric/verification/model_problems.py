@@ -35,16 +35,10 @@ BALL, CYLINDER = Ball(radius=RADIUS), Cylinder(radius=RADIUS)
 
 
 def rubber(modulus_ratio: float, shares: Sequence[float], memory_lengths: Sequence[float]) -> Material:
-    """Return a rubber from pure numbers.
+    """Return a material from dimensionless numbers.
 
-    Parameters
-    ----------
-    modulus_ratio : float
-        k = E∞/E0.
-    shares : (m,) sequence
-        C_k in any common unit; scaled so that they add up to 1/E0 − 1/E∞.
-    memory_lengths : (m,) sequence
-        vτ_k/a0 at `SPEED`.
+    `modulus_ratio` is k = E∞/E0; `shares` (m,) are C_k in any common unit, scaled to add up to 1/E0 − 1/E∞;
+    `memory_lengths` (m,) are vτ_k/a0 at `SPEED`.
     """
     parts = np.asarray(shares, dtype=float)
     spectrum = RetardationSpectrum(

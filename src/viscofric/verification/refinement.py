@@ -28,28 +28,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Refinement:
-    """Relative errors on nested grids.
+    """Relative errors on nested grids."""
 
-    Attributes
-    ----------
-    name, exact : str
-        The problem, and where its exact numbers come from.
-    cells : (n,) array
-        Along the window's longer edge.
-    errors : dict
-        Quantity -> (n,) array of relative errors, with their sign.
-    least : dict
-        Quantity -> the least order that it is to have.
-    floor : dict
-        Quantity -> error of the reference; errors below twice that are not significant.
-    """
-
-    name: str
-    exact: str
-    cells: Array
-    errors: dict[str, Array]
-    least: dict[str, float]
-    floor: dict[str, float]
+    name: str  # of the problem
+    exact: str  # source of its exact numbers
+    cells: Array  # (n,), along the window's longer edge
+    errors: dict[str, Array]  # (n,), relative, signed, by quantity
+    least: dict[str, float]  # least order required, by quantity
+    floor: dict[str, float]  # error of the reference, by quantity; errors below twice that are not significant
 
     def order(self, quantity: str) -> float:
         """Slope of log error against log cell by least squares: single errors jump as cells cross an edge."""

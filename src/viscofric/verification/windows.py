@@ -33,21 +33,11 @@ _CELLS = 32  # to the shortest period
 
 @dataclass(frozen=True)
 class Windows:
-    """Friction of a ball that is repeated along x and y, against that of one ball alone.
+    """Friction of a ball that is repeated along x and y, compared with that of one ball alone."""
 
-    Attributes
-    ----------
-    periods : (n,) array
-        Over a0.
-    friction : (n,) array
-        μR/a0.
-    free : float
-        μR/a0 of one ball on the free half-space.
-    """
-
-    periods: Array
-    friction: Array
-    free: float
+    periods: Array  # (n,), over a0
+    friction: Array  # (n,), μR/a0
+    free: float  # μR/a0 of one ball on the free half-space
 
     @property
     def deviations(self) -> Array:

@@ -202,11 +202,7 @@ class Backend:
 class Cells:
     """Some of the cells of a grid: values on them are gathered from fields, and scattered into fields.
 
-    Parameters
-    ----------
-    chosen : (nx, ny) array of bool
-    indices : (n,) array of int
-        Of the chosen cells among all.
+    `chosen` is (nx, ny), `indices` (n,) those of the chosen cells among all.
     """
 
     def __init__(self, backend: Backend, chosen: AnyArray, indices: AnyArray) -> None:

@@ -164,12 +164,9 @@ _MOST_PLANS = 64
 
 
 class FftwTransforms(Transforms):
-    """FFTs of FFTW by its estimated plans, made once for each size: measured ones would take longer than they save.
+    """FFTs by FFTW (the module pyfftw), with estimated plans made once for each size.
 
-    Parameters
-    ----------
-    fftw : module
-        pyfftw.
+    Measured plans would take longer than they save.
     """
 
     def __init__(self, fftw: Any, threads: int) -> None:

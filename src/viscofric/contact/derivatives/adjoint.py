@@ -51,22 +51,12 @@ _DIRECTIONS = 40
 
 
 class Gradient(NamedTuple):
-    """Derivatives of the friction coefficient, or of another number.
+    """Derivatives of the friction coefficient, or of another number."""
 
-    Attributes
-    ----------
-    glassy : float
-        With respect to the compliance without memory.
-    compliances, memory_lengths : (m,) array
-        With respect to each mode's compliance at fixed glassy compliance, and to its memory length.
-    held : float
-        With respect to the load or to the indentation, whichever is given.
-    """
-
-    glassy: float
-    compliances: Array
-    memory_lengths: Array
-    held: float
+    glassy: float  # with respect to the compliance without memory
+    compliances: Array  # (m,), with respect to each mode's compliance at fixed glassy compliance
+    memory_lengths: Array  # (m,), with respect to each mode's memory length
+    held: float  # with respect to the load or to the indentation, whichever is given
 
     def plus(self, other: Gradient, times: float) -> Gradient:
         """Return the sum with a multiple of another one."""
@@ -79,33 +69,19 @@ class Gradient(NamedTuple):
 
 
 class Adjoint(NamedTuple):
-    """Derivatives of a number, and what they were found from.
-
-    Attributes
-    ----------
-    gradient : Gradient
-    field : (nx, ny) array
-        λ, also where it is held.
-    by_load : float
-        Change with the logarithm of the load; zero where the indentation is given.
-    """
+    """Derivatives of a number, and the adjoint field that they follow from."""
 
     gradient: Gradient
-    field: Array
-    by_load: float
+    field: Array  # (nx, ny), λ, also where it is held
+    by_load: float  # change with the logarithm of the load; zero where the indentation is given
 
 
 def friction_way(stages: list[Stage]) -> Way:
-    """Return which expression of the friction coefficient is to be differentiated.
+    """Return which expression of the friction coefficient is to be differentiated, for nested grids, coarsest first.
 
-    That which `viscofric.contact.free.estimates` trusts.  Where the gap is looked at behind the cell centres it is the
-    lean: of a layer at the leading edge that is thinner than a cell the balance has its value right, by its last share
-    Λ r, but not how that changes.
-
-    Parameters
-    ----------
-    stages : list of Stage
-        Solutions on nested grids, coarsest first.
+    That which `viscofric.contact.free.estimates` uses.  Where the gap is evaluated behind the cell centres it is the
+    asymmetry of the pressure: for a layer at the leading edge that is thinner than a cell, the balance has its value
+    right, by its last share Λ r, but not the change of that share.
     """
     fine = stages[-1]
     leaning = fine.operator.shift > 0.0 or friction_estimate(stages).value == fine.pressure_friction
@@ -113,17 +89,10 @@ def friction_way(stages: list[Stage]) -> Way:
 
 
 def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
-    """Differentiate the friction coefficient on one grid, whose cells stay where they are.
+    """Differentiate the friction coefficient on one grid of fixed cells; ConvergenceError if the problem is not solved.
 
-    Parameters
-    ----------
-    way : {"pressure", "balance"}
-        By the lean of the pressure, or by the dissipated energy with what cells leave out of it.
-
-    Raises
-    ------
-    ConvergenceError
-        If the adjoint problem is not solved.
+    By the asymmetry of the pressure ("pressure"), or by the dissipated energy plus the part that cells leave out of it
+    ("balance").
     """
     operator, window, pressure = stage.operator, stage.window, stage.result.pressure
     material, total = operator.material, float(pressure.sum())
@@ -161,13 +130,7 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
 
 
 def mean_gradients(stage: Stage, fields: list[Array]) -> list[Gradient]:
-    """Differentiate the means of fields (nx, ny) over the load.
-
-    Raises
-    ------
-    ConvergenceError
-        If an adjoint problem is not solved.
-    """
+    """Differentiate the means of fields (nx, ny) over the load; ConvergenceError if a problem is not solved."""
     pressure, none = stage.result.pressure, np.zeros(stage.window.shape)
     total, box, shift = float(pressure.sum()), _box(pressure > 0.0), stage.operator.shift
     solved = [_adjoint_field(stage, one / total, float(np.vdot(one, pressure)) / total, none) for one in fields]
@@ -182,23 +145,11 @@ def _box(mask: Mask) -> tuple[slice, slice]:
 
 
 def _adjoint_field(stage: Stage, by_pressure: Array, value: float, held: Array) -> tuple[Array, float, float]:
-    """Solve for λ of a number that is homogeneous in the pressures, but for what it changes at fixed ones.
+    """Solve for λ (nx, ny) of a number that is homogeneous in the pressures, except for its change at fixed ones.
 
-    Parameters
-    ----------
-    by_pressure : (nx, ny) array
-        Its change with the pressure of each cell, times the load, over the load.
-    held : (nx, ny) array
-        λ outside the contact.
-
-    Returns
-    -------
-    field : (nx, ny) array
-        λ.
-    by_load : float
-        Change of the number with the logarithm of the load; zero where the indentation is given.
-    by_held : float
-        Change with the load or with the indentation, whichever is given.
+    `by_pressure` (nx, ny) is its change with the pressure of each cell, times the load, over the load; `held` (nx, ny)
+    is λ outside the contact.  Returns also the change with the logarithm of the load (zero where the indentation is
+    given), and that with the load or the indentation, whichever is given.
     """
     total = float(stage.result.pressure.sum())
     each = value / total

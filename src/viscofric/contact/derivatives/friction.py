@@ -123,23 +123,9 @@ def differentiate(
 ) -> FrictionDerivatives:
     """Differentiate the friction coefficient of a converged contact, by an adjoint solve on each of the last grids.
 
-    Parameters
-    ----------
-    stages : list of Stage
-        Coarsest first, three at least.
-    spectrum : RetardationSpectrum
-        What `stages` were solved with.
-    plane_strain : float
-        1 − ν².
-    velocity : float
-        m/s, neither zero nor infinite.
-    with_error : bool
-        Whether their error is to be estimated; without, it is infinite, and one adjoint solve on the last grid enough.
-
-    Raises
-    ------
-    ConvergenceError
-        If an adjoint problem is not solved.
+    `stages`, at least three, coarsest first, were solved with `spectrum`; `plane_strain` is 1 − ν²; `velocity`, m/s, is
+    neither zero nor infinite.  Without `with_error`, the error is infinite, and one adjoint solve on the last grid
+    suffices.  Raises ConvergenceError if an adjoint problem is not solved.
     """
     way, last_grids = friction_way(stages), stages[-3:]
     motion = Motion.of(last_grids[0])

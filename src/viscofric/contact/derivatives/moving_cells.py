@@ -37,27 +37,16 @@ _STEP = 1e-5
 
 @dataclass(frozen=True)
 class Motion:
-    """Growth and shift of a contact with its material and its load.
+    """Growth and shift of a contact with its material and its load."""
 
-    Attributes
-    ----------
-    growth : Gradient
-        Of the logarithm of its length along the motion.
-    shift : Gradient
-        Of its place, beyond what growing about the axis does.
-    """
-
-    growth: Gradient
-    shift: Gradient
+    growth: Gradient  # of the logarithm of its length along the motion
+    shift: Gradient  # of its position, beyond the effect of growth about the axis
 
     @classmethod
     def of(cls, stage: Stage) -> Motion:
         """Return the motion found from the centre and the spread of the pressure on a grid.
 
-        Raises
-        ------
-        ConvergenceError
-            If an adjoint problem is not solved.
+        Raises ConvergenceError if an adjoint problem is not solved.
         """
         pressure = stage.result.pressure
         x = np.broadcast_to(stage.window.x[:, None], stage.window.shape)
@@ -71,25 +60,10 @@ class Motion:
 
 
 def friction_gradient(stage: Stage, way: Way, motion: Motion) -> tuple[Gradient, Gradient]:
-    """Differentiate the friction coefficient on one grid.
+    """Differentiate the friction coefficient on one grid whose cells move, and on fixed cells.
 
-    Parameters
-    ----------
-    way : {"pressure", "balance"}
-        As of `viscofric.contact.derivatives.adjoint.friction_adjoint`.
-    motion : Motion
-        With which cells move.
-
-    Returns
-    -------
-    gradient : Gradient
-    still : Gradient
-        On cells that stay where they are.
-
-    Raises
-    ------
-    ConvergenceError
-        If the adjoint problem is not solved.
+    `way` is that of `viscofric.contact.derivatives.adjoint.friction_adjoint`, `motion` that of the cells.  Raises
+    ConvergenceError if the adjoint problem is not solved.
     """
     gradient, field, by_load = friction_adjoint(stage, way)
     # The load is held, so that on larger cells the pressures add up to less.

@@ -20,13 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Stress:
-    """Stress at a set of points; tension is positive, z points into the solid.
-
-    Attributes
-    ----------
-    xx, yy, zz, yz, xz, xy : array
-        Components, all of one shape, Pa.
-    """
+    """Stress components, Pa, at a set of points, all of one shape; tension is positive, z points into the solid."""
 
     xx: Array
     yy: Array
@@ -57,15 +51,8 @@ class Stress:
     def to_dataset(self, **coordinates: ArrayLike) -> xarray.Dataset:
         """Return the components and von Mises' stress over the coordinates of the points.
 
-        Parameters
-        ----------
-        **coordinates : array
-            One for each axis of the components, in their order, such as ``x=contact.x, depth=depths``; m.
-
-        Raises
-        ------
-        InputError
-            If there is not one coordinate for each axis, or one has another length.
+        One coordinate (m) for each axis of the components, in their order, such as ``x=contact.x, depth=depths``;
+        InputError if their number or a length differs.
         """
         places = {name: numbers(values, name) for name, values in coordinates.items()}
         if tuple(values.shape for values in places.values()) != tuple((count,) for count in self.xx.shape):
@@ -85,23 +72,12 @@ class Stress:
 
 
 def rectangle_corners(X: Array, Y: Array, z: float | Array, poisson_ratio: float) -> Array:
-    """Antiderivatives, along x and y, of the stresses below a unit point load.
+    """Antiderivatives (6, …), along x and y, of the stresses xx, yy, zz, yz, xz, xy below a unit point load.
 
     The stress under a unit pressure on a rectangle is their alternating sum over its four corners, seen from the point:
-    F(X2, Y2) − F(X1, Y2) − F(X2, Y1) + F(X1, Y1) with X, Y the point's coordinates relative to a corner.
+    F(X2, Y2) − F(X1, Y2) − F(X2, Y1) + F(X1, Y1) with X, Y the point's coordinates relative to a corner; z is above
+    zero.
 
-    Parameters
-    ----------
-    X, Y, z : array
-        Broadcast against each other; z above zero.
-
-    Returns
-    -------
-    (6, …) array
-        xx, yy, zz, yz, xz, xy.
-
-    References
-    ----------
     A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377, doi:10.1098/rsta.1929.0009.  With the potentials
     V = ∫∫ p/ρ and χ = ∫∫ p ln(ρ + z): 2π σ_x = 2ν V_z − z V_xx − (1−2ν) χ_xx, 2π σ_z = V_z − z V_zz,
     2π τ_xy = −z V_xy − (1−2ν) χ_xy, 2π τ_xz = −z V_xz.  For a point load these are K. L. Johnson, Contact Mechanics
@@ -127,23 +103,10 @@ def rectangle_corners(X: Array, Y: Array, z: float | Array, poisson_ratio: float
 
 
 def strip_ends(X: Array, z: float, poisson_ratio: float) -> Array:
-    """Antiderivatives along x of the stresses below a unit line load, in plane strain.
+    """Antiderivatives (6, …) along x of the stresses xx, yy, zz, yz, xz, xy below a unit line load, in plane strain.
 
-    Parameters
-    ----------
-    X : (…) array
-        The point's coordinate relative to an end of the strip.
-    z : float
-        Depth, above zero.
-
-    Returns
-    -------
-    (6, …) array
-        xx, yy, zz, yz, xz, xy; the stress under a unit pressure on a strip is F(X2) − F(X1).
-
-    References
-    ----------
-    K. L. Johnson, Contact Mechanics (1985), Sec. 2.5.
+    X (…) is the point's coordinate relative to an end of the strip, z > 0 the depth; the stress under a unit pressure
+    on a strip is F(X2) − F(X1).  K. L. Johnson, Contact Mechanics (1985), Sec. 2.5.
     """
     angle, ratio = np.arctan2(X, z), X * z / (X**2 + z**2)
     zero = np.zeros_like(angle)
@@ -157,13 +120,7 @@ _UNEVEN = 1e-6
 
 
 def spacing(position: ArrayLike, name: str) -> float:
-    """Return the distance of cell centres, m.
-
-    Raises
-    ------
-    InputError
-        If they are fewer than two, or not ascending in equal steps.
-    """
+    """Return the distance of cell centres, m; InputError unless they are two or more, ascending in equal steps."""
     centres = numbers(position, name)
     if centres.ndim != 1 or len(centres) < 2:
         raise InputError(
@@ -177,13 +134,7 @@ def spacing(position: ArrayLike, name: str) -> float:
 
 
 def on_cells(values: ArrayLike, shape: tuple[int, ...], name: str) -> Array:
-    """Return values that are given for each cell, as floats.
-
-    Raises
-    ------
-    InputError
-        If their shape is another one or some are not finite.
-    """
+    """Return values of each cell as floats; InputError if their shape differs or some are not finite."""
     array = numbers(values, name)
     if array.shape != shape:
         raise InputError(

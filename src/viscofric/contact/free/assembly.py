@@ -16,23 +16,9 @@ if TYPE_CHECKING:
 def assemble(
     stages: list[Stage], scale: Scale, velocity: float, direction: tuple[float, float], temperature: float | None
 ) -> ContactSolution:
-    """Bring the finest stage back to SI units, turned round if the indenter moves backwards.
+    """Return the solution of the finest stage in SI units, without warnings, reversed if the indenter moves backwards.
 
-    Parameters
-    ----------
-    stages : list of Stage
-        Coarsest first.
-    velocity : float
-        m/s, along the direction.
-    direction : (float, float)
-        Of length one.
-    temperature : float or None
-        K.
-
-    Returns
-    -------
-    ContactSolution
-        Without warnings.
+    `stages` are coarsest first; `velocity`, m/s, is along `direction`, of length one; `temperature` in K.
     """
     fine, window = stages[-1], stages[-1].window
     pressure = scale.pressure * fine.result.pressure

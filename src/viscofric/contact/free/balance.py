@@ -51,14 +51,7 @@ _LONGEST = math.log(1e13)
 
 
 def opening(window: Grid, pressure: Array, gap: Array) -> float:
-    """Return r, the part that cells leave out of ∫ p ∂²h/∂x² dA.
-
-    Parameters
-    ----------
-    pressure : (nx, ny) array
-    gap : (nx, ny) array
-        Between surface and indenter, as the contact conditions see it.
-    """
+    """Return r, the part that cells leave out of ∫ p ∂²h/∂x² dA; the gap (nx, ny) is that of the contact conditions."""
     beside = neighbours(free_gap(pressure, gap))
     return window.cell_area * float(np.vdot(pressure, beside)) / window.spacing**2
 
@@ -78,14 +71,10 @@ def neighbours(values: Array) -> Array:
 
 
 def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
-    """Return Λ: friction force per unit of r that is left out.
+    """Return Λ, the friction force per unit of r that is left out.
 
-    Parameters
-    ----------
-    spacing : float
-        Length of a cell along the motion.
-    cut : float
-        Wavenumber of the longest wave left out, times the spacing.
+    `spacing` is the length of a cell along the motion, `cut` the wavenumber of the longest wave left out times the
+    spacing.
     """
     wavenumber, symbol, loss, weight = _left_out(material, spacing, cut)
     return float((wavenumber * loss) @ weight) / float((wavenumber * symbol.real) @ weight)
@@ -104,13 +93,7 @@ def _left_out(material: SteadyMaterial, spacing: float, cut: float) -> tuple[Arr
 
 
 def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[float, Array, Array]:
-    """Return how Λ changes with the glassy compliance, and with the modes' compliances and memory lengths.
-
-    Parameters
-    ----------
-    material, spacing, cut
-        As of `lag`.
-    """
+    """Return the changes of Λ (see `lag`) with the glassy compliance, the modes' compliances and memory lengths."""
     wavenumber, symbol, loss, weight = _left_out(material, spacing, cut)
     lengths, compliances = material.memory_lengths, material.compliances
     share = bent_share(lengths / spacing)

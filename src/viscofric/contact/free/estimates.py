@@ -104,18 +104,11 @@ def least_error(stages: list[Stage], halvings: int) -> float:
 
 
 def settled(values: Array, fading: float = _FADING) -> Estimate:
-    """Return the last of three or more values on nested grids, with an estimate of its error.
+    """Return the last of three or more values on nested grids, coarsest first, with an estimate of its error.
 
-    With changes d1 (the last) and d0 before it, a geometric sequence has d1/(d0/d1 − 1) still to go.  No less than
-    d1 is taken, nor than d0 and the one before times the fading, once and twice, since single changes may be small by
-    chance.
-
-    Parameters
-    ----------
-    values : (n,) array
-        From the coarsest grid on.
-    fading : float
-        By which changes fall from grid to grid at the least.
+    With changes d1 (the last) and d0 before it, the remainder of a geometric sequence is d1/(d0/d1 − 1).  The estimate
+    is no less than d1, nor than d0 and the one before times `fading` once and twice, since single changes may be small
+    by chance; `fading` is the factor by which changes decrease from grid to grid at the least.
     """
     changes = np.abs(np.diff(values))[-3:]
     before, last = changes[-2:]
@@ -132,18 +125,11 @@ def error_of(stages: list[Stage], name: str) -> float:
 
 @dataclass(frozen=True)
 class FootprintErrors:
-    """Error estimates of the finest footprint from its changes on the nested grids.
-
-    Attributes
-    ----------
-    edge, area, peak : float
-        Of a peak that is not resolved, at least itself and what the leading edge or a tip may hide.
-    peak_resolved : bool
-    """
+    """Error estimates of the finest footprint from its changes on the nested grids."""
 
     edge: float
     area: float
-    peak: float
+    peak: float  # if it is not resolved, at least the peak itself and what the leading edge or a tip may hide
     peak_resolved: bool
 
     @classmethod

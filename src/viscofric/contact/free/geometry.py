@@ -17,38 +17,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Geometry:
-    """Properties of point and line contacts.
-
-    Attributes
-    ----------
-    name : str
-    dimension : int
-        Of the surface that the contact covers: loads are pressures times lengths to this power.
-    grid : type of Grid
-    operator : callable
-        Grid, material and collocation shift to the influence operator.
-    parabolic_load : float
-        Load on an elastic half-space under the paraboloid or the parabolic cylinder, in units of Hertz's contact
-        (K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22 and 4.43).
-    load_unit : str
-    has_far_field : bool
-        Whether displacements are measured from the surface far away, which stays in place.
-    scatter : float
-        Factor on errors estimated from changes between grids.  Where an edge lies within its
-        cell is a matter of luck, which the many cells of a rim average, but not the two at the ends of a strip.
-    finest : int
-        Most cells along the longer edge that are spent by default.
-    """
+    """Properties of point and line contacts."""
 
     name: str
-    dimension: int
+    dimension: int  # of the surface that the contact covers: loads are pressures times lengths to this power
     grid: type[Grid]
-    operator: Callable[..., ConvolutionOperator]
+    operator: Callable[..., ConvolutionOperator]  # grid, material and collocation shift to the influence operator
+    # Load on an elastic half-space under the paraboloid or the parabolic cylinder, in units of Hertz's contact (K. L.
+    # Johnson, Contact Mechanics (1985), Eqs. 4.22 and 4.43).
     parabolic_load: float
     load_unit: str
-    has_far_field: bool
+    has_far_field: bool  # whether displacements are measured from the surface far away, which is fixed
+    # Factor on errors estimated from changes between grids.  The position of an edge within its cell is random; the
+    # many cells of a rim average it, but not the two at the ends of a strip.
     scatter: float
-    finest: int
+    finest: int  # default limit of the cells along the longer edge
 
 
 POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048)

@@ -40,20 +40,13 @@ class Extent(NamedTuple):
 class Grid(ABC):
     """Cells along the motion around the indenter's axis, which lies between two of them.
 
-    With the axis between cells (at every refinement), an elastic contact is symmetric on the grid too, and its
-    friction exactly zero.
-
-    Parameters
-    ----------
-    spacing : float
-        Length of a cell along the motion.
-    behind, ahead : int
-        Cells between the axis and the rear and the front edge of the grid; either may be negative.
+    With the axis between cells (at every refinement), an elastic contact is symmetric on the grid too, and its friction
+    exactly zero.
     """
 
-    spacing: float
-    behind: int
-    ahead: int
+    spacing: float  # length of a cell along the motion
+    behind: int  # cells between the axis and the rear edge of the grid; may be negative
+    ahead: int  # cells between the axis and the front edge of the grid; may be negative
 
     @classmethod
     @abstractmethod
@@ -126,22 +119,10 @@ class Grid(ABC):
 
 @dataclass(frozen=True)
 class Window(Grid):
-    """Rectangular cells around the indenter's axis, which lies on a corner of cells.
+    """Rectangular cells around the indenter's axis, which lies on a corner of cells."""
 
-    Parameters
-    ----------
-    spacing : float
-        Length of a cell along the motion.
-    behind, ahead : int
-        Cells between the axis and the rear and the front edge of the window; either may be negative.
-    beside : int
-        Cells between the axis and each side.
-    aspect : float, optional
-        Width of a cell across the motion over its length; square by default.
-    """
-
-    beside: int
-    aspect: float = 1.0
+    beside: int  # cells between the axis and each side
+    aspect: float = 1.0  # width of a cell across the motion over its length
 
     @classmethod
     def around(cls, rear: float, front: float, side: float, cells: int, aspect: float = 1.0) -> Self:
@@ -191,15 +172,7 @@ class Window(Grid):
 
 @dataclass(frozen=True)
 class Strip(Grid):
-    """One row of cells along the motion, for what is the same all along y; loads are per unit of length.
-
-    Parameters
-    ----------
-    spacing : float
-        Length of a cell.
-    behind, ahead : int
-        Cells between the axis and the rear and the front edge of the strip; either may be negative.
-    """
+    """One row of cells along the motion, for what is the same all along y; loads are per unit of length."""
 
     @classmethod
     def around(cls, rear: float, front: float, side: float, cells: int, aspect: float = 1.0) -> Self:

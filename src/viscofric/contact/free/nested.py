@@ -56,29 +56,15 @@ _TOUCHES = "window: the contact touches its edge; give one that leaves some spac
 
 
 def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None = None) -> list[Stage]:
-    """Halve the cells until the friction coefficient is known to a relative accuracy, or down to given cells.
+    """Halve the cells until the friction coefficient has a relative accuracy, or down to given cells; coarsest first.
 
-    Parameters
-    ----------
-    first : Stage
-        In a window that fits the contact.
-    finest : int
-        Most cells along the window's longer edge.
-    given : GivenGrid, optional
-        Window that is kept, and cells, with which the accuracy and `finest` do not matter.
+    `first` is in a window that fits the contact; `finest` is the largest number of cells along its longer edge; a
+    `given` window is kept, and with given cells neither the accuracy nor `finest` counts.  Returns at least
+    `FEWEST_GRIDS` stages.
 
-    Returns
-    -------
-    list of Stage
-        Coarsest first, at least `FEWEST_GRIDS`.
-
-    Raises
-    ------
-    ConvergenceError
-        If a grid does not converge, the accuracy is not reached with `finest` cells along the longer edge or, by the
-        errors so far, cannot be, or the friction is not a number.
-    InputError
-        If the contact touches the edge of the window given.
+    Raises ConvergenceError if a grid does not converge, the accuracy is not reached with `finest` cells along the
+    longer edge or, by the errors so far, cannot be, or the friction is not a number; InputError if the contact touches
+    the edge of the window given.
     """
     given = GivenGrid() if given is None else given
     halvings = given.halvings(_coarsest(first.problem))
@@ -176,15 +162,8 @@ def _start(found: Stage, given: GivenGrid) -> Stage:
 def find_window(problem: Problem, size: float) -> Stage:
     """Solve on coarse grids until the window fits the contact: nothing cut off, little space wasted.
 
-    Parameters
-    ----------
-    size : float
-        First guess of the contact's radius.
-
-    Raises
-    ------
-    ConvergenceError
-        If no window is found, or no grid converges on the way to it.
+    `size` is a first guess of the contact's radius.  Raises ConvergenceError if no window is found, or no grid
+    converges.
     """
     failure = ConvergenceError(_NO_WINDOW, code="no-window")
     for wider in _FIRST_WINDOWS:
@@ -260,18 +239,10 @@ def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
 
 @dataclass(frozen=True)
 class GivenGrid:
-    """A window and cells that the user gives instead of an accuracy; what is None is found.
+    """A window and cells that the user gives instead of an accuracy; what is None is found."""
 
-    Attributes
-    ----------
-    window : Extent or None
-        In the units of the problem.
-    cells : int or None
-        Along the window's longer edge on the finest grid.
-    """
-
-    window: Extent | None = None
-    cells: int | None = None
+    window: Extent | None = None  # in the units of the problem
+    cells: int | None = None  # along the window's longer edge on the finest grid
 
     @classmethod
     def of(cls, window: Sequence[Quantity] | None, cells: int | None, scale: Scale) -> GivenGrid:

@@ -69,33 +69,16 @@ class Control:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A contact problem, the same on every grid.
-
-    Attributes
-    ----------
-    geometry : Geometry
-        Point or line contact.
-    solid : SteadyMaterial
-    shape : Shape
-    control : Control
-    tolerance : float
-        How exactly the contact conditions hold.
-    backend : Backend
-        Where it is solved.
-    layer : ScaledLayer, optional
-        What the geometry's operator is one of; a half-space without.
-    coarsest : int
-        Cells along the longer edge of the window on the coarsest grid.
-    """
+    """A contact problem, the same on every grid."""
 
     geometry: Geometry
     solid: SteadyMaterial
     shape: Shape
     control: Control
-    tolerance: float
+    tolerance: float  # of the contact conditions
     backend: Backend = field(default_factory=Backend)
-    layer: ScaledLayer | None = None
-    coarsest: int = COARSEST
+    layer: ScaledLayer | None = None  # to which the geometry's operator belongs; None for a half-space
+    coarsest: int = COARSEST  # cells along the longer edge of the window on the coarsest grid
 
     @cached_property
     def first_size(self) -> float:

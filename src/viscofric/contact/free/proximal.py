@@ -49,18 +49,9 @@ def proximal_points(
 ) -> ComplementaritySolution:
     """Solve the contact problem from a pressure at which the active set makes no progress.
 
-    Parameters
-    ----------
-    height : (nx, ny) array
-        Of the indenter, where the gap is looked at.
-    tolerance : float
-        Of the complementarity.
-
-    Returns
-    -------
-    ComplementaritySolution
-        Look at ``converged``: this function does not raise.  Its counts are those of the last active set, but
-        ``products`` and what is violated are those of all.
+    `height` (nx, ny) is the indenter's, where the gap is evaluated; `tolerance` that of the complementarity.  Does not
+    raise: check ``converged``.  The counts are those of the last active set, except ``products`` and the violations,
+    which are those of all.
     """
     wavenumber = 0.5 * math.pi / operator.window.spacing
     unit = 2.0 * float(np.abs(operator.material.symbol(np.array([wavenumber])))[0]) / wavenumber

@@ -30,20 +30,12 @@ class Scale:
     """Units of length, depth and pressure; those of Hertz's contact at E0 for a ball and a cylinder.
 
     Whatever the shape, pressure = stiffness · depth/length, so that the half-space's relaxed compliance is one.
-
-    Attributes
-    ----------
-    geometry : Geometry
-    length, depth : float
-        m: a0 and a0²/R of a ball.
-    stiffness : float
-        E0/(1−ν²), with the indenter's compliance in series, Pa.
     """
 
     geometry: Geometry
-    length: float
-    depth: float
-    stiffness: float
+    length: float  # m, a0 of a ball
+    depth: float  # m, a0²/R of a ball
+    stiffness: float  # E0/(1−ν²), with the indenter's compliance in series, Pa
 
     @property
     def pressure(self) -> float:
@@ -67,15 +59,7 @@ class Scale:
 
     @classmethod
     def for_load(cls, indenter: Indenter, stiffness: float, load: float) -> Scale:
-        """Return the units of the paraboloid that has the indenter's mean height at its edge, under a load.
-
-        Parameters
-        ----------
-        stiffness : float
-            Pa.
-        load : float
-            N, or N/m.
-        """
+        """Return the units of the paraboloid with the indenter's mean height at its edge, at a load in N, or N/m."""
         geometry = indenter.geometry
 
         def load_at(length: float) -> float:
@@ -93,32 +77,18 @@ class Scale:
 
     @classmethod
     def for_indentation(cls, indenter: Indenter, stiffness: float, indentation: float) -> Scale:
-        """Return the units of the paraboloid that has the indenter's mean height at its edge, at an indentation.
-
-        Parameters
-        ----------
-        stiffness, indentation : float
-            Pa and m.
-        """
+        """Return the units of the paraboloid with the indenter's mean height at its edge, at an indentation in m."""
         length = _crossing(lambda length: _depth_at(indenter, length), indentation)
         return cls(indenter.geometry, length, indentation, stiffness)
 
 
 @dataclass(frozen=True)
 class ScaledIndenter:
-    """An indenter in such units, on axes along and across the motion.
-
-    Attributes
-    ----------
-    indenter : Indenter
-    scale : Scale
-    toward : (float, float)
-        Direction of the motion over the indenter's own axes, of length one.
-    """
+    """An indenter in such units, on axes along and across the motion."""
 
     indenter: Indenter
     scale: Scale
-    toward: tuple[float, float] = (1.0, 0.0)
+    toward: tuple[float, float] = (1.0, 0.0)  # unit vector of the motion over the indenter's own axes
 
     @property
     def has_tip(self) -> bool:

@@ -138,33 +138,19 @@ class Footprint:
 
     Near the edge of a smooth contact the pressure rises like the square root of the distance, so that its square
     crosses zero at the edge as a straight line.
-
-    Attributes
-    ----------
-    front, rear, side : float
-        Distances from the axis to the leading and trailing edge on the centre line, and half the width across it.
-    area : float
-    peak : float
-        Largest pressure.
-    peak_depth : int
-        Cells, its own included, from the largest pressure to the nearer end of the loaded cells along the motion.
     """
 
-    front: float
-    rear: float
-    side: float
+    front: float  # distance from the axis to the leading edge on the centre line
+    rear: float  # distance from the axis to the trailing edge on the centre line
+    side: float  # half the width across the centre line
     area: float
-    peak: float
+    peak: float  # largest pressure
+    # cells, its own included, from the largest pressure to the nearer end of the loaded cells along the motion
     peak_depth: int
 
     @classmethod
     def of(cls, window: Grid, pressure: Array) -> Footprint:
-        """Measure the contact on one grid.
-
-        Parameters
-        ----------
-        pressure : (nx, ny) array
-        """
+        """Return the footprint of a pressure (nx, ny) on one grid."""
         middle = pressure.shape[1] // 2
         centre = 0.5 * (pressure[:, middle - 1] + pressure[:, middle])  # the axis lies between the two rows
         rear, front = edges(window.x, centre if centre.any() else pressure.max(axis=1))
@@ -177,17 +163,10 @@ class Footprint:
 
 
 def edges(position: Array, pressure: Array) -> tuple[float, float]:
-    """Lower and upper end of the loaded stretch of a pressure profile, to a fraction of a cell.
+    """Return lower and upper end of the loaded stretch of a pressure profile (n,), to a fraction of a cell.
 
     The pressure's square is extrapolated linearly to zero from the two outermost loaded cells, and never beyond the
-    next cell's centre.
-
-    Parameters
-    ----------
-    position : (n,) array
-        Equally spaced, ascending.
-    pressure : (n,) array
-        Positive somewhere.
+    next cell's centre.  Positions are equally spaced and ascending.
     """
     cell = float(position[1] - position[0])
     loaded = np.flatnonzero(pressure > 0.0)
@@ -199,16 +178,9 @@ def edges(position: Array, pressure: Array) -> tuple[float, float]:
 
 
 def contact_area(window: Grid, pressure: Array) -> float:
-    """Area of the contact: loaded cells, corrected along their rim by where the pressure's square ends.
+    """Return the area of the contact: loaded cells, corrected along their rim to where the pressure's square ends.
 
-    Parameters
-    ----------
-    pressure : (nx, ny) array
-
-    Returns
-    -------
-    float
-        Mean of what the rims along x and along y give; for one row of cells, its loaded length.
+    The mean of the corrections along x and along y; for one row of cells, its loaded length.
     """
     axes = [axis for axis in (0, 1) if pressure.shape[axis] > 1]
     corrections = [_rim(np.moveaxis(pressure, axis, 0)) for axis in axes]

@@ -57,12 +57,7 @@ class Indenter(ABC):
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
         """Return a note where the assumption of small strain is doubtful.
 
-        Parameters
-        ----------
-        contact : Extent
-            Along x and y of the indenter, in m.
-        indentation : float
-            m.
+        `contact` is along x and y of the indenter, m; `indentation` in m.
         """
 
     @property

@@ -121,22 +121,12 @@ def _cell_rule(length: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class LayerCell:
-    """Potential of a rectangular cell of a layer, in units of the cell's length.
+    """Potential of a rectangular cell of a layer, in units of the cell's length."""
 
-    Attributes
-    ----------
-    thickness : float
-        H in units of the cell's length.
-    bonded : bool
-    poisson_ratio : float
-    aspect : float
-        Width of the cell over its length.
-    """
-
-    thickness: float
+    thickness: float  # H
     bonded: bool
     poisson_ratio: float
-    aspect: float = 1.0
+    aspect: float = 1.0  # width of the cell over its length
 
     @cached_property
     def _table(self) -> _Table:
@@ -198,18 +188,10 @@ class LayerCell:
 
 @dataclass(frozen=True)
 class LayerStrip:
-    """Potential of a cell of a line contact on a layer, in units of the cell's length; the same for all y.
-
-    Attributes
-    ----------
-    thickness : float
-        H in units of the cell's length.
-    bonded : bool
-    poisson_ratio : float
-    """
+    """Potential of a cell of a line contact on a layer, in units of the cell's length; the same for all y."""
 
     aspect: ClassVar[float] = 1.0  # there is one row
-    thickness: float
+    thickness: float  # H
     bonded: bool
     poisson_ratio: float
 

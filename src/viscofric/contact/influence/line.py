@@ -82,25 +82,11 @@ def _memory_function(b: Array) -> Array:
 
 
 def line_memory_influence(x: Array, memory_length: float) -> tuple[Array, Array]:
-    """Delayed displacement around one loaded cell of a line contact, for one mode.
+    """Return delayed displacement K(x; λ) and dissipation (n,) around one loaded cell of a line contact, for one mode.
 
-    Parameters
-    ----------
-    x : (n,) array
-        Where the displacement is looked at, in cells, relative to the loaded cell.
-    memory_length : float
-        λ = v τ / h > 0, in cells, for motion towards +x.
-
-    Returns
-    -------
-    displacement : (n,) array
-        K(x; λ).
-    dissipation : (n,) array
-        ∂K/∂x up to an odd function of x, which does no work.  Not for x = ±1/2.
-
-    Notes
-    -----
-    Memory lengths from 1e-8 to 1e10 cells: rounding of about 1e-15 for every cell of distance.
+    `x` (n,) is the position relative to the loaded cell, in cells; λ = v τ / h > 0, in cells, for motion towards +x.
+    The dissipation is ∂K/∂x up to an odd function of x, which does no work; not for x = ±1/2.  For λ from 1e-8 to 1e10
+    cells, rounding is about 1e-15 for every cell of distance.
     """
     start, end = (x - 0.5) / memory_length, (x + 0.5) / memory_length
     change = _memory_function(end) - _memory_function(start)

@@ -62,23 +62,11 @@ def _fine_rule(order: int) -> tuple[Array, Array]:
 
 
 def product_weights(order: int, rate: Inexact) -> Inexact:
-    """Weights w with ∫_0^1 ε e^(−ε s) f(s) ds = Σ_g w_g f(s_g) at Gauss points.
+    """Weights w (…, order) with ∫_0^1 ε e^(−ε s) f(s) ds = Σ_g w_g f(s_g) at Gauss points, for rates Re ε > 0, (…).
 
-    Parameters
-    ----------
-    order : int
-        Number of points, up to 16; polynomials of a lower degree are integrated exactly.
-    rate : (…) array
-        Re ε > 0.
-
-    Returns
-    -------
-    (…, order) array
-
-    Notes
-    -----
-    The Legendre moments M_n of the exponential are, but for sign and scale, modified spherical Bessel functions of ε/2
-    (DLMF 10.47.7), with M_{n+1} = M_{n−1} + (4n + 2)/ε M_n.
+    Up to 16 points; polynomials of a degree below `order` are integrated exactly.  The Legendre moments M_n of the
+    exponential are, except for sign and scale, modified spherical Bessel functions of ε/2 (DLMF 10.47.7), with M_{n+1}
+    = M_{n−1} + (4n + 2)/ε M_n.
     """
     fading = rate.reshape(-1, 1)
     size = fading[:, 0].real
@@ -134,21 +122,9 @@ def panel_points(edges: Array, order: int) -> Array:
 
 
 def panel_rule(edges: Array, order: int, rate: Inexact) -> tuple[Array, Inexact]:
-    """Composite rule on panels.
+    """Return points (n order,) and weights (m, n order) of a composite rule on panels, for rates (m,), Re ε > 0.
 
-    Parameters
-    ----------
-    edges : (n + 1,) array
-        Ascending.
-    order : int
-        Points on each panel.
-    rate : (m,) array
-        Re ε > 0.
-
-    Returns
-    -------
-    points : (n order,) array
-    weights : (m, n order) array
+    `edges` (n + 1,) ascend; `order` is the number of points on each panel.
     """
     starts, lengths = edges[:-1], np.diff(edges)
     weights = product_weights(order, rate[:, None] * lengths)
@@ -158,14 +134,10 @@ def panel_rule(edges: Array, order: int, rate: Inexact) -> tuple[Array, Inexact]
 
 @lru_cache(maxsize=4)
 def lattice_interpolation(order: int) -> tuple[Indices, Array]:
-    """Interpolation in the cell 0 … 1 from values at whole numbers.
+    """Return interpolation in the cell 0 … 1 from values at integers.
 
-    Returns
-    -------
-    nodes : (order,) array
-        The whole numbers, centred on the cell.
-    matrix : (order, order) array
-        From values there to values at the cell's Gauss points.
+    The integers (order,), centred on the cell, and the matrix (order, order) from values there to values at the cell's
+    Gauss points.
     """
     nodes = np.arange(order) - (order // 2 - 1)
     points = gauss_points(order)[0]

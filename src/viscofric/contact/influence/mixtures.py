@@ -55,36 +55,20 @@ def memory_influence(
     potential: Potential = _HALF_SPACE,
     aspect: float = 1.0,
 ) -> Array:
-    """Delayed displacements around one loaded cell, for mixtures of modes.
+    """Return delayed displacements (k, 2 nx − 1, ny) around one loaded cell, for k mixtures of m modes.
 
-    Parameters
-    ----------
-    shape : (nx, ny)
-        Number of cells of the window; x is the direction of motion.
-    mixtures : (k, m) array
-        Each row holds the coefficients c_m of one mixture of the m modes.
-    memory_lengths : (m,) array
-        λ_m = v τ_m / h > 0, in cells, for motion towards +x.
-    shift : float
-        How far behind the cell centres the displacement is looked at, in cells (0 to 0.5).
-    instant : (k,) array, optional
-        What each mixture holds of the displacement without memory, L; nothing by default.
-    potential : callable
-        L(x, y), even in x, of a cell as long as the unit of length; that of the half-space under a square cell by
-        default.
-    aspect : float
-        Width of the cells across the motion over their length.
+    ``instant L(x, y) + Σ c_m K(x, y; λ_m)`` at x + shift = −(nx−1) … nx−1 and y = 0 … ny−1, in cells; even in y.
+    Accurate to about 1e-11 of the largest value for memory lengths from 1e-8 to 1e10 cells.
 
-    Returns
-    -------
-    (k, 2 nx − 1, ny) array
-        ``instant L(x, y) + Σ c_m K(x, y; λ_m)`` at x + shift = −(nx−1) … nx−1 and y = 0 … ny−1, in cells; even in y.
-        Right to about 1e-11 of the largest value for memory lengths from 1e-8 to 1e10 cells.
+    `shape` (nx, ny) is the number of cells of the window, x the direction of motion.  Each row of `mixtures` (k, m) has
+    the coefficients c_m; `memory_lengths` (m,) are λ_m = v τ_m / h > 0, in cells, for motion towards +x.  Displacements
+    are taken `shift` cells (0 to 0.5) behind the cell centres.  `instant` (k,), zero by default, is each mixture's
+    factor of the displacement without memory, L; `potential` is L(x, y), even in x, of a cell as long as the unit of
+    length, by default of the half-space under a square cell; `aspect` is the width of the cells across the motion over
+    their length.
 
-    Notes
-    -----
-    The cost hardly depends on the number of modes, and is that of three FFTs along x, twice as long as the rows that
-    come out, for each row of cells and each two mixtures.
+    The cost hardly depends on the number of modes: for each row of cells and each two mixtures, three FFTs along x,
+    twice as long as the rows of the result.
     """
     nx, ny = shape
     around = Around(potential, nx, shift)

@@ -31,17 +31,9 @@ _STEP = 1e-30
 
 
 def correlation(first: Array, second: Array) -> Array:
-    """Return W(Δ) = Σ a(x) b(x − Δ) of two fields, folded about the direction of motion.
+    """Return W(Δ) = Σ a(x) b(x − Δ) of two fields (nx, ny), folded about the direction of motion.
 
-    Parameters
-    ----------
-    first, second : (nx, ny) array
-        a and b, on the same cells.
-
-    Returns
-    -------
-    (2 nx − 1, ny) array
-        At Δx = −(nx−1) … nx−1 and Δy = 0 … ny−1; those at −Δy are added to those at Δy.
+    Shape (2 nx − 1, ny), at Δx = −(nx−1) … nx−1 and Δy = 0 … ny−1; values at −Δy are added to those at Δy.
     """
     nx, ny = first.shape
     px, py = scipy.fft.next_fast_len(2 * nx - 1), scipy.fft.next_fast_len(2 * ny - 1, real=True)
@@ -55,21 +47,10 @@ def correlation(first: Array, second: Array) -> Array:
 def memory_moments(
     weights: Array, memory_lengths: Array, shift: float, potential: CellPotential
 ) -> tuple[Array, Array]:
-    """Sum up delayed displacements, and their changes with the memory length, for each mode.
+    """Return Σ W K and Σ W ∂K/∂ln λ, (k, m) each, for each mode, K as in `viscofric.contact.influence.mixtures`.
 
-    Parameters
-    ----------
-    weights : (k, 2 nx − 1, ny) array
-        Correlations W as `correlation` returns them.
-    memory_lengths : (m,) array
-        λ_m > 0, in cells.
-    shift : float
-        How far behind the cell centres the displacement is looked at, in cells (0 to 0.5).
-
-    Returns
-    -------
-    moments, sensitivities : (k, m) array
-        Σ W K and Σ W ∂K/∂ln λ, K as in `viscofric.contact.influence.mixtures`.  Right to about 1e-11 of Σ |W| max |K|.
+    `weights` (k, 2 nx − 1, ny) are correlations W of `correlation`; `memory_lengths` (m,) are λ_m > 0, in cells;
+    displacements are taken `shift` cells (0 to 0.5) behind the cell centres.  Accurate to about 1e-11 of Σ |W| max |K|.
     """
     sets, length, ny = weights.shape
     if len(memory_lengths) == 0:

@@ -96,16 +96,10 @@ class Modes:
 
 
 def beyond(around: Around, modes: Modes, rows: Array) -> tuple[Inexact, Array]:
-    """Return what the memory keeps from beyond the window, in the place of the lattice's own end there.
+    """Return the part of the memory from beyond the window, in place of the lattice's own end there.
 
-    As a function of y it is smooth, since its sources are at least a window away: it is found at few rows.
-
-    Returns
-    -------
-    tail : (m, n) array
-        K at x = nx, at few rows; farther behind it fades.
-    interpolation : (n, ny) array
-        From those rows to all.
+    K at x = nx, (m, n), decays farther behind.  As a function of y it is smooth, since its sources are at least a
+    window away: it is computed at n rows, and returned with the interpolation (n, ny) from these to all.
     """
     nx = around.nx
     nodes, interpolation = _smooth_rows(rows, nx + FIRST - 1.0)
@@ -149,14 +143,10 @@ def near_cells(nx: int) -> tuple[int, int]:
 
 
 def near_memory(around: Around, modes: Modes, rows: Array, edge: float) -> Iterator[tuple[slice, Inexact]]:
-    """Yield what finer rules change near the loaded cell, whose edge lies so far out in y.
+    """Yield the corrections by finer rules near the loaded cell, whose edge is at `edge` in y.
 
-    Yields
-    ------
-    rows : slice
-        That share a rule.
-    memory : (cells, m, n) array
-        At the distances `near_cells` along x, for these rows; farther behind the first of them it fades.
+    Rows that share a rule, and the memory (cells, m, n) at the distances `near_cells` along x for these rows; it decays
+    farther behind the first of them.
     """
     first, last = near_cells(around.nx)
     starts = np.searchsorted(rows - edge, [start for start, _, _ in _ROW_RULES])

@@ -104,13 +104,7 @@ def cell_potential_xx(x: Array, y: Array, aspect: float = 1.0) -> Array:
 
 @dataclass(frozen=True)
 class HalfSpaceCell:
-    """Potential of a rectangular cell of the half-space.
-
-    Attributes
-    ----------
-    aspect : float
-        Width of the cell over its length.
-    """
+    """Potential of a rectangular cell of the half-space; `aspect` is its width over its length."""
 
     aspect: float = 1.0
 

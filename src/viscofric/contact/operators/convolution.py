@@ -43,32 +43,17 @@ _TOLERATED_ANGLE = np.pi / 4.0
 
 @dataclass(frozen=True)
 class SteadyMaterial:
-    """Compliances and memory lengths of a material at one speed and temperature.
+    """Compliances and memory lengths of a material at one speed and temperature."""
 
-    Parameters
-    ----------
-    glassy : float
-        (1−ν²)/E∞, the compliance without memory.
-    compliances : (m,) array
-        (1−ν²) C_k.
-    memory_lengths : (m,) array
-        v τ_k > 0: distance behind the indenter over which a mode relaxes.
-    counterface : float, optional
-        (1−ν_i²)/E_i of an elastic indenter, a half-space even where the material is a layer.
-    """
-
-    glassy: float
-    compliances: Array
-    memory_lengths: Array
-    counterface: float = 0.0
+    glassy: float  # (1−ν²)/E∞, the compliance without memory
+    compliances: Array  # (m,), (1−ν²) C_k
+    memory_lengths: Array  # (m,), v τ_k > 0: distance behind the indenter over which a mode relaxes
+    counterface: float = 0.0  # (1−ν_i²)/E_i of an elastic indenter, a half-space even where the material is a layer
 
     def symbol(self, qx: Array, yielding: ArrayLike = 1.0) -> ComplexArray:
-        """Compliance that a sinusoidal load meets at the wavenumber q_x, (1−ν²) S(−q_x v) + (1−ν_i²)/E_i.
+        """Return the compliance for a sinusoidal load of wavenumber q_x, (1−ν²) S(−q_x v) + (1−ν_i²)/E_i.
 
-        Parameters
-        ----------
-        yielding : array, optional
-            Θ of a layer at these wavenumbers, by which its part is multiplied.
+        `yielding` is Θ of a layer at these wavenumbers, the factor of the first term.
         """
         with np.errstate(over="ignore"):  # where the square of a phase overflows, its mode is as good as rigid
             phase = np.multiply.outer(qx, self.memory_lengths)
@@ -78,21 +63,14 @@ class SteadyMaterial:
 
 
 class Influence(NamedTuple):
-    """Influence coefficients, each (2 nx − 1, ny).
+    """Influence coefficients, each (2 nx − 1, ny), even in y.
 
-    At x = −(nx−1) … nx−1 and y = 0 … ny−1 cells from the loaded one, even in y.
-
-    Attributes
-    ----------
-    displacement : array
-    dissipation : array
-        The part of its slope that dissipates.
-    bent_dissipation : array
-        Likewise, but of short memories from second differences; see `ConvolutionOperator.bent_dissipated_force`.
+    At x = −(nx−1) … nx−1 and y = 0 … ny−1 cells from the loaded one.
     """
 
     displacement: Array
-    dissipation: Array
+    dissipation: Array  # the part of its slope that dissipates
+    # the same, but of short memories from second differences; see `ConvolutionOperator.bent_dissipated_force`
     bent_dissipation: Array
 
     def times(self, unit: float, length: float) -> Influence:
@@ -105,21 +83,9 @@ class Influence(NamedTuple):
 
 @dataclass
 class ConvolutionOperator(ABC):
-    """Displacement under pressures on the cells of a grid, each cell's influence the same wherever it lies.
+    """Displacement under pressures on the cells of a grid, each cell's influence independent of its position.
 
-    Linear and positive definite, but *not* symmetric: the solid remembers the load that lies ahead.
-
-    Parameters
-    ----------
-    shift : float, optional
-        How far behind the cell centres the displacement is taken, in cells (0 to 0.5); see `collocation_shift`.
-    backend : Backend, optional
-        Where it is applied.
-
-    Attributes
-    ----------
-    products : int
-        Applications so far; each costs one forward and one inverse FFT of the padded window.
+    Linear and positive definite, but *not* symmetric, because of the solid's memory.
     """
 
     #: What the cell's potential is multiplied by for a compliance of one, but for the cell's length.
@@ -127,8 +93,10 @@ class ConvolutionOperator(ABC):
 
     window: Grid
     material: SteadyMaterial
+    # position behind the cell centres where the displacement is taken, in cells (0 to 0.5); see `collocation_shift`
     shift: float = 0.0
     backend: Backend = field(default_factory=Backend)
+    # applications so far; each costs one forward and one inverse FFT of the padded window
     products: int = field(default=0, init=False)
     _transfer: AnyArray = field(init=False, repr=False)
     _dissipation: Array = field(init=False, repr=False)
@@ -277,19 +245,10 @@ class ConvolutionOperator(ABC):
 
 
 def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: float) -> Influence:
-    """Displacement around a loaded cell, with its memory, and what of its slope dissipates.
+    """Return displacement around a loaded cell, with its memory, and the part of its slope that dissipates.
 
-    Parameters
-    ----------
-    operator : ConvolutionOperator
-        Whose window, material and shift are meant.
-    instant : float
-        Compliance without memory.
-
-    Returns
-    -------
-    Influence
-        In units of the cell's potential, for lengths in cells.
+    For the window, material and shift of `operator`; `instant` is the compliance without memory.  In units of the
+    cell's potential, with lengths in cells.
     """
     nx, ny = operator.window.shape
     compliances = operator.material.compliances
@@ -357,12 +316,8 @@ def _optimal_circulant_inverse(influence: Array) -> ComplexArray:
     """Inverse spectrum of the periodic operator that is nearest to the given one on the window.
 
     T. Chan, SIAM J. Sci. Stat. Comput. 9 (1988) 766: each diagonal is averaged with the one it wraps around to.  It
-    inherits positive definiteness, and answers short waves as the discrete operator does.
-
-    Parameters
-    ----------
-    influence : (2 nx − 1, ny) array
-        Even in its second index.
+    inherits positive definiteness, and responds to short waves as the discrete operator does.  `influence` (2 nx − 1,
+    ny) is even in its second index.
     """
     nx, ny = influence.shape[0] // 2 + 1, influence.shape[1]
     ahead, across = np.arange(nx)[:, None] / nx, np.arange(ny) / ny

@@ -24,14 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ScaledLayer:
-    """A layer in units of the contact.
-
-    Attributes
-    ----------
-    thickness : float
-    bonded : bool
-    poisson_ratio : float
-    """
+    """A layer in units of the contact."""
 
     thickness: float
     bonded: bool
@@ -47,24 +40,15 @@ class ScaledLayer:
         return Layer(self.thickness, self.bonded).yielding(wave_number, self.poisson_ratio)
 
     def geometry(self, geometry: Geometry, counterface: float) -> Geometry:
-        """Return the geometry on this layer of a contact that is a point or a line contact on a half-space.
+        """Return a point or line contact's geometry on this layer instead of a half-space.
 
-        Parameters
-        ----------
-        counterface : float
-            Compliance of the indenter; in plane strain it leaves displacements without a level.
+        `counterface` is the compliance of the indenter; in plane strain it leaves displacements without a level.
         """
         operator = partial(_OPERATORS[geometry.name], layer=self)
         return replace(geometry, operator=operator, has_far_field=geometry.has_far_field or counterface == 0.0)
 
     def in_cells(self, spacing: float) -> float:
-        """Return the thickness in cells.
-
-        Raises
-        ------
-        ConvergenceError
-            If the cells are too large for the layer.
-        """
+        """Return the thickness in cells; ConvergenceError if the cells are too large for the layer."""
         thickness = self.thickness / spacing
         if thickness < THINNEST:
             raise ConvergenceError(

@@ -34,31 +34,16 @@ _MOST_COARSE_PRODUCTS = 2000  # on a grid that only gives the next one its start
 
 @dataclass(frozen=True)
 class Work:
-    """Work on the finest grid, and on all of them together.
+    """Work on the finest grid, unless stated otherwise."""
 
-    Attributes
-    ----------
-    products, ffts, single_ffts : int
-        On the finest grid: products with the influence matrix, two-dimensional real FFTs, and how many of these in
-        single precision.
-    splitting_steps : int
-        On the finest grid.
-    set_changes, linear_iterations : int
-        On the finest grid.
-    grids : tuple of (int, int, int)
-        Points along x and y, and FFTs, of every grid, coarsest first.
-    coarser_pressure : (mx, my) array or None
-        On the grid before the finest one, if there is one.
-    """
-
-    products: int
-    ffts: int
-    single_ffts: int
+    products: int  # with the influence matrix
+    ffts: int  # two-dimensional real FFTs
+    single_ffts: int  # those in single precision
     splitting_steps: int
     set_changes: int
     linear_iterations: int
-    grids: tuple[tuple[int, int, int], ...]
-    coarser_pressure: Array | None
+    grids: tuple[tuple[int, int, int], ...]  # points along x and y, and FFTs, of every grid, coarsest first
+    coarser_pressure: Array | None  # (mx, my), on the grid before the finest one, if any
 
 
 def coarser_shapes(shape: tuple[int, int]) -> list[tuple[int, int]]:
@@ -79,25 +64,11 @@ def solve_on_levels(
     most_products: int,
     backend: Backend,
 ) -> tuple[ComplementaritySolution, Work]:
-    """Solve the contact on each grid in turn, coarsest first.
+    """Solve the contact on each grid in turn, coarsest first; ConvergenceError if the finest grid does not converge.
 
-    Parameters
-    ----------
-    stages : iterator of Stage
-        Coarsest first, made when needed.
-    offset : float or None
-        Mean gap, where no pressure is given.
-    tolerance : float
-        Of the complementarity on the finest grid, relative to the rms height.
-    most_products : int
-        On each grid.
-    backend : Backend
-        Where it is solved; arguments and results are NumPy's.
-
-    Raises
-    ------
-    ConvergenceError
-        If the finest grid does not converge.
+    `stages` are made when needed; `offset` is the mean gap, where no pressure is given; `tolerance` that of the
+    complementarity on the finest grid, relative to the rms height; `most_products` applies to each grid.  Arguments and
+    results are NumPy's on any backend.
     """
     pressure: Array | None = None
     coarser: Array | None = None

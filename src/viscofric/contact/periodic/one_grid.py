@@ -49,23 +49,13 @@ _SOFTER_TOLERANCE, _SOFTER_PRODUCTS = 1e-4, 300
 
 @dataclass(frozen=True)
 class Stage:
-    """The contact problem on one of the nested grids.
+    """The contact problem on one of the nested grids."""
 
-    Attributes
-    ----------
-    height : (nx, ny) array
-        Above the lowest point.
-    transfer : (nx, ny//2 + 1) array
-    relaxed : callable
-        Gives the real transfer function of an elastic solid of the same geometry, with the same largest value.
-    toward : (float, float)
-        Direction of the motion, in cells along x and y.
-    """
-
-    height: Array
-    transfer: NDArray[Any]
+    height: Array  # (nx, ny), above the lowest point
+    transfer: NDArray[Any]  # (nx, ny//2 + 1)
+    # real transfer function of an elastic solid of the same geometry, with the same largest value
     relaxed: Callable[[], Array]
-    toward: tuple[float, float]
+    toward: tuple[float, float]  # direction of the motion, in cells along x and y
 
 
 class OneGrid:
@@ -261,27 +251,14 @@ def continued(
 ) -> tuple[ComplementaritySolution | None, AnyArray]:
     """Solve a contact whose operator is nearly skew (one retardation time, a stiff glassy state) by way of softer ones.
 
-    The phase of each wave's response stays well below a right angle once some elastic compliance is added to it, as
-    of a softer glassy state; then the active set converges from a rough guess.  Less and less is added, each contact
-    starting from the one before, until nothing is left to add.  Where a step fails, a shorter one is tried.
+    The phase of each wave's response stays well below a right angle with some added elastic compliance, as of a softer
+    glassy state; then the active set converges from a rough guess.  The added compliance is reduced to zero in steps,
+    each contact starting from the one before.  Where a step fails, a shorter one is tried.
 
-    Parameters
-    ----------
-    operator : PeriodicOperator
-        Where it ends; its counters are charged.
-    relaxed : (nx, ny//2 + 1) array
-        Elastic transfer function of the same geometry, with the same largest value.
-    pressure : (nx, ny) array
-        To start from.
-    most_products : int
-        After which no more steps are tried.
-
-    Returns
-    -------
-    result : ComplementaritySolution or None
-        If it converged.
-    pressure : (nx, ny) array
-        Of the last contact that converged, otherwise that given.
+    `operator` is the final one, whose counters increase; `relaxed` (nx, ny//2 + 1) is the elastic transfer function of
+    the same geometry, with the same largest value; `pressure` (nx, ny) is the start; no more steps are tried after
+    `most_products`.  Returns the solution, None if it did not converge, and the pressure of the last contact that
+    converged, otherwise that given.
     """
     transfer = operator.backend.to_numpy(operator.transfer)
     least = float((transfer.real.ravel()[1:] / relaxed.ravel()[1:]).min())

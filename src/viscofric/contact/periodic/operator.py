@@ -19,30 +19,14 @@ class PeriodicOperator:
     """Displacement of a periodic solid, of zero mean, under pressures on the points of a grid.
 
     Linear and positive semidefinite (a uniform pressure moves nothing); symmetric at rest only.
-
-    Parameters
-    ----------
-    transfer : (nx, ny//2 + 1) array
-        û/p̂ for each wave, zero for the mean; real for an elastic solid.
-    shape : (int, int)
-        Points along x and y.
-    precision : type
-        `numpy.float64`, or `numpy.float32` for corrections, where the backend has them.
-    backend : Backend, optional
-        Where it is applied.
-
-    Attributes
-    ----------
-    products, ffts : int
-        Products with the operator, and two-dimensional FFTs of it and its inverse, so far.
     """
 
-    transfer: AnyArray
-    shape: tuple[int, int]
-    precision: Any = np.float64
+    transfer: AnyArray  # (nx, ny//2 + 1), û/p̂ for each wave, zero for the mean; real for an elastic solid
+    shape: tuple[int, int]  # points along x and y
+    precision: Any = np.float64  # numpy.float64, or numpy.float32 for corrections, where the backend has them
     backend: Backend = field(default_factory=Backend)
     products: int = field(default=0, init=False)
-    ffts: int = field(default=0, init=False)
+    ffts: int = field(default=0, init=False)  # two-dimensional ones, of the operator and its inverse
 
     def __post_init__(self) -> None:
         if isinstance(self.transfer, np.ndarray):

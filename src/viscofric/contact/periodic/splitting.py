@@ -42,22 +42,12 @@ def split_steps(
     rho: float,
     accelerated: bool = False,
 ) -> AnyArray:
-    """Take some steps of the splitting from a guess, and return pressures that are not negative, in double precision.
+    """Take steps of the splitting from a guess, and return pressures that are not negative, in double precision.
 
-    Parameters
-    ----------
-    operator : PeriodicOperator
-        In whose precision the steps are taken.
-    height : (nx, ny) array
-        Of the indenter above its lowest point.
-    guess : (nx, ny) array
-        Pressures, not negative, some above zero.
-    load, indentation : float or None
-        Sum of the pressures, or δ; one of them.
-    rho : float
-        ρ, a compliance: waves much more compliant settle at once, those of about ρ in a few steps.
-    accelerated : bool
-        Whether to extrapolate from earlier steps (Anderson), which pays where many are needed.
+    Steps are in the operator's precision.  `height` (nx, ny) is above the indenter's lowest point; `guess` (nx, ny) are
+    pressures, not negative, some above zero; the load, the sum of the pressures, or the indentation δ is given.  `rho`
+    is ρ, a compliance: much more compliant waves converge at once, those of about ρ in a few steps.  `accelerated`
+    extrapolates from earlier steps (Anderson), which pays where many are needed.
     """
     backend, xp = operator.backend, operator.backend.xp
     height = backend.asarray(height)

@@ -30,28 +30,15 @@ class Compliant(Protocol):
 
 @dataclass(frozen=True)
 class SlidingSolid:
-    """A viscoelastic half-space or layer over which pressures slide at a constant velocity.
+    """A viscoelastic half-space or layer over which pressures slide at a constant velocity."""
 
-    Parameters
-    ----------
-    spectrum : Compliant
-        The material at its temperature: a RetardationSpectrum or a ModulusTable.
-    velocity : (float, float)
-        Of the pressure along x and y, m/s.  Where one is infinite, the limit of high speeds along `toward` is taken.
-    layer : Layer, optional
-        Thickness and base; a half-space without.
-    indenter_compliance : float
-        (1−ν²)/E of an elastic indenter, 1/Pa.
-    toward : (float, float)
-        Unit vector of the velocity, for infinite ones only.
-    """
-
-    spectrum: Compliant
+    spectrum: Compliant  # of the material at its temperature: a RetardationSpectrum or a ModulusTable
     poisson_ratio: float
+    # m/s, along x and y; where one is infinite, the limit of high speeds along `toward` is taken
     velocity: tuple[float, float]
-    layer: Layer | None = None
-    indenter_compliance: float = 0.0
-    toward: tuple[float, float] = (1.0, 0.0)
+    layer: Layer | None = None  # None for a half-space
+    indenter_compliance: float = 0.0  # (1−ν²)/E of an elastic indenter, 1/Pa
+    toward: tuple[float, float] = (1.0, 0.0)  # unit vector of the velocity, for infinite ones only
 
     @property
     def _is_infinite(self) -> bool:
