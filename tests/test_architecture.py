@@ -349,7 +349,6 @@ FOREIGN_TEXT = (
     "viscofric.study.cases.surfaces",
     "viscofric.report.figures.saving",
     "viscofric.report.html",
-    "viscofric.report.texts.numbers",  # true minus signs
     "viscofric.web.access",
     "viscofric.web.study_text",
     "viscofric.web.workspace",
@@ -379,11 +378,21 @@ def looks_into_sentences(text: str) -> Iterator[int]:
             for one in sought
         ):
             yield node.lineno
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and rewrites_text(node):
+            yield node.lineno
+
+
+def rewrites_text(call: ast.Call) -> bool:
+    """Whether a call reads the label of a figure back, or puts minus signs into text instead of into its numbers."""
+    name = call.func.attr if isinstance(call.func, ast.Attribute) else ""
+    return name == "get_text" or (name == "replace" and [ast.unparse(one) for one in call.args[1:2]] == ["'−'"])
 
 
 @pytest.mark.parametrize(
     "line",
     [
+        'label.set_text(label.get_text().replace("measured", "synthetic"))',
+        'said = sentence.replace("-", "−")',
         'said = "cannot be written" in str(error)',
         'said = note.partition("was left out of")[0]',
         'said = "overlap in reduced speed" in note',
@@ -403,4 +412,14 @@ def test_no_module_reads_the_sentences_of_another() -> None:
         if not any(belongs(module, one) for one in FOREIGN_TEXT)
         for line in looks_into_sentences(path.read_text("utf-8"))
     ]
-    assert not found, f"use the codes of notes and errors instead: {found}"
+    assert not found, f"use the codes of notes and errors, and values where the text is made, instead: {found}"
+
+
+def test_the_page_reads_no_sentences() -> None:
+    """Its patterns are for numbers, units and names of fields, and none is made of text."""
+    scripts = [path for path in (SOURCE / "web" / "static" / "js").rglob("*.js") if "vendor" not in path.parts]
+    words = r"[\"'`](?:[^\"'`\s]+ ){2}|/(?:[^/\s]+ ){2}"
+    sought = re.compile(rf"\bRegExp\(|\.(?:replace|match|includes|startsWith|endsWith|split)\((?:{words})")
+    found = [f"{path.name}: {one[0]}" for path in scripts for one in sought.finditer(path.read_text("utf-8"))]
+    assert scripts
+    assert not found

@@ -8,7 +8,17 @@ import numpy as np
 import pytest
 
 from viscofric.errors import InputError
-from viscofric.units import angular_frequency, conversion, kelvin_hint, positive, registry, to_si, to_si_array
+from viscofric.units import (
+    angular_frequency,
+    conversion,
+    kelvin_hint,
+    positive,
+    registry,
+    shown_celsius,
+    shown_number,
+    to_si,
+    to_si_array,
+)
 
 
 @pytest.mark.parametrize(
@@ -135,6 +145,20 @@ def test_positive_insists():
 def test_the_hint_to_write_degrees_comes_with_small_numbers_only():
     assert kelvin_hint(300.0) == ""
     assert "write '60 degC'" in kelvin_hint(60.0)
+
+
+@pytest.mark.parametrize(
+    ("kelvin", "form", "text"),
+    [(243.15, "z.1f", "−30.0"), (273.12, "z.1f", "0.0"), (295.65, "z.4g", "22.5"), (60.0, "z.0f", "−213")],
+)
+def test_temperatures_in_sentences_have_true_minus_signs(kelvin, form, text):
+    assert shown_celsius(kelvin, form) == text
+
+
+def test_only_the_sign_of_a_number_becomes_a_minus_sign():
+    assert shown_number(-1.5e-7, ".3g") == "−1.5e-07"
+    assert shown_number(-0.25, "+.1%") == "−25.0%"
+    assert shown_number(0.25, "+.1%") == "+25.0%"
 
 
 def test_hertz_count_two_pi_radians_each():

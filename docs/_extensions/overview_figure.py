@@ -38,7 +38,7 @@ def draw() -> bytes:
     with matplotlib.rc_context(STYLE):
         figure = new_figure(13.0, 4.6)
         panels = figure.subplots(1, 3)
-        plot_master_curve(panels[0], fit, spectrum)
+        plot_master_curve(panels[0], fit, spectrum, synthetic=True)
         plot_pressure_map(panels[1], contact)
         plot_friction_curves(panels[2], curves)
         titles = ("material fitted to DMA sweeps", "contact at 60 °C and 100 mm/s", "predicted friction")

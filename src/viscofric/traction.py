@@ -13,7 +13,7 @@ from viscofric.data import picked, read_only, whole_numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, Remedy, setting
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -58,7 +58,7 @@ class TractionStep:
     def __str__(self) -> str:
         words = ", ".join(word for word in (self.kind, self.description and repr(self.description)) if word)
         what = f"step {self.number}" + (f" ({words})" if words else "")
-        means = f"{self.load:.4g} N, {celsius(self.temperature):z.1f} °C, {1e3 * self.speed:.4g} mm/s"
+        means = f"{self.load:.4g} N, {shown_celsius(self.temperature)} °C, {1e3 * self.speed:.4g} mm/s"
         return f"{what}: {self.readings} readings at {means}, slip {100 * self.slip_ratio:.3g} %"
 
 

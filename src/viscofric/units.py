@@ -335,6 +335,17 @@ def celsius(kelvin: float) -> float:
     return kelvin - CELSIUS_ZERO
 
 
+def shown_number(number: float, form: str) -> str:
+    """Return a number in a format of Python, with a true minus sign."""
+    text = f"{number:{form}}"
+    return f"−{text[1:]}" if text.startswith("-") else text
+
+
+def shown_celsius(kelvin: float, form: str = "z.1f") -> str:
+    """Return a temperature in degrees Celsius for a sentence, without the unit: −30.0."""
+    return shown_number(celsius(kelvin), form)
+
+
 def kelvin_hint(kelvin: float) -> str:
     """Return a hint for a plain number that was probably meant in degrees Celsius, or an empty text."""
     if kelvin >= COLDEST_PLAUSIBLE:

@@ -177,7 +177,7 @@ def test_few_notes_are_printed_and_many_are_counted(
     finished: Path, capsys: pytest.CaptureFixture[str], notes: int, lines: int
 ) -> None:
     results = open_results(finished)
-    results.tree.attrs |= {"notes": json.dumps(["At -30 °C."] * notes), "failures": "[]", "warnings": "[]"}
+    results.tree.attrs |= {"notes": json.dumps(["At −30 °C."] * notes), "failures": "[]", "warnings": "[]"}
     print_outcome(results)
     printed = capsys.readouterr().err.splitlines()
     assert len(printed) == lines
@@ -187,8 +187,8 @@ def test_few_notes_are_printed_and_many_are_counted(
 
 def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: pytest.CaptureFixture[str]) -> None:
     results = open_results(finished)
-    failures = [Note("accuracy", f"{speed} reached.", f"-90 °C, {speed} mm/s").record() for speed in (20, 40, 80)]
-    warning = "In 3 of 9 cases, most of all at -90 °C, 20 mm/s: wide."
+    failures = [Note("accuracy", f"{speed} reached.", f"−90 °C, {speed} mm/s").record() for speed in (20, 40, 80)]
+    warning = "In 3 of 9 cases, most of all at −90 °C, 20 mm/s: wide."
     results.tree.attrs |= {"notes": "[]", "failures": json.dumps(failures), "warnings": json.dumps([warning])}
     print_outcome(results)
     assert capsys.readouterr().err.splitlines() == [

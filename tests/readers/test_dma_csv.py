@@ -144,7 +144,7 @@ def test_a_loss_modulus_below_zero_is_left_out_and_named(tmp_path):
     sweeps = read_dma(write(tmp_path, HEADER, *ROWS, "30,20,7,-0.1"))
     assert_is_the_table(sweeps)
     assert len(noted(sweeps.notes, "points-left-out")) == 1
-    assert noted(sweeps.notes, "points-left-out", "Line 6", "loss modulus", "-1e+05 Pa at 30.0 °C, 20 Hz")
+    assert noted(sweeps.notes, "points-left-out", "Line 6", "loss modulus", "−1e+05 Pa at 30.0 °C, 20 Hz")
     several = read_dma(write(tmp_path, HEADER, *ROWS, "30,20,7,-0.1", "30,30,7,0"))
     assert_is_the_table(several)
     assert len(noted(several.notes, "points-left-out")) == 1
@@ -249,7 +249,7 @@ def test_real_sweeps_are_read_with_the_bad_point_named(real_data):
     sweeps = read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
     assert len(sweeps) == 20
     assert sum(map(len, sweeps.isotherms)) == 339
-    assert len(noted(sweeps.notes, "points-left-out", "-40.0 °C, 20 Hz")) == 1
+    assert len(noted(sweeps.notes, "points-left-out", "−40.0 °C, 20 Hz")) == 1
 
 
 @pytest.mark.parametrize(

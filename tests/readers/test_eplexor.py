@@ -115,7 +115,7 @@ def test_single_isotherm_is_no_master_curve(tmp_path):
 def test_list_may_name_isotherms_without_rows(tmp_path):
     tables = master_tables()
     tables["Shiftlist"].append([-40.0, 4.02, ""])
-    assert noted(read(saved(tmp_path, tables)).notes, "temperatures-without-rows", "-40.0 °C")
+    assert noted(read(saved(tmp_path, tables)).notes, "temperatures-without-rows", "−40.0 °C")
 
 
 @pytest.mark.parametrize(

@@ -109,7 +109,7 @@ def test_notes_on_sweeps(tmp_path: Path) -> None:
     assert list(read_dma(path).notes) == [
         "Read as text table (columns separated by commas, semicolons, tabs or blanks).",
         "The file's header states that the moduli were measured in tension (the heading \"E' (MPa)\").",
-        "Line 8 left out: its loss modulus is not above zero (-1e+05 Pa at 20.0 °C, 9 Hz).",
+        "Line 8 left out: its loss modulus is not above zero (−1e+05 Pa at 20.0 °C, 9 Hz).",
         "The rows at 20.0 and 40.0 °C were sorted by frequency.",
         "1 repeated frequency at 40.0 °C was averaged.",
         "The isotherms were sorted by temperature.",

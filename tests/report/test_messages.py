@@ -1,19 +1,14 @@
-"""Sentences of other rooms get true minus signs, and failures of one reason are told together."""
+"""Failures of one reason are one line."""
 
 from __future__ import annotations
 
 from viscofric.notes import Note
-from viscofric.report.texts.numbers import typeset
 from viscofric.report.texts.study import grouped_failures
-
-
-def test_only_minus_signs_become_minus_signs() -> None:
-    assert typeset("-30 °C (-3) a-3 1e-3 dma-2.csv 2026-11-21") == "−30 °C (−3) a-3 1e-3 dma-2.csv 2026-11-21"
 
 
 def test_failures_of_one_code_are_one_line() -> None:
     failures = [
-        Note("accuracy", f"the error is {speed * 1e-5:.3g}, not 0.001.", f"-30 °C, {speed} mm/s")
+        Note("accuracy", f"the error is {speed * 1e-5:.3g}, not 0.001.", f"−30 °C, {speed} mm/s")
         for speed in range(20, 40)
     ]
     (line,) = grouped_failures(failures, 5)

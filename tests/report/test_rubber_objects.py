@@ -362,7 +362,7 @@ def test_log_axes_have_few_labels_on_any_range(axes: Axes, low: float, high: flo
 
 
 def test_synthetic_mark_and_legend_above_do_not_cover_each_other(axes: Axes, fit: vf.Superposition) -> None:
-    rubber.plot_master_curve(axes, fit)
+    rubber.plot_master_curve(axes, fit, synthetic=True)
     style.mark_synthetic([axes])
     axes.figure.canvas.draw()
     (mark,) = axes.texts

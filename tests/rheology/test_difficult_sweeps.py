@@ -192,7 +192,7 @@ def test_a_nominal_temperature_stands_for_a_measured_one(real_data):
 
 def test_a_law_too_close_to_its_pole_moves_no_sweep():
     sweeps = planted_sweeps(0).sweeps
-    with pytest.raises(InputError, match=r"the sweep at -20\.0 °C by \d+ decades from the reference, 30\.0 °C"):
+    with pytest.raises(InputError, match=r"the sweep at −20\.0 °C by \d+ decades from the reference, 30\.0 °C"):
         vf.superpose(sweeps, "30 degC", shift=vf.WLF(20.0, 51.0, "30 degC"))
 
 
@@ -227,4 +227,4 @@ def test_every_result_is_shown_in_one_line():
         )
     ]
     assert all("\n" not in line and "array" not in line and len(line) < 160 for line in shown), shown
-    assert shown[0].startswith("Superposition(26 isotherms, -20.0 °C to 200.0 °C, reference 30.0 °C")
+    assert shown[0].startswith("Superposition(26 isotherms, −20.0 °C to 200.0 °C, reference 30.0 °C")

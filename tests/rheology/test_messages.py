@@ -42,15 +42,15 @@ SAID = [
         lambda: FITTED("-25 degC"),
         "outside-fitted",
         (
-            "temperature = -25.0 °C lies 25 K below the 0.0 to 120.0 °C that this WLF law was fitted on. It is "
-            "valid down to -20.0 °C only, because it is used no more than 20 K beyond its data; measure isotherms"
+            "temperature = −25.0 °C lies 25 K below the 0.0 to 120.0 °C that this WLF law was fitted on. It is "
+            "valid down to −20.0 °C only, because it is used no more than 20 K beyond its data; measure isotherms"
             " there, or lift the limit with unbounded() of the law, in Python."
         ),
     ),
     (
         lambda: WLF("-100 degC"),
         "below-pole",
-        "temperature = -100.0 °C: the WLF law diverges at -90.0 °C and is valid above it only.",
+        "temperature = −100.0 °C: the WLF law diverges at −90.0 °C and is valid above it only.",
     ),
     (
         lambda: WLF.standard_error("60 degC"),
@@ -88,7 +88,7 @@ SAID = [
         lambda: FACTORS(60.0),
         "outside-measured",
         (
-            "temperature = -213.1 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
+            "temperature = −213.1 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
             "Arrhenius) to go beyond; plain numbers are kelvin: for 60 °C write '60 degC'."
         ),
     ),

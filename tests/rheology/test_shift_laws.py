@@ -207,7 +207,7 @@ def test_a_factor_corrected_by_hand_is_what_it_was_given():
     assert changed.standard_errors[2] == pytest.approx(0.05)
     assert changed.covariance[2, [0, 1, 3]] == pytest.approx(0.0)
     assert changed.covariance[np.ix_([0, 3], [0, 3])] == pytest.approx(table.covariance[np.ix_([0, 3], [0, 3])])
-    assert changed.notes == ("The shift factor at 60.0 °C was corrected by hand, from log10 α = -1.5 to -1.7.",)
+    assert changed.notes == ("The shift factor at 60.0 °C was corrected by hand, from log10 α = −1.5 to −1.7.",)
     assert changed.at_reference("0 degC").notes == changed.notes
     between = table.at_reference("45 degC")
     corrected = between.with_value("60 degC", -0.9)
@@ -260,8 +260,8 @@ def test_laws_are_written_with_constants_units_and_errors():
     law = WLF(8.956, 126.6, "20 degC", covariance=[[0.094**2, 0.0], [0.0, 1.2**2]])
     assert str(law) == "WLF: C1 = 8.956 ± 0.094, C2 = 126.6 ± 1.2 K about 20.0 °C"
     assert str(Arrhenius("120 kJ/mol", "20 degC")) == "Arrhenius: Ea = 120 kJ/mol about 20.0 °C"
-    assert str(law.to_vft()) == "VFT: B = 1134 ± 16 K, T0 = -106.6 ± 1.2 °C about 20.0 °C"
+    assert str(law.to_vft()) == "VFT: B = 1134 ± 16 K, T0 = −106.6 ± 1.2 °C about 20.0 °C"
     joined = WLFArrhenius(14.0, 78.0, "-18 degC", "20 degC")
-    assert str(joined) == "WLF–Arrhenius: C1 = 14, C2 = 78 K, Tg = -18 °C; α = 1 at 20.0 °C"
+    assert str(joined) == "WLF–Arrhenius: C1 = 14, C2 = 78 K, Tg = −18 °C; α = 1 at 20.0 °C"
     curve = InversePolynomial([5994.0, 2.568e6], "20 degC", (280.0, 330.0), np.diag([27.0**2, 4.9e4**2]))
     assert str(curve) == "polynomial: c1 = 5994 ± 27 K, c2 = (2.568 ± 0.049)e6 K^2 about 20.0 °C"

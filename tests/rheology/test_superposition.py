@@ -377,7 +377,7 @@ def test_acrylic_overlaps_as_well_as_with_the_best_peer(real_data):
     assert abs(law.C1 - C1) < 1.96 * first
     assert abs(law.C2 - C2) < 1.96 * second
     assert second < 3.0
-    assert any("-40.0 °C and -30.0 °C disagree" in note for note in fit.notes)
+    assert any("−40.0 °C and −30.0 °C disagree" in note for note in fit.notes)
     assert elapsed < 0.5  # about 0.03 s of one core; a loaded machine may be slow
 
 

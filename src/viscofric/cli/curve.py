@@ -199,7 +199,7 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     """Print a table of friction: a line for each speed, a column for each temperature."""
     from viscofric.report.texts.numbers import percent, significant
     from viscofric.report.texts.tables import aligned
-    from viscofric.units import celsius
+    from viscofric.units import shown_celsius
 
     synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
     click.echo(f"{name}{synthetic}, {significant(float(curves.load[0]), 4)} {curves.load_unit}\n")
@@ -208,7 +208,7 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     columns = [["speed (mm/s)", *(significant(1e3 * speed, 4) for speed in curves.speed[:count].tolist())]]
     for number, kelvin in enumerate(kelvins):
         rows = slice(number * count, (number + 1) * count)
-        heading = f"μ at {celsius(kelvin):z.4g} °C".replace("-", "−")
+        heading = f"μ at {shown_celsius(kelvin, 'z.4g')} °C"
         columns.append([heading, *(significant(value, 4) for value in curves.viscoelastic[rows].tolist())])
         if curves.viscoelastic_lower is not None and curves.viscoelastic_upper is not None:
             ends = zip(curves.viscoelastic_lower[rows].tolist(), curves.viscoelastic_upper[rows].tolist(), strict=True)

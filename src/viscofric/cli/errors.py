@@ -45,18 +45,16 @@ def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> Non
         Checks that are left out, by their names; of several rubbers, that of each follows the name.
     """
     from viscofric.report.texts.checks import all_checks
-    from viscofric.report.texts.numbers import typeset
 
     left_out = tuple(but)
     for check in all_checks(tree):
         if check.verdict in ("look at this", "failed") and not check.name.startswith(left_out):
-            click.echo(f"Warning: {check.name}: {typeset(check.words)}", err=True)
+            click.echo(f"Warning: {check.name}: {check.words}", err=True)
 
 
 def print_notes(notes: Iterable[str], reader: Reader = "shell") -> None:
     """Print notes on the data, on standard error, in the words of a reader."""
     from viscofric.notes import note_of
-    from viscofric.report.texts.numbers import typeset
 
     for note in notes:
-        click.echo(f"Note: {plainly(typeset(note_of(note).words(reader)))}", err=True)
+        click.echo(f"Note: {plainly(note_of(note).words(reader))}", err=True)

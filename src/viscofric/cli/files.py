@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -96,8 +97,8 @@ def write_curves(
         from viscofric.report.figures.friction import friction_figure, predicted_figure
         from viscofric.report.figures.saving import save_picture
 
-        figure = predicted_figure if predicted else friction_figure
-        save_picture(picture, lambda: figure(curves), name="friction", synthetic=synthetic)
+        draw = partial(predicted_figure, curves) if predicted else partial(friction_figure, curves, synthetic=synthetic)
+        save_picture(picture, draw, name="friction", synthetic=synthetic)
         said.append(f"picture  {picture}")
     return said
 

@@ -226,7 +226,6 @@ def _prior(parameters: dict[str, Any]) -> dict[str, Any]:
 
 def _print(found: IdentifiedMaterial) -> None:
     from viscofric.report.texts.inverse import family_lines, modulus_lines
-    from viscofric.report.texts.numbers import typeset
 
     for table in (modulus_lines(found), family_lines(found)):
         for line in table:
@@ -234,7 +233,7 @@ def _print(found: IdentifiedMaterial) -> None:
         if table:
             click.echo()
     for sentence in found.sentences:
-        click.echo(typeset(sentence))
+        click.echo(sentence)
 
 
 def _write(

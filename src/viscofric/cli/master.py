@@ -173,7 +173,7 @@ def _write(
         from viscofric.report.figures.friction import shifted_figure
         from viscofric.report.figures.saving import save_picture
 
-        draw = partial(shifted_figure, master, known)
+        draw = partial(shifted_figure, master, known, synthetic=synthetic)
         save_picture(picture, draw, name="friction master curve", synthetic=synthetic)
         said.append(f"picture  {picture}")
     return said

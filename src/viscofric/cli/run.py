@@ -151,7 +151,6 @@ def _kept(output: Path) -> str:
 
 def print_outcome(results: StudyResults, quiet: bool = False) -> None:
     """Print notes (unless it is to be quiet), warnings and failures: few of each, the report has them all."""
-    from viscofric.report.texts.numbers import typeset
     from viscofric.report.texts.study import grouped_failures
 
     notes = () if quiet else results.notes
@@ -161,9 +160,9 @@ def print_outcome(results: StudyResults, quiet: bool = False) -> None:
         many = f"{len(notes)} notes" if len(notes) > 1 else "1 note"
         click.echo(f"{many} on the data, also in the report:", err=True)
         for note in notes:
-            click.echo(f"Note: {typeset(note.words('run_file'))}", err=True)
+            click.echo(f"Note: {note.words('run_file')}", err=True)
     for warning in results.warnings:
-        click.echo(f"Warning: {typeset(warning.words('run_file'))}", err=True)
+        click.echo(f"Warning: {warning.words('run_file')}", err=True)
     print_doubtful_checks(results.tree, but=_REPORTED_OTHERWISE)
     for line in grouped_failures(results.failures, _MOST_LINES):
         click.echo(f"Failed: {line}", err=True)

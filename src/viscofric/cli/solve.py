@@ -174,13 +174,13 @@ def _inputs(
 def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:
     from viscofric.report.texts.contact import contact_lines, derivative_lines
     from viscofric.report.texts.numbers import prefixed
-    from viscofric.units import celsius
+    from viscofric.units import shown_celsius, shown_number
 
     speed = "at infinite speed" if math.isinf(solution.speed) else f"at {prefixed(solution.speed, None, 'm/s')}"
     if solution.direction != (1.0, 0.0):
         angle = math.degrees(math.atan2(solution.direction[1], solution.direction[0]))
-        speed += f" towards {angle:z.4g}° from its x axis".replace("-", "−")
-    where = "" if solution.temperature is None else f", {celsius(solution.temperature):z.4g} °C"
+        speed += f" towards {shown_number(angle, 'z.4g')}° from its x axis"
+    where = "" if solution.temperature is None else f", {shown_celsius(solution.temperature, 'z.4g')} °C"
     synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
     click.echo(f"{name}{synthetic}, {speed}{where}")
     click.echo()

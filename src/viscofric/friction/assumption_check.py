@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.contact.free.scale import Scale
 from viscofric.notes import note_of
-from viscofric.units import celsius, plain, shown_speed
+from viscofric.units import plain, shown_celsius, shown_speed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -126,4 +126,5 @@ class ContactSize:
 def place_of(curves: FrictionCurves, row: int) -> str:
     """Return temperature, speed and load of a point of friction curves, in words."""
     load = f"{plain(float(curves.load[row]), 3)} {curves.load_unit}"
-    return f"at {celsius(float(curves.temperature[row])):.0f} °C, {shown_speed(float(curves.speed[row]), 3)} and {load}"
+    celsius, speed = shown_celsius(float(curves.temperature[row]), "z.0f"), shown_speed(float(curves.speed[row]), 3)
+    return f"at {celsius} °C, {speed} and {load}"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.notes import Note
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -101,7 +101,7 @@ def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
         own = mine.viscoelastic_error / mine.viscoelastic
         error = np.sqrt(max(left @ left / (len(mine) - 2), float(np.mean(own**2))) / (x @ x))
         if slope + SURE * error < min(STEEPEST, steepest):
-            steepest, where = slope, f"{celsius(float(kelvin)):z.1f} °C"
+            steepest, where = slope, f"{shown_celsius(float(kelvin))} °C"
     if not np.isfinite(steepest):
         return ()
     said = (

@@ -13,7 +13,7 @@ from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, check_choice
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
-from viscofric.units import Quantity, celsius, positive, share
+from viscofric.units import Quantity, positive, share, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -313,9 +313,9 @@ class FrictionCurves:
         wanted = positive(temperature, "K", "temperature")
         there = self.temperatures
         if not there.size or np.min(np.abs(there - wanted)) > SAME_TEMPERATURE:
-            known = ", ".join(f"{celsius(float(one)):.1f}" for one in there) or "none"
+            known = ", ".join(shown_celsius(float(one)) for one in there) or "none"
             raise InputError(
-                f"temperature = {celsius(wanted):.1f} °C: there is no friction curve within "
+                f"temperature = {shown_celsius(wanted)} °C: there is no friction curve within "
                 f"{SAME_TEMPERATURE:g} K of it; known temperatures: {known} °C.",
                 code="no-such-temperature",
             )

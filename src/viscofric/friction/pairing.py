@@ -8,7 +8,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.nominal import SAME_LOAD
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -51,8 +51,8 @@ def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMaster
     """
     if abs(measured.reference - predicted.reference) > _SAME_TEMPERATURE:
         raise InputError(
-            f"master curves have different references, {celsius(measured.reference):.2f} and "
-            f"{celsius(predicted.reference):.2f} °C; give shift_friction the same reference for both.",
+            f"master curves have different references, {shown_celsius(measured.reference, 'z.2f')} and "
+            f"{shown_celsius(predicted.reference, 'z.2f')} °C; give shift_friction the same reference for both.",
             code="different-references",
         )
     loads = measured.load, predicted.load
@@ -79,7 +79,7 @@ def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMaster
         raise InputError(
             f"master curves do not overlap: friction was measured at reduced speeds from {reduced.min():.3g} to "
             f"{reduced.max():.3g} m/s and predicted from {low:.3g} to {high:.3g} m/s, both at "
-            f"{celsius(measured.reference):.1f} °C.",
+            f"{shown_celsius(measured.reference)} °C.",
             code="no-overlap",
         )
     reduced = reduced[covered]
@@ -111,7 +111,7 @@ def _partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> i
     same &= np.abs(predicted.load - load) <= SAME_LOAD * load
     if not np.any(same):
         raise InputError(
-            f"the point measured at {celsius(float(temperature)):.2f} °C, {1e3 * speed:.5g} mm/s and "
+            f"the point measured at {shown_celsius(float(temperature), 'z.2f')} °C, {1e3 * speed:.5g} mm/s and "
             f"{load:.3g} N has no prediction; predict friction at measured.speeds, measured.temperatures "
             "and the measured load.",
             code="no-prediction",

@@ -31,7 +31,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.rheology.shifts.shift_law import LN10
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -159,7 +159,7 @@ def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
     first, last = min(known), max(known)
     if first == last:
         raise InputError(
-            f"shift is known at {celsius(kelvin):.1f} °C alone; the effect of warming is unknown there.",
+            f"shift is known at {shown_celsius(kelvin)} °C alone; the effect of warming is unknown there.",
             code="shift-of-one-temperature",
         )
     return abs(known[last] - known[first]) / (last - first)

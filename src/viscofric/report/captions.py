@@ -29,7 +29,7 @@ from viscofric.report.sweeps import (
     solved_cases,
     sweep_axes,
 )
-from viscofric.report.texts.numbers import degrees, typeset
+from viscofric.report.texts.numbers import degrees
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,7 +52,7 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
     bars = f" Points: {measured}, with bars of one standard deviation over the repetitions." if points else ""
     # A note of the study says how the curves coincide, or that they do not overlap.
     tested = (note for note in notes(tree.attrs, "notes") if note.code in ("curves-coincide", "curves-apart"))
-    together = f" {typeset(next(tested, ''))}".rstrip() if points else ""
+    together = f" {next(tested, '')}".rstrip() if points else ""
     return {
         "friction_against_speed": "Viscoelastic friction against speed. "
         f"Lines: predicted{_thin(tree, 'prediction')}{_shaded(tree, 'prediction')}.{bars}",

@@ -16,7 +16,6 @@ from viscofric.report.figures.study import RUBBER_FIGURES, figure_images, save_i
 from viscofric.report.results import group, is_synthetic, notes, rubbers, sentences, table
 from viscofric.report.texts.checks import all_checks, counted
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
-from viscofric.report.texts.numbers import typeset
 from viscofric.report.texts.study import grouped_failures, inputs, key_numbers, scope
 
 if TYPE_CHECKING:
@@ -105,9 +104,7 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
         "glance": friction_at_a_glance(tree),
         "agreement": agreement_table(tree),
         "agreement_words": [] if agreement is None else sentences(agreement.attrs, "sentences"),
-        "statements": []
-        if spectrum is None
-        else [typeset(statement) for statement in sentences(spectrum.attrs, "statements")],
+        "statements": [] if spectrum is None else sentences(spectrum.attrs, "statements"),
         "checks": checks,
         "verdicts": counted(checks),
         "answer_figures": _figures(tree, images, _ANSWER),
@@ -116,8 +113,8 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
         ],
         "tables": detail_tables(tree),
         "failures": grouped_failures(notes(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
-        "warnings": [typeset(one.words("run_file")) for one in notes(tree.attrs, "warnings")],
-        "notes": [typeset(one.words("run_file")) for one in notes(tree.attrs, "notes")],
+        "warnings": [one.words("run_file") for one in notes(tree.attrs, "warnings")],
+        "notes": [one.words("run_file") for one in notes(tree.attrs, "notes")],
         "command": attrs.get("command") or f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
         "study_text": attrs.get("study_text", ""),
         "software": table(tree.attrs, "software"),

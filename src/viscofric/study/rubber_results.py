@@ -19,7 +19,7 @@ from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, input_hashes, provenance
 from viscofric.study.rubber import make_rubber, rubber_groups
 from viscofric.study.study_rubber import draw_rubber
-from viscofric.units import CELSIUS_ZERO, celsius
+from viscofric.units import CELSIUS_ZERO, celsius, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -139,7 +139,7 @@ def write_master_curve(curve: MasterCurve, path: str | Path) -> Path:
     """Write a master curve: reduced angular frequency, tensile moduli, and the isotherm of each point."""
     headings = ["reduced angular frequency (rad/s)", "E' (Pa)", "E'' (Pa)", "isotherm (degC)"]
     columns = (curve.angular_frequency, curve.storage_modulus, curve.loss_modulus, curve.temperature - CELSIUS_ZERO)
-    remark = f"reference temperature {celsius(curve.reference):z.6g} degC"
+    remark = f"reference temperature {shown_celsius(curve.reference, 'z.6g')} degC"
     return _write(path, headings, np.column_stack(columns), remark)
 
 

@@ -14,7 +14,7 @@ from viscofric.notes import Note, note_of
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES, sample_materials
 from viscofric.study.rubber import Rubber, make_rubber, shift_of
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -94,7 +94,7 @@ class StudyRubber:
                 )
             )
         if beyond.size:
-            at = ", ".join(f"{celsius(float(kelvin)):z.4g}" for kelvin in np.unique(beyond))
+            at = ", ".join(shown_celsius(float(kelvin), "z.4g") for kelvin in np.unique(beyond))
             behind = "of the friction from which it was identified" if self.rubber.from_friction else "of the sweeps"
             said.append(
                 Note(

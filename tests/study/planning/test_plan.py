@@ -41,7 +41,7 @@ def test_a_case_that_cannot_be_is_a_failure_and_the_others_go_on() -> None:
     plan.receive(plan.wanted()[0].key, Failure("the solver failed.", "here"))
     cold, failed, unknown = plan.found()
     assert isinstance(cold, Failure)
-    assert "-173.1 °C, 100 mm/s" in str(cold)
+    assert "−173.1 °C, 100 mm/s" in str(cold)
     assert str(failed) == "here: the solver failed."
     assert isinstance(unknown, Failure)
     assert unknown.code == "no-sample"

@@ -208,14 +208,13 @@ def _command(files: tuple[Path, ...], parameters: dict[str, Any]) -> str:
 def _print(results: StudyResults) -> None:
     """Print the key numbers, and what was doubtful."""
     from viscofric.report.results import group, number, sentences
-    from viscofric.report.texts.numbers import typeset
     from viscofric.report.texts.study import key_numbers
 
     for note in results.notes:
-        click.echo(f"Note: {typeset(note)}", err=True)
+        click.echo(f"Note: {note}", err=True)
     whole = group(results.tree, "superposition")
     if whole is not None and number(whole.attrs, "holds") == 1.0:
-        click.echo(typeset(sentences(whole.attrs, "sentences")[0]))
+        click.echo(sentences(whole.attrs, "sentences")[0])
     print_doubtful_checks(results.tree)
     for item in key_numbers(results.tree):
         click.echo(f"{item.name}: {item.value}" + (f" ({item.remark})" if item.remark else ""))

@@ -37,7 +37,7 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...]) ->
 
 def _about(material: Material) -> list[str]:
     from viscofric.rheology import RetardationSpectrum
-    from viscofric.units import celsius
+    from viscofric.units import shown_celsius
 
     spectrum = material.spectrum
     lines = [material.name or "a rubber without a name"]
@@ -47,7 +47,7 @@ def _about(material: Material) -> list[str]:
         lines.append(f"E0 = {spectrum.E0 / 1e6:.4g} MPa, E_inf = {spectrum.E_inf / 1e6:.4g} MPa, {len(spectrum)} modes")
     lines.append(f"Poisson's ratio {material.poisson_ratio:g}")
     if material.reference is not None:
-        lines.append(f"reference {celsius(material.reference):z.1f} °C; shift: {type(material.shift).__name__}")
+        lines.append(f"reference {shown_celsius(material.reference)} °C; shift: {type(material.shift).__name__}")
     return lines
 
 
@@ -55,7 +55,7 @@ def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]
     import numpy as np
 
     from viscofric.rheology import RetardationSpectrum
-    from viscofric.units import angular_frequency, celsius, positive
+    from viscofric.units import angular_frequency, positive, shown_celsius
 
     kelvin = None if temperature is None else positive(temperature, "K", "temperature")
     now = material.at(kelvin)
@@ -69,7 +69,7 @@ def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]
         omega = 10.0 ** np.arange(np.ceil(first), np.floor(last) + 1)
     modulus = now.complex_modulus(omega)
     at = material.reference if kelvin is None else kelvin
-    heading = "" if at is None else f" at {celsius(at):z.1f} °C"
+    heading = "" if at is None else f" at {shown_celsius(at)} °C"
     headings = zip(("ω (rad/s)", "f (Hz)", "E' (MPa)", "E'' (MPa)", "tan δ"), (12, 10, 10, 10, 8), strict=True)
     lines = ["  ".join(f"{name:>{width}}" for name, width in headings) + heading]
     for frequency, value in zip(omega, modulus, strict=True):

@@ -13,7 +13,7 @@ from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note, Remedy
-from viscofric.units import celsius, positive
+from viscofric.units import positive, shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers, Mask
@@ -102,7 +102,7 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         worst = rows[int(np.argmin(friction))]
         raise InputError(
             f"viscoelastic friction is {curves.viscoelastic[worst]:.3g} at {curves.speed[worst]:.3g} m/s and "
-            f"{celsius(float(curves.temperature[worst])):.1f} °C: must be above zero; leave the point out",
+            f"{shown_celsius(float(curves.temperature[worst]))} °C: must be above zero; leave the point out",
             code="friction-not-positive",
             remedy=Remedy(" with curves.select()", "", page="") + ", or check the signs of the measurement.",
         )

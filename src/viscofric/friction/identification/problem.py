@@ -12,7 +12,7 @@ from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import LN10
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -82,9 +82,9 @@ class Shifts:
         low, high = self.temperatures[0], self.temperatures[-1]
         if not low - _SAME <= temperature <= high + _SAME:
             raise InputError(
-                f"temperature = {celsius(temperature):.1f} °C of an anchor or prior lies outside those of the friction "
-                f"curves, {celsius(float(low)):.1f} to {celsius(float(high)):.1f} °C, so that its shift factor is not "
-                "found; give shift=, or one measured among them.",
+                f"temperature = {shown_celsius(temperature)} °C of an anchor or prior lies outside those of the "
+                f"friction curves, {shown_celsius(float(low))} to {shown_celsius(float(high))} °C, so that its shift "
+                "factor is not found; give shift=, or one measured among them.",
                 code="outside-measured",
             )
         inverse = 1.0 / self.temperatures[::-1]

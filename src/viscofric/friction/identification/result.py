@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.arguments import flag, numbers
 from viscofric.notes import codes
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -283,7 +283,7 @@ class IdentifiedMaterial:
 
     def _band_words(self) -> str:
         band = self.identified
-        about = "" if self.shift_factors is None else f" at {celsius(float(self.shift_factors.reference)):.1f} °C"
+        about = "" if self.shift_factors is None else f" at {shown_celsius(float(self.shift_factors.reference))} °C"
         of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
         if codes(self.notes) & NOTHING_IDENTIFIED:
             return "Nothing of the modulus is identified: the friction may not come from the loss of a rubber."

@@ -18,7 +18,7 @@ from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.notes import codes
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -78,9 +78,9 @@ def shifts_of(
     if len(points.temperatures) == 1:
         only = float(points.temperatures[0])
         if reference is not None and abs(reference - only) > SAME_TEMPERATURE:
-            asked = f"reference = {celsius(reference):.1f} °C"
+            asked = f"reference = {shown_celsius(reference)} °C"
             raise InputError(
-                f"{asked} was not measured, only {celsius(only):.1f} °C was; give shift=.", code="no-such-temperature"
+                f"{asked} was not measured, only {shown_celsius(only)} °C was; give shift=.", code="no-such-temperature"
             )
         return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]))
     # Points are at one load already, as far as contacts at different loads are alike.
@@ -101,8 +101,8 @@ def shifts_of(
 
 def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputError:
     """Return an error on a reference without α, because it was not measured or its curve does not overlap."""
-    shown = ", ".join(f"{celsius(float(one)):.1f}" for one in found.temperatures)
-    asked = f"{celsius(reference):.1f} °C"
+    shown = ", ".join(shown_celsius(float(one)) for one in found.temperatures)
+    asked = f"{shown_celsius(reference)} °C"
     if np.abs(points.temperatures - reference).min() > SAME_TEMPERATURE:
         return InputError(
             f"reference = {asked} was not measured, and α(T) is to be found; choose one of {shown} °C, and describe "

@@ -13,7 +13,7 @@ from viscofric.errors import InputError
 from viscofric.friction.measurement.gapless import SPEED_TOLERANCE, Gapless
 from viscofric.nominal import SAME_LOAD, clusters
 from viscofric.notes import Note
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
@@ -40,7 +40,7 @@ class Condition:
     slip_sign: Array  # (n,), sgn(u_disc − u_ball) = ±1, or 0 in pure rolling
 
     def __str__(self) -> str:
-        return f"{celsius(self.temperature):z.1f} °C and {1e3 * self.speed:.4g} mm/s"
+        return f"{shown_celsius(self.temperature)} °C and {1e3 * self.speed:.4g} mm/s"
 
     @cached_property
     def signs(self) -> frozenset[tuple[int, int]]:
@@ -103,7 +103,7 @@ def conditions(
             runs,
             runs.temperature,
             "runs.temperature",
-            lambda low, high: f"temperature from {celsius(low):z.1f} to {celsius(high):z.1f} °C",
+            lambda low, high: f"temperature from {shown_celsius(low)} to {shown_celsius(high)} °C",
             temperature_tolerance,
             relative=False,
             option=("measurement.temperature_tolerance", "Gap between temperatures"),

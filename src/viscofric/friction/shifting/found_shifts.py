@@ -24,7 +24,7 @@ from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import Join
-from viscofric.units import celsius, kelvin_hint
+from viscofric.units import kelvin_hint, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -162,7 +162,7 @@ def _check(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> No
     low, high = isotherms[0].temperature, isotherms[-1].temperature
     if reference is not None and not low - NOMINAL <= reference <= high + NOMINAL:
         raise InputError(
-            f"reference = {celsius(reference):z.1f} °C lies outside the friction curves, {shown(isotherms[0])} to "
+            f"reference = {shown_celsius(reference)} °C lies outside the friction curves, {shown(isotherms[0])} to "
             f"{shown(isotherms[-1])}{kelvin_hint(reference)}.",
             code="reference-outside",
         )

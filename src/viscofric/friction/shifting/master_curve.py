@@ -11,7 +11,7 @@ from viscofric.errors import InputError
 from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.nominal import SAME_LOAD
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import Quantities, Quantity, celsius, positive, to_si_in_shape
+from viscofric.units import Quantities, Quantity, positive, shown_celsius, to_si_in_shape
 
 if TYPE_CHECKING:
     import xarray
@@ -305,7 +305,7 @@ class FrictionMasterCurve:
             decades = np.log10(low / reduced) if reduced < low else np.log10(reduced / high)
             place = f"{decades:.2g} decades {'below' if reduced < low else 'above'}"
         raise InputError(
-            f"reduced speed α(T)·v = {reduced:.3g} m/s at {celsius(self.reference):.1f} °C is not covered: "
+            f"reduced speed α(T)·v = {reduced:.3g} m/s at {shown_celsius(self.reference)} °C is not covered: "
             f"friction is known for {there}, and this lies {place}; predict it there with predict_friction().",
             code="not-covered",
         )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from viscofric.friction.shifting.placement import FEWEST_POINTS
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_law import NOMINAL
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -49,7 +49,7 @@ class Doubts:
         if self.reference is not None and not fitted and any(pair.candidates for pair in self.pairs.values()):
             return Note(
                 "reference-not-covered",
-                f"no overlapping {curves} include the reference, {celsius(self.reference):z.1f} °C; choose another "
+                f"no overlapping {curves} include the reference, {shown_celsius(self.reference)} °C; choose another "
                 "reference, or measure at temperatures around it or at more speeds.",
             )
         if any(pair.verdict == "rising" for pair in self.pairs.values()):
@@ -101,7 +101,7 @@ class Doubts:
 
 def shown(isotherm: FrictionIsotherm) -> str:
     """Return the temperature of an isotherm in °C."""
-    return f"{celsius(isotherm.temperature):z.1f} °C"
+    return f"{shown_celsius(isotherm.temperature)} °C"
 
 
 def too_flat(isotherms: Sequence[FrictionIsotherm]) -> Note:
@@ -114,7 +114,7 @@ def too_flat(isotherms: Sequence[FrictionIsotherm]) -> Note:
 
 
 def _listed(isotherms: Sequence[FrictionIsotherm]) -> str:
-    numbers = [f"{celsius(isotherm.temperature):z.1f}" for isotherm in isotherms]
+    numbers = [shown_celsius(isotherm.temperature) for isotherm in isotherms]
     if len(numbers) > MOST_LISTED:
         return f"{len(numbers)} temperatures from {numbers[0]} to {numbers[-1]} °C"
     return f"{', '.join(numbers[:-1])} and {numbers[-1]} °C" if len(numbers) > 1 else f"{numbers[0]} °C"

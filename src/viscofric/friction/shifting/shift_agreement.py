@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -107,12 +107,12 @@ class ShiftAgreement:
     @property
     def sentence(self) -> str:
         """The agreement in one sentence."""
-        where = f"{celsius(float(self.temperature.min())):z.1f} to {celsius(float(self.temperature.max())):z.1f} °C"
+        where = f"{shown_celsius(float(self.temperature.min()))} to {shown_celsius(float(self.temperature.max()))} °C"
         if self.temperature.size == 1:
-            where = f"{celsius(float(self.temperature[0])):z.1f} °C"
+            where = f"{shown_celsius(float(self.temperature[0]))} °C"
         verdict = "agree within" if self.p_value >= 0.05 else "differ by more than"
         return (
-            f"The shift factors at {where}, relative to {celsius(self.reference):z.1f} °C, differ by {self.rms:.2g} "
+            f"The shift factors at {where}, relative to {shown_celsius(self.reference)} °C, differ by {self.rms:.2g} "
             f"decades (root mean square) and {verdict} their errors "
             f"(χ² = {self.chi2:.3g} for {self.freedom}, p = {self.p_value:.2g}): log10 α found is "
             f"{self.slope:.3f} ± {self.slope_error:.2g} times the other."
@@ -175,7 +175,7 @@ def compare_shift_factors(
     if not np.any(keep):
         raise InputError(
             f"the shift factors to compare have no temperature in common besides the reference, "
-            f"{celsius(reference):z.1f} °C.",
+            f"{shown_celsius(reference)} °C.",
             code="nothing-to-compare",
         )
     kelvin = table.temperatures[keep]

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.units import CELSIUS_ZERO, celsius
+from viscofric.units import CELSIUS_ZERO, shown_celsius, shown_number
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Mask
@@ -85,8 +85,8 @@ def _leave_out(
         notes.append(Note("points-left-out", f"{_capital(named)} left out: {why[0]}."))
     else:
         hertz = points.angular_frequency[first] / (2 * math.pi)
-        where = f"{celsius(points.temperature[first]):z.1f} °C, {hertz:.4g} Hz"
-        said = f"{_capital(named)} left out: {why[0]} ({values[0][first]:.4g} {values[1]} at {where})."
+        where = f"{shown_celsius(points.temperature[first])} °C, {hertz:.4g} Hz"
+        said = f"{_capital(named)} left out: {why[0]} ({shown_number(values[0][first], '.4g')} {values[1]} at {where})."
         notes.append(Note("points-left-out", said))
 
 
@@ -95,7 +95,7 @@ def _span(points: Points, rows: Indices) -> str:
     kelvin = kelvin[np.isfinite(kelvin)]
     if not kelvin.size:
         return ""
-    low, high = (f"{celsius(float(value)):z.1f}" for value in (kelvin.min(), kelvin.max()))
+    low, high = (shown_celsius(float(value)) for value in (kelvin.min(), kelvin.max()))
     return f"; at {low} °C" if low == high else f"; {low} to {high} °C"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices
@@ -118,7 +118,7 @@ def _insist_on_one_temperature(points: Points, groups: list[Indices], source: st
         cuts = np.flatnonzero(np.diff(np.round(np.log(points.angular_frequency[order]), 2))) + 1
         spans = np.array([np.ptp(points.temperature[same]) for same in np.split(order, cuts)])
         if 2 * np.count_nonzero(spans > ISOTHERM_GAP) > spans.size:
-            low, high = (f"{celsius(float(f(points.temperature[group]))):z.1f}" for f in (np.min, np.max))
+            low, high = (shown_celsius(float(f(points.temperature[group]))) for f in (np.min, np.max))
             problem = (
                 f"each frequency was measured several times between {low} and {high} °C, so that the temperatures "
             )
@@ -141,7 +141,7 @@ def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
     low, high = float(kelvin.min()), float(kelvin.max())
     raise DataFileError(
         source,
-        f"the temperatures run continuously from {celsius(low):z.1f} to {celsius(high):z.1f} °C, without a gap of "
+        f"the temperatures run continuously from {shown_celsius(low)} to {shown_celsius(high)} °C, without a gap of "
         f"{ISOTHERM_GAP:g} K; isothermal sweeps are needed, not a temperature ramp.",
         code="temperature-ramp",
     )
@@ -226,7 +226,7 @@ def _on_small_groups(points: Points, groups: list[Indices], kept: list[Indices])
     if not small:
         return []
     rows = sorted(int(index) for group in small for index in group)
-    low, high = (f"{celsius(float(f(points.temperature[rows]))):z.1f}" for f in (np.min, np.max))
+    low, high = (shown_celsius(float(f(points.temperature[rows]))) for f in (np.min, np.max))
     where = f"{low} °C" if low == high else f"between {low} and {high} °C"
     what = "1 point" if len(rows) == 1 else f"{len(rows)} points"
     alone = "it belongs" if len(rows) == 1 else "they belong"

@@ -15,7 +15,7 @@ from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import delimited, dma_table, reptate, workbook
 from viscofric.readers.source import Source, unit_conversion
-from viscofric.units import celsius, checked_poisson_ratio, conversion, positive
+from viscofric.units import checked_poisson_ratio, conversion, positive, shown_celsius
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -159,8 +159,8 @@ def _stated_reference(source: Source) -> float:
 
 def _insist_on_reference(source: Source, stated: float, reference: float) -> None:
     if np.isfinite(stated) and abs(stated - reference) > _SAME_REFERENCE:
-        problem = f"states the reference temperature {celsius(stated):.4g} °C, not "
-        raise DataFileError(source.path, f"{problem}{celsius(reference):.4g} °C.", code="other-reference")
+        problem = f"states the reference temperature {shown_celsius(stated, 'z.4g')} °C, not "
+        raise DataFileError(source.path, f"{problem}{shown_celsius(reference, 'z.4g')} °C.", code="other-reference")
 
 
 def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> None:

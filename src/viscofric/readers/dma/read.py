@@ -21,7 +21,7 @@ from viscofric.readers.dma.isotherms import traced_sweeps
 from viscofric.readers.dma.names import NOT_SAID
 from viscofric.readers.dma.tables import delimited, reptate, workbook
 from viscofric.readers.source import Source, unit_conversion
-from viscofric.units import celsius, kelvin_hint, positive
+from viscofric.units import kelvin_hint, positive, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -195,7 +195,9 @@ def _kelvin(value: Quantity) -> float:
     kelvin = positive(value, "K", "temperature")
     hint = kelvin_hint(kelvin) if isinstance(value, (int, float)) else ""
     if hint:
-        raise InputError(f"temperature = {value!r}: is {celsius(kelvin):.4g} °C{hint}.", code="looks-like-celsius")
+        raise InputError(
+            f"temperature = {value!r}: is {shown_celsius(kelvin, 'z.4g')} °C{hint}.", code="looks-like-celsius"
+        )
     return kelvin
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.notes import Remedy
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -139,7 +139,7 @@ def listed(shown: Sequence[str], more: int = 0) -> str:
 
 def at(temperatures: Sequence[float]) -> str:
     """Name temperatures (K) in °C, the first few of many: ``"at 0.0, 10.0, 20.0 °C and 2 more temperatures"``."""
-    shown = [f"{celsius(kelvin):z.1f}" for kelvin in temperatures[:_SHOWN]]
+    shown = [shown_celsius(kelvin) for kelvin in temperatures[:_SHOWN]]
     more = len(temperatures) - len(shown)
     if more:
         return f"at {', '.join(shown)} °C and {more} more temperature{'s' if more > 1 else ''}"

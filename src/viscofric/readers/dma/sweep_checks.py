@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma.readings import at
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -92,7 +92,7 @@ def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
         number, place = found[0]
         isotherm = sweeps[number].isotherm
         hertz = isotherm.angular_frequency[place] / (2 * math.pi)
-        where = f"{celsius(isotherm.temperature):z.1f} °C, {hertz:.4g} Hz"
+        where = f"{shown_celsius(isotherm.temperature)} °C, {hertz:.4g} Hz"
         if len(found) == 1:
             said = f"The {name} modulus at {where} ({points.named(rows)}) is far from its neighbours; it was kept."
         else:

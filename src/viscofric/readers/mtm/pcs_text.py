@@ -16,7 +16,7 @@ from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.source import unit_conversion
 from viscofric.readers.table import heading
 from viscofric.traction import TractionStep
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from datetime import datetime
@@ -150,8 +150,8 @@ def _temperature(rows: Rows, row: Integers, thermometer: Thermometer) -> tuple[A
         far = gap[~np.isnan(gap)]
         if far.size and far.mean() > _THERMOMETERS_AGREE:
             words = (
-                f"Temperatures are those of the {thermometer} RTD, {celsius(float(np.nanmean(own))):z.1f} °C on "
-                f"average, but the {_OTHER[thermometer]} RTD reads {celsius(float(np.nanmean(other))):z.1f} °C"
+                f"Temperatures are those of the {thermometer} RTD, {shown_celsius(float(np.nanmean(own)))} °C on "
+                f"average, but the {_OTHER[thermometer]} RTD reads {shown_celsius(float(np.nanmean(other)))} °C"
             )
             choice = Remedy(f"; thermometer={_OTHER[thermometer]!r} takes that one.", ".", page=".")
             remarks.append(Note("thermometers-differ", words, remedy=choice))

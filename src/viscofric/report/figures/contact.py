@@ -11,7 +11,7 @@ from scipy.ndimage import uniform_filter
 
 from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, new_figure
 from viscofric.report.texts.numbers import prefixed, significant
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -179,5 +179,5 @@ def _conditions(solution: ContactSolution) -> str:
         prefixed(solution.load, None, force),
     ]
     if solution.temperature is not None:
-        parts.append(f"{celsius(solution.temperature):z.4g} °C".replace("-", "−"))
+        parts.append(f"{shown_celsius(solution.temperature, 'z.4g')} °C")
     return f"{', '.join(parts)}: $\\mu$ = {significant(solution.friction_coefficient, 4)}"

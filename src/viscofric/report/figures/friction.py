@@ -18,7 +18,16 @@ from viscofric.report.data import (
     predicted,
 )
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors
-from viscofric.report.figures.style import GREY, INK, at_temperature, looks, new_figure, plain_numbers, speed_ticks
+from viscofric.report.figures.style import (
+    GREY,
+    INK,
+    at_temperature,
+    looks,
+    new_figure,
+    origin,
+    plain_numbers,
+    speed_ticks,
+)
 from viscofric.report.results import nearest, nominal_temperatures, number
 from viscofric.report.texts.numbers import degrees
 
@@ -41,7 +50,9 @@ _WIDTH, _HEIGHT = 7.4, 4.0
 _HEADROOM = 1.08  # over the highest number, where the axis begins at zero
 
 
-def plot_friction_curves(axes: Axes, prediction: Friction | None = None, measurement: Friction | None = None) -> None:
+def plot_friction_curves(
+    axes: Axes, prediction: Friction | None = None, measurement: Friction | None = None, *, synthetic: bool = False
+) -> None:
     """Draw viscoelastic friction against speed at each temperature (the paper's Figure 6).
 
     Parameters
@@ -53,6 +64,8 @@ def plot_friction_curves(axes: Axes, prediction: Friction | None = None, measure
     measurement : FrictionCurves or xarray.Dataset, optional
         Points with bars of one standard deviation.  A dataset has `speed`, `temperature`, `viscoelastic` and
         `viscoelastic_scatter` along `point`.
+    synthetic : bool
+        Whether to call the points synthetic instead of measured.
 
     Raises
     ------
@@ -79,7 +92,7 @@ def plot_friction_curves(axes: Axes, prediction: Friction | None = None, measure
     if points is not None:
         _plot_measured(axes, points, nominal)
     axes.set_xlabel(r"speed $v$ (mm/s)")
-    title = [] if points is None else ["points: measured ± scatter"]
+    title = [] if points is None else [f"points: {origin(synthetic)} ± scatter"]
     if lines is not None:
         title.append(("lines: predicted" if title else "predicted") + (", 95 % bands" if lines.has_band else ""))
     _finish(axes, handles[::-1], "\n".join(title), r"viscoelastic friction coefficient $\mu$")
@@ -91,6 +104,7 @@ def plot_friction_master_curve(
     measurement: ReducedFriction | None = None,
     *,
     reference_temperature: float | None = None,
+    synthetic: bool = False,
 ) -> None:
     """Draw viscoelastic friction of all temperatures against the reduced speed αv (the paper's Figure 7).
 
@@ -106,6 +120,8 @@ def plot_friction_master_curve(
         `temperature`, `viscoelastic` and `viscoelastic_scatter` along `point`.
     reference_temperature : float, optional
         K, for the label; that of a `FrictionMasterCurve` if not given.
+    synthetic : bool
+        Whether to call the points synthetic instead of measured.
 
     Raises
     ------
@@ -133,7 +149,7 @@ def plot_friction_master_curve(
     if at is None and measurement is not None:
         at = number(as_dataset(measurement).attrs, "reference_temperature")
     axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(at))
-    title = "" if measurement is None else "points: measured ± scatter"
+    title = "" if measurement is None else f"points: {origin(synthetic)} ± scatter"
     _finish(axes, handles, title, r"viscoelastic friction coefficient $\mu$")
 
 
@@ -161,7 +177,7 @@ def plot_friction_master_curves(
     _finish(axes, handles, "predicted", r"viscoelastic friction coefficient $\mu$")
 
 
-def plot_coulomb_friction(axes: Axes, measurement: Friction) -> None:
+def plot_coulomb_friction(axes: Axes, measurement: Friction, *, synthetic: bool = False) -> None:
     """Draw measured Coulomb friction against speed at each temperature.
 
     Parameters
@@ -169,6 +185,8 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction) -> None:
     axes : matplotlib.axes.Axes
     measurement : FrictionCurves or xarray.Dataset
         A dataset has `speed`, `temperature`, `coulomb` and `coulomb_scatter` along `point`.
+    synthetic : bool
+        Whether to call the points synthetic instead of measured.
 
     Raises
     ------
@@ -187,7 +205,7 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction) -> None:
         for look, kelvin in zip(looks(nominal.size), nominal, strict=True)
     ]
     axes.set_xlabel(r"speed $v$ (mm/s)")
-    _finish(axes, handles[::-1], "measured ± scatter", r"Coulomb friction coefficient $\mu_\mathrm{c}$")
+    _finish(axes, handles[::-1], f"{origin(synthetic)} ± scatter", r"Coulomb friction coefficient $\mu_\mathrm{c}$")
 
 
 def _plot_loads(axes: Axes, lines: Predicted, look: Any, *, alone: bool) -> None:
@@ -264,16 +282,16 @@ def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
     )
 
 
-def friction_figure(curves: FrictionCurves) -> Figure:
+def friction_figure(curves: FrictionCurves, *, synthetic: bool = False) -> Figure:
     """Return a figure of measured viscoelastic friction, and of Coulomb friction where there is any below it."""
     if curves.coulomb is None:
         figure = new_figure(_WIDTH, _HEIGHT)
-        plot_friction_curves(figure.subplots(), measurement=curves)
+        plot_friction_curves(figure.subplots(), measurement=curves, synthetic=synthetic)
         return figure
     figure = new_figure(_WIDTH, 1.8 * _HEIGHT)
     top, bottom = figure.subplots(2, 1, sharex=True)
-    plot_friction_curves(top, measurement=curves)
-    plot_coulomb_friction(bottom, curves)
+    plot_friction_curves(top, measurement=curves, synthetic=synthetic)
+    plot_coulomb_friction(bottom, curves, synthetic=synthetic)
     top.set_xlabel("")
     return figure
 
@@ -285,7 +303,7 @@ def predicted_figure(curves: FrictionCurves) -> Figure:
     return figure
 
 
-def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None) -> Figure:
+def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None, *, synthetic: bool = False) -> Figure:
     """Return a figure of a friction master curve, and of its shift factors below it where they were found from it.
 
     Parameters
@@ -293,14 +311,16 @@ def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None) -
     master : FrictionMasterCurve
     known : ShiftLaw, optional
         Shift factors of the modulus, to compare with.
+    synthetic : bool
+        Whether to call the points synthetic instead of measured.
     """
     if not master.found:
         figure = new_figure(_WIDTH, _HEIGHT)
-        plot_friction_master_curve(figure.subplots(), measurement=master)
+        plot_friction_master_curve(figure.subplots(), measurement=master, synthetic=synthetic)
         return figure
     figure = new_figure(_WIDTH, 2.0 * _HEIGHT)
     top, bottom = figure.subplots(2, 1)
-    plot_friction_master_curve(top, measurement=master)
+    plot_friction_master_curve(top, measurement=master, synthetic=synthetic)
     if known is None:
         plot_shift_factors(bottom, master.shift_factors)
     else:

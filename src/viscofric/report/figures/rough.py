@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 
 from viscofric.report.figures.style import INK, decade_ticks, looks, new_figure, speed_ticks
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -204,7 +204,7 @@ def plot_rough_friction(
     several = len(found.surfaces) > 1 and not area
     for row, look in enumerate(looks(len(found.temperature))):
         kelvin = float(found.temperature[row])
-        where = "" if math.isnan(kelvin) else f", {celsius(kelvin):.4g} °C"
+        where = "" if math.isnan(kelvin) else f", {shown_celsius(kelvin, 'z.4g')} °C"
         mean = (found.mean_area if area else found.mean_friction)[row]
         name = f"solved, {len(found.surfaces)} surfaces{where}" if len(found.surfaces) > 1 else f"solved{where}"
         axes.plot(found.speed, mean, marker=look.marker, color=look.colour, linestyle="none", label=name)

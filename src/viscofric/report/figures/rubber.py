@@ -16,6 +16,7 @@ from viscofric.report.figures.style import (
     at_temperature,
     decade_ticks,
     legend_above,
+    origin,
     temperature_scale,
 )
 from viscofric.report.results import nearest, nominal_temperatures, values
@@ -101,6 +102,7 @@ def plot_master_curve(
     *,
     reference_temperature: float | None = None,
     band: Any = None,
+    synthetic: bool = False,
 ) -> None:
     """Draw the measured master curve with the fitted retardation spectrum (the paper's Figure 5).
 
@@ -117,6 +119,8 @@ def plot_master_curve(
     band : MaterialSamples or xarray.Dataset, optional
         Bounds of E' and E''; a dataset has `storage_modulus_lower`, `storage_modulus_upper`, `loss_modulus_lower`
         and `loss_modulus_upper` along `angular_frequency`.
+    synthetic : bool
+        Whether to call the points synthetic instead of measured.
     """
     measured = moduli_of_master_curve(master_curve)
     frequency = measured.angular_frequency
@@ -138,7 +142,7 @@ def plot_master_curve(
             markersize=3.5,
             markeredgewidth=0.8,
             fillstyle="none",
-            label=f"{symbol} measured",
+            label=f"{symbol} {origin(synthetic)}",
         )
         if fitted is not None:
             order = np.argsort(fitted.angular_frequency, kind="stable")

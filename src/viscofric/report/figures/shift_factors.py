@@ -138,7 +138,7 @@ def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLa
     warm = table.temperature - CELSIUS_ZERO
     doubt = LEVEL_95 * table.error
     handles: list[Any] = [
-        axes.fill_between(warm, -doubt, doubt, color=GREY, alpha=0.3, linewidth=0, label="95 % of measured")
+        axes.fill_between(warm, -doubt, doubt, color=GREY, alpha=0.3, linewidth=0, label="95 % of the factors")
     ]
     axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
     every = []

@@ -76,7 +76,7 @@ def _master_curve(tree: xr.DataTree) -> Figure | None:
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[2.6, 1.0])
     reference = reference_temperature(tree)
     band = spectrum if spectrum is not None and "storage_modulus_lower" in spectrum else None
-    plot_master_curve(top, curve, spectrum, reference_temperature=reference, band=band)
+    plot_master_curve(top, curve, spectrum, reference_temperature=reference, band=band, synthetic=is_synthetic(tree))
     plot_residuals(bottom, curve, reference_temperature=reference)
     top.set_xlabel("")
     return figure
@@ -128,7 +128,7 @@ def friction_against_speed(tree: xr.DataTree) -> Figure | None:
         return None
     figure = new_figure(7.4, 4.3)
     few = None if prediction is None else _few_curves(prediction, measurement)
-    plot_friction_curves(figure.subplots(), few, measurement)
+    plot_friction_curves(figure.subplots(), few, measurement, synthetic=is_synthetic(tree))
     return figure
 
 
@@ -187,7 +187,9 @@ def friction_master_curve(tree: xr.DataTree) -> Figure | None:
     if group(tree, _MASTER) is None or (prediction is None and measured is None):
         return None
     figure = new_figure(7.4, 4.3)
-    plot_friction_master_curve(figure.subplots(), prediction, measured, reference_temperature=reference)
+    plot_friction_master_curve(
+        figure.subplots(), prediction, measured, reference_temperature=reference, synthetic=is_synthetic(tree)
+    )
     return figure
 
 
@@ -200,7 +202,7 @@ def coulomb_friction(tree: xr.DataTree) -> Figure | None:
     if measurement is None or not np.isfinite(values(measurement, "coulomb")).any():
         return None
     figure = new_figure(7.4, 4.0)
-    plot_coulomb_friction(figure.subplots(), measurement)
+    plot_coulomb_friction(figure.subplots(), measurement, synthetic=is_synthetic(tree))
     return figure
 
 

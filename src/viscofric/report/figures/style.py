@@ -207,13 +207,13 @@ def legend_above(axes: Axes, handles: Sequence[Any], columns: int = 2) -> None:
 _ABOVE = "legend above"
 
 
+def origin(synthetic: bool) -> str:
+    """Return what a label calls data that were measured, or calculated instead."""
+    return "synthetic" if synthetic else "measured"
+
+
 def mark_synthetic(panels: Sequence[Axes]) -> None:
-    """Say beside the last panel that the data are synthetic, and call nothing in any legend measured."""
-    for axes in panels:
-        legend = axes.get_legend()
-        if legend is not None:
-            for text in (legend.get_title(), *legend.get_texts()):
-                text.set_text(text.get_text().replace("measured", "synthetic"))
+    """Write beside the last panel that the data are synthetic."""
     last = panels[-1]
     figure = last.get_figure(root=True)
     if last.get_title() and figure is not None and figure.get_supxlabel():  # small multiples: their titles are above

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.report.figures.style import GREY, INK, decade_ticks, legend_above, looks
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -98,7 +99,7 @@ def plot_windows(axes: Axes, found: Windows) -> None:
     (look,) = looks(1)
     axes.plot(found.periods, 100.0 * np.abs(found.deviations), color=look.colour, marker=look.marker)
     for period, deviation in zip(found.periods, found.deviations, strict=True):
-        text = f"{100.0 * deviation:.{0 if abs(deviation) > 0.02 else 1}f} %".replace("-", "−")
+        text = f"{shown_number(100.0 * deviation, '.0f' if abs(deviation) > 0.02 else '.1f')} %"
         axes.annotate(text, (period, 100.0 * abs(deviation)), xytext=(6, 4), textcoords="offset points", fontsize=9)
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")

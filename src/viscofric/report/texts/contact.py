@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.datasets import plain
 from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution, Diagnostics
@@ -127,7 +128,7 @@ def _balance(solution: ContactSolution) -> str:
         return ""
     if solution.diagnostics.energy == -1.0:
         return " (all at the sharp edge)"
-    return f" (energy balance {100.0 * solution.diagnostics.energy:+.2g} %)".replace("-", "−")
+    return f" (energy balance {shown_number(100.0 * solution.diagnostics.energy, '+.2g')} %)"
 
 
 def _centre(solution: ContactSolution) -> str:
@@ -234,7 +235,7 @@ def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -
     decimals = min(max(1, -math.floor(math.log10(error))), 6) if error > 0.0 else 6
 
     def relative(value: float | None) -> str:
-        return f"{(value or 0.0) / friction:+.{decimals}f}".replace("-", "−")
+        return shown_number((value or 0.0) / friction, f"+.{decimals}f")
 
     held = ("load", "F", of_logarithms.load) if of_logarithms.indentation is None else ("indentation", "δ", None)
     rows = [

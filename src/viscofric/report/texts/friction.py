@@ -12,7 +12,7 @@ from viscofric.datasets import record
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
 from viscofric.report.texts.tables import aligned
-from viscofric.units import celsius
+from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -27,7 +27,7 @@ CONSISTENT_WITHIN = 2.0
 def friction_table(curves: FrictionCurves) -> list[str]:
     """Return friction against speed and temperature as lines of a table."""
     columns = [
-        ["T (°C)", *(f"{celsius(float(kelvin)):z.1f}".replace("-", "−") for kelvin in curves.temperature)],
+        ["T (°C)", *(shown_celsius(float(kelvin)) for kelvin in curves.temperature)],
         ["speed (mm/s)", *(significant(1e3 * float(speed), 4) for speed in curves.speed)],
     ]
     if curves.slip is not None:
@@ -122,7 +122,7 @@ def _pairs(values: Array, errors: Array | None) -> list[str]:
             written.append(ABSENT)
             continue
         doubt = f" ± {error:.{decimals}f}" if math.isfinite(error) else " ± ?"
-        written.append(f"{value:z.{decimals}f}{doubt}".replace("-", "−"))
+        written.append(f"{shown_number(value, f'z.{decimals}f')}{doubt}")
     return written
 
 
@@ -150,7 +150,7 @@ def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
 def _temperatures(kelvin: Array) -> str:
     labels = numbered(kelvin, np.full(kelvin.shape, SAME_TEMPERATURE))
     means = np.bincount(labels, kelvin) / np.bincount(labels)
-    shown = [f"{celsius(float(mean)):z.1f}".replace("-", "−") for mean in means]
+    shown = [shown_celsius(float(mean)) for mean in means]
     if len(shown) > _MOST_TEMPERATURES:
         return f"{len(shown)} from {shown[0]} to {shown[-1]} °C"
     return f"{several(shown)} °C"

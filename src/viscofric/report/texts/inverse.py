@@ -13,7 +13,7 @@ from viscofric.report.results import values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
 from viscofric.report.texts.tables import aligned
 from viscofric.rheology.cards import native
-from viscofric.units import celsius
+from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,7 +68,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
     found, doubt = values(factors, "log10_shift_factor"), np.nan_to_num(values(factors, "standard_error"))
     kelvin = values(factors, "temperature")
     columns = [
-        ["T (°C)", *(f"{celsius(float(one)):z.1f}".replace("-", "−") for one in kelvin)],
+        ["T (°C)", *(shown_celsius(float(one)) for one in kelvin)],
         ["log10 α", *_pairs(found, doubt)],
     ]
     if known is not None and master.found:
@@ -92,7 +92,7 @@ def _pairs(values: Any, errors: Any) -> list[str]:
             texts.append(ABSENT)
         else:
             doubt = f" ± {max(error, _SMALLEST):.3f}" if error > 0.0 else ""
-            texts.append(f"{value:z.3f}{doubt}".replace("-", "−"))
+            texts.append(f"{shown_number(value, 'z.3f')}{doubt}")
     return texts
 
 

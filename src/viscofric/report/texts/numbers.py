@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-import re
 
-from viscofric.units import celsius
+from viscofric.units import shown_celsius, shown_number
 
 ABSENT = "–"
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
@@ -13,13 +12,6 @@ _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, 
 _ROUND_OFF = 1e-12
 _SPACE = "\N{NO-BREAK SPACE}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-# A hyphen before a number, where no word or path goes on.
-_MINUS = re.compile(r"(?<![\w.\-/])-(?=\d)")
-
-
-def typeset(sentence: str) -> str:
-    """Return a sentence with true minus signs."""
-    return _MINUS.sub("−", sentence)
 
 
 def significant(value: float, digits: int = 3) -> str:
@@ -31,9 +23,9 @@ def significant(value: float, digits: int = 3) -> str:
     mantissa, power = f"{value:.{digits - 1}e}".split("e")
     exponent = int(power)
     if -4 <= exponent < 6:
-        plain = f"{float(f'{value:.{digits - 1}e}'):.{max(0, digits - 1 - exponent)}f}"
-        return plain.replace("-", "−")
-    return f"{mantissa}{_SPACE}×{_SPACE}10{str(exponent).translate(_RAISED)}".replace("-", "−")
+        return shown_number(float(f"{value:.{digits - 1}e}"), f".{max(0, digits - 1 - exponent)}f")
+    mantissa = shown_number(float(mantissa), f".{digits - 1}f")
+    return f"{mantissa}{_SPACE}×{_SPACE}10{str(exponent).translate(_RAISED)}"
 
 
 def short(value: float, digits: int = 4) -> str:
@@ -52,7 +44,7 @@ def signed_percent(share: float) -> str:
     if not math.isfinite(share):
         return ABSENT
     rounded = round(100.0 * share, 1)
-    return f"{rounded:+.1f}{_SPACE}%".replace("-", "−") if rounded else f"0.0{_SPACE}%"
+    return f"{shown_number(rounded, '+.1f') if rounded else '0.0'}{_SPACE}%"
 
 
 def with_error(value: float, error: float) -> str:
@@ -64,7 +56,7 @@ def with_error(value: float, error: float) -> str:
     decimals = max(0, 1 - math.floor(math.log10(error)))
     if decimals > 9:
         return f"{significant(value, 6)} ± {significant(error, 2)}"
-    return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
+    return f"{shown_number(value, f'.{decimals}f')} ± {error:.{decimals}f}"
 
 
 def prefixed(value: float, error: float | None, unit: str, power: int = 1) -> str:
@@ -124,5 +116,4 @@ def several(texts: list[str]) -> str:
 
 def degrees(kelvin: float) -> str:
     """Return a temperature as figures and report print it: −30 °C, 22.5 °C."""
-    text = f"{round(celsius(kelvin), 1) + 0.0:.1f}".removesuffix(".0")
-    return f"{text} °C".replace("-", "−")
+    return f"{shown_celsius(kelvin).removesuffix('.0')} °C"

@@ -32,7 +32,6 @@ from viscofric.report.texts.numbers import (
     short,
     signed_percent,
     speeds,
-    typeset,
     unbroken,
     with_error,
 )
@@ -277,7 +276,7 @@ def grouped_failures(failures: Sequence[Note], most: int) -> list[str]:
 def _line(cases: list[Note]) -> str:
     places = [one.where for one in cases if one.where]
     if len(cases) == 1 or not places:
-        return (f"{len(cases)} times: " if len(cases) > 1 else "") + typeset(cases[0])
+        return (f"{len(cases)} times: " if len(cases) > 1 else "") + cases[0]
     more = f"; and {len(places) - _SHOWN_PLACES} more" if len(places) > _SHOWN_PLACES else ""
     reason = Note(cases[0].code, cases[0].text, remedy=cases[0].remedy).words("run_file")
-    return typeset(f"{len(cases)} cases ({'; '.join(places[:_SHOWN_PLACES])}{more}): {reason}")
+    return f"{len(cases)} cases ({'; '.join(places[:_SHOWN_PLACES])}{more}): {reason}"

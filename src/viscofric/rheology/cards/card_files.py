@@ -18,7 +18,7 @@ from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stor
 from viscofric.rheology.material import insist_on_material
 from viscofric.rheology.shifts.law_comparison import LARGEST_SCATTER
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import celsius, checked_poisson_ratio, positive
+from viscofric.units import checked_poisson_ratio, positive, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -213,7 +213,7 @@ def _left_out(material: Material, form: str, domain: str, text: str) -> list[Not
     notes, shift = [], material.shift
     written = (stored_content(text) or {"card": {}})["card"].get("shift")
     if shift is not None and not written:
-        about = f"The card for {form} holds at {celsius(float(shift.reference)):z.1f} °C only: "
+        about = f"The card for {form} holds at {shown_celsius(float(shift.reference))} °C only: "
         notes.append(_no_shift(about, shift, form, domain))
     if material.vertical_shift is not None:
         notes.append(Note("card-without-vertical-shift", f"The card for {form} lacks the vertical shift b(T)."))

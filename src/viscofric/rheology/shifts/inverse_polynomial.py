@@ -12,7 +12,7 @@ from viscofric.arguments import flag, numbers
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw, Reach, shown_constant
 from viscofric.rheology.shifts.shift_law import NOMINAL
-from viscofric.units import celsius, positive
+from viscofric.units import positive, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -83,10 +83,10 @@ class InversePolynomial(ParametricLaw):
         self._refuse(np.array([self.reference]))
         ends = 1.0 / np.array(self.fitted_range)[::-1] - 1.0 / self.reference
         if not _rises(self.parameters, float(ends[0]), float(ends[1])):
-            low, high = (celsius(end) for end in self.fitted_range)
+            low, high = map(shown_celsius, self.fitted_range)
             raise InputError(
-                f"the polynomial of degree {self.degree} rises with temperature somewhere between {low:z.1f} and "
-                f"{high:z.1f} °C, which no shift factor does; take a lower degree, or another law.",
+                f"the polynomial of degree {self.degree} rises with temperature somewhere between {low} and "
+                f"{high} °C, which no shift factor does; take a lower degree, or another law.",
                 code="law-rises",
             )
 

@@ -10,7 +10,7 @@ from viscofric.arguments import whole_number
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -65,10 +65,10 @@ class Family:
     def _insist_on_curvature(self, factor: float, C2: float, title: str) -> None:
         if factor > 0.0 and C2 <= 0.5 * LARGEST_C2:
             return
-        low, high = (celsius(end) for end in self.range)
+        low, high = map(shown_celsius, self.range)
         shape = "rise with temperature" if factor <= 0.0 else "bend too little, or the wrong way"
         raise InputError(
-            f"the shift factors from {low:z.1f} to {high:z.1f} °C {shape}: they do not fix the constants of the "
+            f"the shift factors from {low} to {high} °C {shape}: they do not fix the constants of the "
             f"{title} law; take the measured ones, an Arrhenius law, or those of a narrower range of temperatures.",
             code="no-law",
         )

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.law_families import LAWS, TITLES, Family, family_of
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -145,9 +145,9 @@ def _log_density(family: Family, table: FactorTable, start: Array, scatter: floa
 
 
 def _not_described(table: FactorTable, kind: str) -> InputError:
-    low, high = celsius(float(table.temperatures[0])), celsius(float(table.temperatures[-1]))
+    low, high = (shown_celsius(float(end)) for end in table.temperatures[[0, -1]])
     return InputError(
-        f"the shift factors from {low:z.1f} to {high:z.1f} °C do not fix the constants of the {TITLES[kind]} law; "
+        f"the shift factors from {low} to {high} °C do not fix the constants of the {TITLES[kind]} law; "
         "take the measured ones, another law, or the factors of a narrower range of temperatures.",
         code="no-law",
     )

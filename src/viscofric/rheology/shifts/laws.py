@@ -14,7 +14,7 @@ from viscofric.errors import InputError
 from viscofric.rheology.shifts.inverse_polynomial import InversePolynomial
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10, ShiftLaw
-from viscofric.units import CELSIUS_ZERO, celsius, positive
+from viscofric.units import CELSIUS_ZERO, positive, shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -192,7 +192,7 @@ class VFT(ParametricLaw):
         self._set((B, T0), reference, covariance, fitted_range, bounded)
         if self.reference <= self.T0:
             raise InputError(
-                f"T0 = {celsius(self.T0):z.1f} °C must lie below the reference, {celsius(self.reference):z.1f} °C.",
+                f"T0 = {shown_celsius(self.T0)} °C must lie below the reference, {shown_celsius(self.reference)} °C.",
                 code="below-pole",
             )
 
@@ -321,7 +321,7 @@ class WLFArrhenius(ParametricLaw):
     @property
     def described(self) -> str:
         """The constants about Tg with their standard errors, and the reference."""
-        return f"{', '.join(self._shown_constants())}; α = 1 at {celsius(self.reference):z.1f} °C"
+        return f"{', '.join(self._shown_constants())}; α = 1 at {shown_celsius(self.reference)} °C"
 
     @property
     def above(self) -> WLF:

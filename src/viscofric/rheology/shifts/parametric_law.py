@@ -14,7 +14,7 @@ from viscofric.datasets import plain
 from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.columns import as_record, checked_covariance
 from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
-from viscofric.units import celsius, kelvin_hint, positive, to_si_array
+from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si_array
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask
@@ -121,7 +121,7 @@ class ParametricLaw(ShiftLaw):
     @property
     def described(self) -> str:
         """The constants with their standard errors, and the reference."""
-        return f"{', '.join(self._shown_constants())} about {celsius(self.reference):z.1f} °C"
+        return f"{', '.join(self._shown_constants())} about {shown_celsius(self.reference)} °C"
 
     def _shown_constants(self) -> list[str]:
         errors = self.standard_errors or (0.0,) * len(self.parameters)
@@ -233,7 +233,7 @@ class ParametricLaw(ShiftLaw):
         reach = self._known(low, -COLDEST_EXTRAPOLATION)
         nearest = min(self._divergence + POLE_MARGIN, low)
         if self._divergence > 0.0 and reach.limit < nearest:
-            pole = f"{celsius(self._divergence):z.1f} °C"
+            pole = f"{shown_celsius(self._divergence)} °C"
             return Reach(nearest, f"within {POLE_MARGIN:g} K of its pole at {pole} the material is a glass")
         return reach
 
@@ -281,8 +281,8 @@ class ParametricLaw(ShiftLaw):
         if np.any(kelvin <= self._divergence):
             coldest = float(kelvin.min())
             raise InputError(
-                f"temperature = {celsius(coldest):z.1f} °C: the {self.title} law diverges at "
-                f"{celsius(self._divergence):z.1f} °C and is valid above it only{kelvin_hint(coldest)}.",
+                f"temperature = {shown_celsius(coldest)} °C: the {self.title} law diverges at "
+                f"{shown_celsius(self._divergence)} °C and is valid above it only{kelvin_hint(coldest)}.",
                 code="below-pole",
             )
         if not self.bounded or self.fitted_range is None or not np.any(self._outside(kelvin)):
@@ -300,9 +300,9 @@ class ParametricLaw(ShiftLaw):
     def _too_far(self, asked: float, gap: float, side: str, direction: str, reach: Reach) -> InputError:
         low, high = self.fitted_range or (asked, asked)
         return InputError(
-            f"temperature = {celsius(asked):z.1f} °C lies {gap:.3g} K {side} the {celsius(low):z.1f} to "
-            f"{celsius(high):z.1f} °C that this {self.title} law was fitted on. It is valid {direction} to "
-            f"{celsius(reach.limit):z.1f} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(asked)}.",
+            f"temperature = {shown_celsius(asked)} °C lies {gap:.3g} K {side} the {shown_celsius(low)} to "
+            f"{shown_celsius(high)} °C that this {self.title} law was fitted on. It is valid {direction} to "
+            f"{shown_celsius(reach.limit)} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(asked)}.",
             code="outside-fitted",
         )
 
@@ -315,12 +315,12 @@ def shown_constant(constant: Constant, value: float, error: float) -> str:
     symbol, unit = constant.symbol, f" {constant.shown}" if constant.shown else ""
     value, error = value * constant.factor + constant.offset, error * constant.factor
     if not 0.0 < error < math.inf:
-        return f"{symbol} = {value:.4g}{unit}"
+        return f"{symbol} = {shown_number(value, '.4g')}{unit}"
     power = math.floor(math.log10(max(abs(value), error)))
     power = power if power >= 6 else 0
     value, error = value / 10.0**power, error / 10.0**power
     digits = max(0, 1 - math.floor(math.log10(error)))
-    both = f"{value:z.{digits}f} ± {error:.{digits}f}"
+    both = f"{shown_number(value, f'z.{digits}f')} ± {error:.{digits}f}"
     return f"{symbol} = ({both})e{power}{unit}" if power else f"{symbol} = {both}{unit}"
 
 

@@ -15,7 +15,7 @@ from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
 from viscofric.rheology.shifts.shift_table import ShiftTable, write_shift_table
-from viscofric.units import celsius, kelvin_hint, positive, to_si
+from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si
 
 if TYPE_CHECKING:
     import os
@@ -92,9 +92,9 @@ class ShiftFactors(ShiftLaw):
             column.flags.writeable = False
 
     def __repr__(self) -> str:
-        low, high = (f"{celsius(float(end)):z.1f} °C" for end in self.temperatures[[0, -1]])
-        values = f"log10 α from {self.log10_values[0]:z.2f} to {self.log10_values[-1]:z.2f}"
-        about = f"reference {celsius(self.reference):z.1f} °C"
+        low, high = (f"{shown_celsius(float(end))} °C" for end in self.temperatures[[0, -1]])
+        values = f"log10 α from {' to '.join(shown_number(one, 'z.2f') for one in self.log10_values[[0, -1]])}"
+        about = f"reference {shown_celsius(self.reference)} °C"
         return f"ShiftFactors({len(self.temperatures)} temperatures, {low} to {high}, {values}, {about})"
 
     @property
@@ -135,8 +135,8 @@ class ShiftFactors(ShiftLaw):
             low, high = self.temperatures[0], self.temperatures[-1]
             wanted = float(kelvin[outside][0])
             raise InputError(
-                f"temperature = {celsius(wanted):z.1f} °C lies outside the measured "
-                f"{celsius(low):z.1f} to {celsius(high):z.1f} °C",
+                f"temperature = {shown_celsius(wanted)} °C lies outside the measured "
+                f"{shown_celsius(low)} to {shown_celsius(high)} °C",
                 code="outside-measured",
                 remedy=Remedy(
                     "; fit a law (such as WLF or Arrhenius) to go beyond",
@@ -211,15 +211,15 @@ class ShiftFactors(ShiftLaw):
             )
         place = int(np.argmin(np.abs(self.temperatures - kelvin)))
         if abs(self.temperatures[place] - kelvin) > _NAMED_TEMPERATURE:
-            shown = ", ".join(f"{celsius(one):z.1f}" for one in self.temperatures)
+            shown = ", ".join(shown_celsius(one) for one in self.temperatures)
             raise InputError(
-                f"temperature = {celsius(kelvin):z.1f} °C has no shift factor to correct; the table has those at "
+                f"temperature = {shown_celsius(kelvin)} °C has no shift factor to correct; the table has those at "
                 f"{shown} °C{kelvin_hint(kelvin)}.",
                 code="no-such-temperature",
             )
         if abs(self.temperatures[place] - self.reference) <= _SAME_TEMPERATURE * self.reference:
             raise InputError(
-                f"temperature = {celsius(kelvin):z.1f} °C is the reference, where the shift factor is 1; correct the "
+                f"temperature = {shown_celsius(kelvin)} °C is the reference, where the shift factor is 1; correct the "
                 "others, or choose another reference with at_reference(…) first.",
                 code="is-reference",
             )
@@ -236,8 +236,8 @@ class ShiftFactors(ShiftLaw):
                 break
             values[place] += missing
         note = (
-            f"The shift factor at {celsius(float(self.temperatures[place])):z.1f} °C was corrected by hand, from "
-            f"log10 α = {before:.4g} to {value:.4g}."
+            f"The shift factor at {shown_celsius(float(self.temperatures[place]))} °C was corrected by hand, from "
+            f"log10 α = {shown_number(before, '.4g')} to {shown_number(value, '.4g')}."
         )
         return ShiftFactors(self.temperatures, corrected.log10_values, self.reference, covariance, (*self.notes, note))
 

@@ -19,7 +19,7 @@ from viscofric.readers.source import Source
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_table import ShiftTable, read_shift_table
-from viscofric.units import celsius, positive
+from viscofric.units import positive, shown_celsius
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -88,7 +88,8 @@ def read_shift_factors(
             notes += (
                 Note(
                     "reference-interpolated",
-                    f"α is taken as 1 at {celsius(stated):z.2f} °C, where the table of shift factors passes zero.",
+                    f"α is taken as 1 at {shown_celsius(stated, 'z.2f')} °C, where the table of shift factors passes "
+                    "zero.",
                 ),
             )
     try:
@@ -183,7 +184,7 @@ def _zero(path: str, kelvin: Array, values: Array, wanted: float | None) -> floa
         return _crossing(kelvin, values, int(between[0]))
     if wanted is not None:
         return wanted
-    span = f"{celsius(kelvin[0]):z.1f} and {celsius(kelvin[-1]):z.1f} °C"
+    span = f"{shown_celsius(kelvin[0])} and {shown_celsius(kelvin[-1])} °C"
     how_often = "nowhere" if exact.size + between.size == 0 else "at more than one temperature"
     raise DataFileError(
         path, f"log10 aT is zero {how_often} between {span}; say with reference= where α is 1.", code="no-reference"

@@ -14,7 +14,7 @@ from viscofric.datasets import dataset, plain
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.columns import as_record, checked_columns
 from viscofric.rheology.shifts.shift_law import NOMINAL
-from viscofric.units import celsius, kelvin_hint, positive, to_si, to_si_array
+from viscofric.units import kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
 if TYPE_CHECKING:
     import xarray
@@ -217,8 +217,8 @@ class VerticalShiftFactors(VerticalShift):
             column.flags.writeable = False
 
     def __repr__(self) -> str:
-        low, high = (f"{celsius(float(end)):z.1f} °C" for end in self.temperatures[[0, -1]])
-        about = f"reference {celsius(self.reference):z.1f} °C"
+        low, high = (f"{shown_celsius(float(end))} °C" for end in self.temperatures[[0, -1]])
+        about = f"reference {shown_celsius(self.reference)} °C"
         return f"VerticalShiftFactors({len(self.temperatures)} temperatures, {low} to {high}, {about})"
 
     @property
@@ -232,8 +232,9 @@ class VerticalShiftFactors(VerticalShift):
         if np.any(outside):
             wanted = float(kelvin[outside][0])
             raise InputError(
-                f"temperature = {celsius(wanted):z.1f} °C lies outside {celsius(low):z.1f} to {celsius(high):z.1f} °C, "
-                f"where the vertical shift was measured; the density's, ρT/(ρ0 T0), goes beyond{kelvin_hint(wanted)}.",
+                f"temperature = {shown_celsius(wanted)} °C lies outside {shown_celsius(low)} to {shown_celsius(high)} "
+                f"°C, where the vertical shift was measured; the density's, ρT/(ρ0 T0), goes "
+                f"beyond{kelvin_hint(wanted)}.",
                 code="outside-measured",
             )
 

@@ -17,7 +17,7 @@ from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep, OwnShifts, own_shifts
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -278,7 +278,7 @@ def _words(
     drifts = () if drifting is None else (f"{_drift(drifting)}.",)
     if verdict in ("roughly", "fails"):
         worst = [neighbours[place] for place in np.argsort(-ratio)[:_NAMED] if ratio[place] > LARGEST_FIGURE]
-        where = ", ".join(f"{celsius(pair.colder):z.0f} and {celsius(pair.warmer):z.0f} °C" for pair in worst)
+        where = ", ".join(_pair(pair.colder, pair.warmer) for pair in worst)
         cure = "" if vertical_shift else "; a free vertical shift may correct this if only the modulus changes"
         how = "does not hold" if verdict == "fails" else "holds only roughly"
         sentence = (
@@ -304,11 +304,15 @@ def _words(
     return (f"Superposition holds: {apart} ({merit}{beyond}).",)
 
 
+def _pair(colder: float, warmer: float) -> str:
+    return f"{shown_celsius(colder, 'z.0f')} and {shown_celsius(warmer, 'z.0f')} °C"
+
+
 def _drift(found: Drift) -> str:
+    colder, warmer = (shown_celsius(end, "z.0f") for end in (found.colder, found.warmer))
     return (
-        f"from {celsius(found.colder):z.0f} to {celsius(found.warmer):z.0f} °C isotherms move steadily to one side in "
-        f"tan δ against |E*|, by {_decades(abs(found.distance))} ± {found.standard_error:.1g} over "
-        f"{found.neighbours} neighbours"
+        f"from {colder} to {warmer} °C isotherms move steadily to one side in tan δ against |E*|, by "
+        f"{_decades(abs(found.distance))} ± {found.standard_error:.1g} over {found.neighbours} neighbours"
     )
 
 
@@ -327,7 +331,7 @@ def _gaps(isotherms: tuple[Isotherm, ...], quality: OverlapQuality) -> tuple[str
     if not quality.gaps:
         return ()
     at = [isotherms[place : place + 2] for place in quality.gaps[:_NAMED]]
-    where = ", ".join(f"{celsius(one.temperature):z.0f} and {celsius(other.temperature):z.0f} °C" for one, other in at)
+    where = ", ".join(_pair(one.temperature, other.temperature) for one, other in at)
     more = " and others" if quality.without_overlap > _NAMED else ""
     sentence = (
         f"{quality.without_overlap} of {quality.neighbours} pairs of neighbours do not overlap once shifted (between "

@@ -12,7 +12,7 @@ from viscofric.errors import SuperpositionError
 from viscofric.notes import Note
 from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, join, join_at
 from viscofric.rheology.superposition.quantity import BOTH
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -61,7 +61,7 @@ class JoinedIsotherms:
 
 def shown(kelvin: float) -> str:
     """Write a temperature as users read it."""
-    return f"{celsius(kelvin):z.1f} °C"
+    return f"{shown_celsius(kelvin)} °C"
 
 
 def ranges(steps: Iterable[tuple[float, float]]) -> str:

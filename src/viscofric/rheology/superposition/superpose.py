@@ -36,7 +36,7 @@ from viscofric.rheology.superposition.quantity import Quantities
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
 from viscofric.threads import one_blas_thread
-from viscofric.units import celsius, checked_poisson_ratio, kelvin_hint, positive
+from viscofric.units import checked_poisson_ratio, kelvin_hint, positive, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -187,7 +187,7 @@ def superpose(
     temperatures = np.array([isotherm.temperature for isotherm in joined.isotherms])
     if not temperatures[0] - NOMINAL <= kelvin <= temperatures[-1] + NOMINAL:
         raise InputError(
-            f"reference = {celsius(kelvin):z.1f} °C lies outside the joined isotherms, "
+            f"reference = {shown_celsius(kelvin)} °C lies outside the joined isotherms, "
             f"{shown(temperatures[0])} to {shown(temperatures[-1])}{kelvin_hint(kelvin)}. "
             f"{' '.join(joined.notes)}".rstrip(),
             code="reference-outside",

@@ -20,7 +20,7 @@ from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.refit import Refit
 from viscofric.rheology.uncertainty.residuals import Residuals, SystematicMisfit, systematic_misfit
 from viscofric.threads import one_blas_thread
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -156,7 +156,7 @@ def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> 
         return
     raise InputError(
         f"the spectrum was not fitted to this master curve: it was fitted {ranges}; fit it to the superposition's own "
-        f"master curve, at its reference, {celsius(curve.reference):z.1f} °C.",
+        f"master curve, at its reference, {shown_celsius(curve.reference)} °C.",
         code="other-master-curve",
     )
 

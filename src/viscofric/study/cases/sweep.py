@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from viscofric.contact.bodies import Layer
-from viscofric.units import celsius, plain, shown_speed
+from viscofric.units import plain, shown_celsius, shown_speed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -157,7 +157,7 @@ def shown(name: str, value: float | str, line: bool = False) -> str:
     if isinstance(value, str):
         return value
     if name == "temperature":
-        return f"{plain(celsius(value), 5)} °C"
+        return f"{shown_celsius(value, 'z.5g')} °C"
     if name in ("angle", "direction"):
         return f"{plain(math.degrees(value))}°"
     if name == "pressure":
@@ -171,7 +171,7 @@ def shown(name: str, value: float | str, line: bool = False) -> str:
 
 def place(case: Case) -> str:
     """Return temperature and speed of a case in words."""
-    return f"{plain(celsius(case.temperature))} °C, {shown_speed(case.speed)}"
+    return f"{shown_celsius(case.temperature, 'z.4g')} °C, {shown_speed(case.speed)}"
 
 
 def place_in(sweep: Sweep, number: int) -> str:

@@ -11,7 +11,7 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, file_path, read_text
 from viscofric.study.results.columns import PLACES, TITLE, over_all_dimensions, read_table_text
 from viscofric.study.results.file import cases_of, open_tree
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -190,6 +190,6 @@ def _shown(name: str, value: Any) -> str:
     if isinstance(value, str):
         return value
     if name == "temperature":
-        return f"{celsius(float(value)):z.6g} °C"
+        return f"{shown_celsius(float(value), 'z.6g')} °C"
     unit = _UNITS.get(name, "")
     return f"{float(value):.6g}" + (f" {unit}" if unit else "")

@@ -98,6 +98,4 @@ def pairs(lines: Iterable[tuple[str, str]]) -> list[dict[str, str]]:
 
 def texts(sentences: Sequence[str]) -> list[str]:
     """Return sentences ready for readers, each once."""
-    from viscofric.report.texts.numbers import typeset
-
-    return [typeset(one.words("page")) for one in dict.fromkeys(map(note_of, sentences))]
+    return [one.words("page") for one in dict.fromkeys(map(note_of, sentences))]

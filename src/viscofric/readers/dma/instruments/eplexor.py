@@ -24,7 +24,7 @@ from viscofric.readers.dma.instruments.eplexor_master import (
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.workbook import sheet_names, sheets
 from viscofric.readers.source import LARGEST_FACTOR, decimal_comma, unit_conversion
-from viscofric.units import CELSIUS_ZERO, celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -222,7 +222,7 @@ def _isotherms(
     if shifts is None or programmed is None:
         raise DataFileError(
             path,
-            f"is a master curve at {celsius(float(temperature[0])):z.1f} °C without the {lacking}, which is needed to "
+            f"is a master curve at {shown_celsius(float(temperature[0]))} °C without the {lacking}, which is needed to "
             f"split it into isotherms; {AS_IT_IS}.",
             code="master-curve-inseparable",
         )
@@ -233,12 +233,12 @@ def _isotherms(
 def _taken_apart(shifts: ShiftList, step: Indices) -> list[Note]:
     found = np.unique(step)
     still = shifts.measured_reference
-    at = "" if still is None else f" at {celsius(still):z.1f} °C"
+    at = "" if still is None else f" at {shown_celsius(still)} °C"
     apart = f"they were split into {found.size} isotherms by the sheet 'Shiftlist' (measured f = f / 10^shift)"
     notes = [Note("master-curve-taken-apart", f"The rows are a master curve{at}; {apart}.")]
-    absent = np.sort(np.delete(shifts.temperatures, found)) - CELSIUS_ZERO
+    absent = np.sort(np.delete(shifts.temperatures, found))
     if absent.size:
-        listed = ", ".join(f"{one:z.1f}" for one in absent)
+        listed = ", ".join(map(shown_celsius, absent))
         said = f"The sheet 'Shiftlist' also names {listed} °C, for which the workbook has no rows."
         notes.append(Note("temperatures-without-rows", said))
     return notes

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.units import CELSIUS_ZERO, celsius, conversion
+from viscofric.units import CELSIUS_ZERO, conversion, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -118,7 +118,7 @@ def insist_on_sense(shifts: ShiftList, reference: float, path: str) -> None:
     """
     still = shifts.measured_reference
     if still is not None and abs(still - reference) > SAME_TEMPERATURE:
-        both = f"{celsius(still):z.1f} °C, but the rows are at {celsius(reference):z.1f} °C"
+        both = f"{shown_celsius(still)} °C, but the rows are at {shown_celsius(reference)} °C"
         problem = f"the isotherm without shift in sheet {SHIFT_LIST!r} is at {both}; is the list in another unit?"
         raise DataFileError(path, problem, code="shift-list-contradicts")
     about = shifts.temperatures - shifts.temperatures.mean()

@@ -16,7 +16,7 @@ from viscofric.readers.dma.instruments.ta_steps import ROLES, roles
 from viscofric.readers.dma.names import said_by_columns
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -159,7 +159,7 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
         problem = f"step {step.name!r} has no column 'Temperature'; give "
         remedy = setting("material.temperature", "Temperature of the sweep", "'25 degC'") + "."
         raise DataFileError(source.path, problem, code="no-temperature", remedy=remedy)
-    said = f"No column holds a temperature; {celsius(source.temperature):z.1f} °C was given by the user."
+    said = f"No column holds a temperature; {shown_celsius(source.temperature)} °C was given by the user."
     notes.append(Note("temperature-given", said))
     return np.full(len(step.places), source.temperature)
 

@@ -21,7 +21,7 @@ from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.delimited import DEEPEST_HEADER, header_row, quantities, table_under
 from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.source import decimal_comma
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -198,8 +198,8 @@ def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -
     spans.sort()
     for (low, high, name), (next_low, next_high, next_name) in pairwise(spans):
         if next_low <= high:
-            both = f"{name!r} ({celsius(low):z.1f} to {celsius(high):z.1f} °C) and {next_name!r} "
-            both += f"({celsius(next_low):z.1f} to {celsius(next_high):z.1f} °C)"
+            both = f"{name!r} ({shown_celsius(low)} to {shown_celsius(high)} °C) and {next_name!r} "
+            both += f"({shown_celsius(next_low)} to {shown_celsius(next_high)} °C)"
             problem = f"the sheets {both} each contain a DMA table and overlap; keep one of them."
             raise DataFileError(source.path, problem, code="several-tables")
 

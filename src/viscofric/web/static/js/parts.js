@@ -89,23 +89,15 @@ export function fileDrop({ label, help, accept, multiple = true, onFiles }) {
 
 /**
  * Sentences about the data: note(["…"], "warning"); kinds are "note", "warning", "error". note.set(list) changes them.
- * A sentence may come with elements, ["…", button]. But for errors, which quote files, they follow the user's units.
+ * A sentence may come with elements, ["…", button].
  */
 export function note(list = [], kind = "note") {
   const element = h("ul", { class: `notes ${kind}` });
-  let now = [[], kind];
-  const show = () => {
-    const [sentences, other] = now;
-    const told = (part) => (typeof part === "string" && other !== "error" ? units.retold(part) : part);
+  element.set = (sentences, other = kind) => {
     element.className = `notes ${other}`;
-    element.replaceChildren(...listed(sentences).map((sentence) => h("li", {}, [sentence].flat().map(told))));
+    element.replaceChildren(...listed(sentences).map((sentence) => h("li", {}, sentence)));
     element.hidden = element.children.length === 0;
   };
-  element.set = (sentences, other = kind) => {
-    now = [sentences, other];
-    show();
-  };
-  units.subscribe(show);
   element.set(list);
   return element;
 }

@@ -6,7 +6,6 @@
 // show(0.02, "speed") -> "20 mm/s"          number(0.02, "speed") -> 20         label("speed") -> "mm/s"
 // si(20, "speed") -> 0.02                   words(0.02, "speed") -> "20 mm/s", as run files write it ("30 degC")
 // parse("9.525 mm", "length") -> 0.009525   (null if it cannot be read; the run file's own check says why)
-// retold("tan δ is 0.1 at 6.28 rad/s")      a sentence of the program, with its frequencies, moduli and speeds in the user's units
 // subscribe(callback)                       after the user chose other units
 
 const KEY = "viscofric.units";
@@ -157,25 +156,6 @@ export function parse(text, kind) {
     .replace(/^deg$/, "°");
   const [factor, offset = 0] = (kind === "plain" && !unit ? [1] : UNITS[kind]?.[unit]) ?? [null];
   return factor === null ? null : Number((factor * Number(found[1]) + offset).toPrecision(14));
-}
-
-const TOLD = { "rad/s": "frequency", Hz: "frequency", GPa: "modulus", MPa: "modulus", kPa: "modulus", Pa: "modulus" };
-Object.assign(TOLD, { "mm/s": "speed", "m/s": "speed" });
-const NUMBER = "[-−]?\\d+(?:\\.\\d+)?(?:e[+-]?\\d+)?";
-const QUANTITIES = new RegExp(`(?<![\\w.'"])(?:(${NUMBER})( to | and ))?(${NUMBER}) (rad/s|Hz|[GMk]?Pa|m?m/s)(?![\\w/'"²^])`, "g");
-
-/** A sentence with its frequencies, moduli and speeds in the user's units, to the digits that it has. */
-export function retold(sentence) {
-  return sentence.replace(QUANTITIES, (_, first, word, last, unit) => {
-    const kind = TOLD[unit];
-    const [factor] = UNITS[kind][unit];
-    const inUnits = (text) => {
-      const digits = text.replace(/e.*$/, "").replace(/\D/g, "").replace(/^0+/, "").length || 1;
-      return show(factor * Number(text.replace("−", "-")), kind, digits);
-    };
-    const end = inUnits(last);
-    return first === undefined ? end : `${inUnits(first).replace(/\u00a0.*$/, "")}${word}${end}`;
-  });
 }
 
 /** Kinds that the menu offers: [{kind, title, units, chosen}]. */
