@@ -73,7 +73,7 @@ def test_files_of_several_formats_and_units_make_one_set_of_sweeps(tmp_path):
     assert "plain.csv" in sweeps.source
     assert "cold.csv" in sweeps.source
     mixed = read_dma([SAMPLES["workbook: one sheet"](tmp_path), tmp_path / "cold.csv"])
-    assert noted(mixed.notes[:1], "format", "one.xlsx", "Excel workbook", "cold.csv", "text table")
+    assert noted(mixed.notes[:1], "format", "one.xlsx", "Excel workbook", "cold.csv", "delimited text")
     shear = SAMPLES["delimited: shear in UTF-16"](tmp_path)
     with refused("deformation-contradicts", None, "plain.csv"):
         read_dma(plain, shear)

@@ -107,7 +107,7 @@ def test_notes_on_sweeps(tmp_path: Path) -> None:
     header = DMA.replace("storage modulus", "E'").replace("loss modulus", "E''")
     path.write_text("\n".join([header, *SWEEP[::-1], "20,9,6,-0.1", "40,1,6,0.5"]), encoding="utf-8")
     assert list(read_dma(path).notes) == [
-        "Read as text table (columns separated by commas, semicolons, tabs or blanks).",
+        "Read as delimited text.",
         "The file's header states that the moduli were measured in tension (the heading \"E' (MPa)\").",
         "Line 8 left out: its loss modulus is not above zero (−1e+05 Pa at 20.0 °C, 9 Hz).",
         "The rows at 20.0 and 40.0 °C were sorted by frequency.",

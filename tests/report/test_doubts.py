@@ -36,7 +36,7 @@ def test_doubtful_rows_are_marked_and_counted_in_the_headline(tree: xr.DataTree)
     glance = friction_at_a_glance(tree)
     assert glance is not None
     assert [row[1].endswith(" *") for row in glance.rows[:3]] == [True, True, False]
-    assert "reaching beyond 0.3 ball radii from the axis" in glance.note
+    assert "extends beyond 0.3 ball radii from the axis" in glance.note
     remark = key_numbers(tree)[0].remark
     assert "doubtful in 1 of 21" in remark
     assert "extrapolated beyond the measured frequencies in 1 of 21" in remark
@@ -54,7 +54,7 @@ def test_measured_point_without_a_prediction_keeps_its_row(tree: xr.DataTree) ->
     agreement = agreement_table(tree)
     assert agreement is not None
     assert "1 measured point is left out" in agreement.note
-    assert "the material's own (sweeps, shift factors, spectrum) is not counted" in agreement.note
+    assert "but not the uncertainty of the material (sweeps, shift factors, spectrum)" in agreement.note
 
 
 def test_isotherms_left_out_are_said_in_what_was_asked(tree: xr.DataTree) -> None:

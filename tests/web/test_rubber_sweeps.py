@@ -40,7 +40,7 @@ def test_synthetic_example_is_reported_as_the_reader_takes_it(workspace: Context
     assert found["source"] == "dma"
     assert found["notes"] == list(sweeps.notes)
     assert [one["name"] for one in found["files"]] == ["dma.csv"]
-    assert found["files"][0]["format"].startswith("text table")
+    assert found["files"][0]["format"] == "delimited text"
     assert found["files"][0]["deformation"] == "tension"
     assert found["files"][0]["readings"] == sum(len(one) for one in sweeps.isotherms) == 442
     assert found["reference"] == 303.15
@@ -131,11 +131,11 @@ def test_ready_rubber_and_master_curve_are_taken_too(workspace: Context) -> None
 @pytest.mark.parametrize(
     ("pattern", "taken_for", "deformation", "isotherms", "asks"),
     [
-        ("dma/acrylic_468mp.csv", "text table", "tension", 20, ["deformation"]),
+        ("dma/acrylic_468mp.csv", "delimited text", "tension", 20, ["deformation"]),
         ("instruments/trios/multi_technique_LIMS.txt", "TRIOS", "shear", 1, []),
         ("instruments/eplexor/freq_Eplexor_raw.xls", "Eplexor", "tension", 21, []),
         ("instruments/mettler/glassy_network/*.txt", "Mettler", "tension", 22, []),
-        ("instruments/rad_per_s_tsv/foam*.csv", "text table", "tension", 19, ["deformation", "modulus_unit"]),
+        ("instruments/rad_per_s_tsv/foam*.csv", "delimited text", "tension", 19, ["deformation", "modulus_unit"]),
     ],
 )
 def test_files_of_instruments_are_recognised(

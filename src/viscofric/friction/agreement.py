@@ -130,26 +130,27 @@ class Agreement:
     def __str__(self) -> str:
         where = "On the master curve, over" if self.along_reduced_speed else "Over"
         known = math.isfinite(self.bias_error)
-        error = f"standard error ±{100 * self.bias_error:.1f} %" if known else "of unknown standard error"
+        error = f"standard error ±{100 * self.bias_error:.1f} %" if known else "standard error unknown"
         counted = " (including the material's)" if self.material_counted else ""
         words = (
-            f"{where} {self.points} points the predicted friction is {abs(100 * self.bias):.1f} % "
-            f"{'above' if self.bias >= 0 else 'below'} the measured one on average ({error}), "
-            f"{100 * self.rms:.1f} % away from it in root mean square, "
+            f"{where} {self.points} points the predicted friction is on average {abs(100 * self.bias):.1f} % "
+            f"{'above' if self.bias >= 0 else 'below'} the measured one ({error}); the rms difference is "
+            f"{100 * self.rms:.1f} %."
         )
+        shares = []
         if self.share_within_error is not None:
-            of = "of them" if self.with_error == self.points else f"of the {self.with_error} whose error is known"
-            share = f"{100 * self.share_within_error:.0f} %"
-            words += f"and within twice the standard error{counted} at {share} {of}"
-        else:
-            words += "and no standard error of the measured friction is known"
+            of = "points" if self.with_error == self.points else f"{self.with_error} points with a known error"
+            shares.append(f"twice the standard error{counted} at {100 * self.share_within_error:.0f} % of the {of}")
         if self.share_within_scatter is not None:
-            share = f"{100 * self.share_within_scatter:.0f} %"
-            of = "of them" if self.repeated == self.points else f"of the {self.repeated} that were repeated"
-            words += f"; at {share} {of} it is within the scatter of the replicates"
+            of = "points" if self.repeated == self.points else f"{self.repeated} repeated points"
+            shares.append(f"the scatter of the replicates at {100 * self.share_within_scatter:.0f} % of the {of}")
+        if shares:
+            words += f" The difference is within {', and within '.join(shares)}."
+        if self.share_within_error is None:
+            words += " No standard error of the measured friction is known."
         if self.not_covered:
-            words += f"; {self.not_covered} more lie outside the predicted master curve"
-        return words + "."
+            words += f" {self.not_covered} more points lie outside the predicted master curve."
+        return words
 
 
 @overload

@@ -116,9 +116,9 @@ class ContactSize:
 
     def __str__(self) -> str:
         if self.smallest == self.largest:
-            return f"The contact's radius is {1e3 * self.largest:.2g} mm ({self.where})"
+            return f"The contact radius is {1e3 * self.largest:.2g} mm ({self.where})"
         return (
-            f"The contact's radius is about {1e3 * self.smallest:.2g} and at most {1e3 * self.largest:.2g} mm "
+            f"The contact radius is about {1e3 * self.smallest:.2g} and at most {1e3 * self.largest:.2g} mm "
             f"(Hertz's at |E(v/a)| and at the relaxed modulus, {self.where})"
         )
 

@@ -157,7 +157,7 @@ def _small_contact(size: ContactSize, noun: str) -> AssumptionCheck:
     ratio = f"{high:.2f}" if low == high else f"{low:.2f} to {high:.2f}"
     rest = {True: ".", None: f"; {_SOLVE}.", False: "; reduce the load, or use a larger one."}[holds]
     sentence = (
-        f"{size}, {ratio} of the {noun}'s radius; half-space and parabolic {noun} hold up to {SMALL_STRAIN:g}{rest}"
+        f"{size}, {ratio} of the {noun} radius; half-space and parabolic {noun} are valid up to {SMALL_STRAIN:g}{rest}"
     )
     return AssumptionCheck("small contact", high, SMALL_STRAIN, holds, sentence)
 

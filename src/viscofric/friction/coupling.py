@@ -80,15 +80,15 @@ def check_coupling(
     size = f"{high:.2g}" if f"{low:.2g}" == f"{high:.2g}" else f"{low:.2g} to {high:.2g}"
     on = "a half-space" if thickness is None else f"a bonded layer of {1e3 * thickness:.3g} mm"
     said = (
-        f"Coulomb friction of {rubbed[row]:.2g} moves the surface of {on} (ν = {poisson_ratio:g}) in normal direction "
-        f"by about {size} of its displacement by the pressure ({place_of(curves, row)}); contacts solved without shear "
-        "neglect this"
+        f"Coulomb friction of {rubbed[row]:.2g} also displaces the surface of {on} (ν = {poisson_ratio:g}) in the "
+        f"normal direction, by about {size} of the displacement due to the pressure ({place_of(curves, row)}). "
+        f"Contacts are solved without this effect, "
     )
     said += {
-        True: f"; negligible up to {LARGEST:g}.",
-        None: f"; negligible up to {LARGEST:g}, which depends on the contact's size: solve the contact and give "
-        "contact_radius.",
-        False: f". Above {LARGEST:g} it is doubtful: viscoelastic friction may change by a part of that order, and "
-        "with the sense of slip; reduce slip or Coulomb friction (PTFE, lubricant), or use thicker rubber.",
+        True: f"which is negligible up to {LARGEST:g}.",
+        None: f"which is negligible up to {LARGEST:g}. Here this depends on the contact size: solve the contact and "
+        "give contact_radius.",
+        False: f"which is doubtful above {LARGEST:g}: viscoelastic friction may change by a fraction of that order, "
+        "and with the direction of slip; reduce slip or Coulomb friction (PTFE, lubricant), or use thicker rubber.",
     }[holds]
     return AssumptionCheck("uncoupled", high, LARGEST, holds, Note("tangential-coupling", said))

@@ -70,29 +70,31 @@ def check_half_space(
     enough = worst.contact.thickness_for(passes)
     limit = min(1.0 / THICK, widest.largest / enough)
     there = "" if worst.where == widest.where else f" ({worst.where})"
-    radii, percent = f"{THICK:.0f} contact radii, {1e3 * THICK * widest.largest:.2g} mm", f"{100.0 * passes:.0f} %"
+    radii, percent = f"{THICK:.0f} contact radii ({1e3 * THICK * widest.largest:.2g} mm)", f"{100.0 * passes:.0f} %"
     if given is None:
         said = (
-            f"{widest}. The half-space assumption needs a thickness above {radii}, and about {_mm(enough)} for "
-            f"friction within {percent} on a bonded layer{there}; no thickness was given."
+            f"{widest}. The half-space assumption needs a thickness of at least {radii}, and about {_mm(enough)} "
+            f"for friction on a bonded layer to agree within {percent}{there}; no thickness was given."
         )
         return AssumptionCheck("half-space", None, limit, None, said)
     holds = verdict(widest.smallest / given, widest.largest / given, 1.0 / THICK)
-    compared = {True: f", {radii}, and more,", None: "", False: f", less than {radii},"}[holds]
-    rubber, felt = f"{_mm(given)} of rubber{compared}", f"{_effect(effect, given, worst)}{there}"
+    compared = {True: f", although at least {radii},", None: "", False: f", less than {radii},"}[holds]
+    rubber, felt = f"{_mm(given)} of rubber", f"{_effect(effect, given, worst)}{there}"
     if abs(effect.friction) <= passes and holds is not False:
         said = {
-            True: f"{widest}, so that {rubber} can be taken as a half-space: {felt}.",
-            None: f"{widest}. Whether {rubber} can be taken as a half-space depends on it: solve the contact and give "
-            f"contact_radius. With the estimate, {felt}.",
+            True: f"{widest}. {rubber}, at least {radii}, can be taken as a half-space: {felt}.",
+            None: f"{widest}. Whether {rubber} can be taken as a half-space depends on the radius: solve the contact "
+            f"and give contact_radius. With the estimate, {felt}.",
         }[holds]
     else:
+        rubber += compared
         why = ":" if abs(effect.friction) > passes else ", although"
         called = Remedy("layer=Layer(…)", "--layer", "[layer]", "“Layer”", "layer")
         said = Note(
             "too-thin",
             f"{widest}. {rubber} cannot be taken as a half-space{why} {felt}. Solve the contact on a layer (",
-            remedy=called + f") or use thicker rubber: {radii}, and about {_mm(enough)} for friction within {percent}.",
+            remedy=called
+            + f") or use thicker rubber: at least {radii}, and about {_mm(enough)} for friction within {percent}.",
         )
         holds = False
     return AssumptionCheck("half-space", widest.largest / given, limit, holds, said)
@@ -101,7 +103,7 @@ def check_half_space(
 def _effect(effect: ThicknessEffect, thickness: float, worst: _OnLayers) -> str:
     """Return the change on a bonded layer in words."""
     if thickness < THINNEST * worst.contact.radius:
-        return "it is thinner than the contact's radius, and such a layer is unlike a half-space in all respects"
+        return "it is thinner than the contact radius, and such a layer behaves quite differently from a half-space"
     friction = f"friction on a bonded layer of {_mm(thickness)} is {_change(effect.friction, 'lower', 'higher')}"
     if worst.contact.line:
         return f"{friction} than on the half-space; the indentation of a line contact cannot be compared with it"

@@ -163,7 +163,7 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
     if wide:
         part, number, record = max(wide, key=lambda one: one[0].cases[one[1]].reach(one[2]))
         said = " ".join(record.warnings)
-        text = f"In {len(wide)} of all {len(found)} contacts, worst at {part.place(number)}: {said}"
+        text = f"In {len(wide)} of {len(found)} contacts (worst at {part.place(number)}): {said}"
         notes.append(Note("doubtful-contacts", text))
     within = all_within(rubbers, [part.cases[number] for part, number, _ in found], [record for *_, record in found])
     beyond = [one for one, known in zip(found, within, strict=True) if not known]
@@ -173,7 +173,7 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
         notes.append(
             Note(
                 "beyond-measured",
-                f"In {len(beyond)} of all {len(found)} contacts, such as {part.place(number)}, {what} beyond the "
+                f"In {len(beyond)} of {len(found)} contacts, such as {part.place(number)}, {what} beyond the "
                 "measured reduced frequencies: their friction depends on the extrapolated spectrum.",
             )
         )

@@ -283,6 +283,6 @@ def _too_wide(ratio: float, noun: str) -> Note | None:
         return None
     return Note(
         "large-strain",
-        f"The contact reaches {ratio:.2f} {noun} radii from the axis; above {SMALL_STRAIN} the assumption of "
-        f"small strain and of a parabolic {noun} is doubtful.",
+        f"The contact extends to {ratio:.2f} {noun} radii from the axis; above {SMALL_STRAIN} the assumptions of "
+        f"small strain and of a parabolic {noun} are doubtful.",
     )

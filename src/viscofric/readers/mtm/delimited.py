@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from viscofric.readers.source import Source
 
 
-NAME = "a delimited text table with one reading per row"
+NAME = "delimited text, one reading per row"
 
 #: Required columns: known names, and the SI unit.
 COLUMNS = {

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-Verdict: TypeAlias = Literal["passed", "noted", "look at this", "failed"]
+Verdict: TypeAlias = Literal["passed", "noted", "warning", "failed"]
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class Check:
 
     @classmethod
     def of(cls, name: str, sound: bool, words: str) -> Check:
-        """Return a check that passed, or one to look at."""
-        return cls(name, "passed" if sound else "look at this", words)
+        """Return a check that passed, or one with a warning."""
+        return cls(name, "passed" if sound else "warning", words)
 
 
 def all_checks(tree: xr.DataTree) -> list[Check]:
@@ -64,10 +64,11 @@ def all_checks(tree: xr.DataTree) -> list[Check]:
 
 
 def counted(checks: list[Check]) -> str:
-    """Say how many checks there are of each verdict: 12 checks: 9 passed, 2 to look at, 1 noted."""
-    words = {"failed": "failed", "look at this": "to look at", "noted": "noted", "passed": "passed"}
-    found = [(sum(check.verdict == verdict for check in checks), label) for verdict, label in words.items()]
-    parts = ", ".join(f"{count} {label}" for count, label in found if count)
+    """Say how many checks there are of each verdict: 12 checks: 2 warnings, 1 noted, 9 passed."""
+    verdicts = ("failed", "warning", "noted", "passed")
+    found = [(sum(check.verdict == verdict for check in checks), verdict) for verdict in verdicts]
+    plural = {"warning": "warnings"}
+    parts = ", ".join(f"{n} {plural.get(label, label) if n > 1 else label}" for n, label in found if n)
     return f"{len(checks)} check{'' if len(checks) == 1 else 's'}: {parts}." if checks else ""
 
 
@@ -104,13 +105,13 @@ def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
         for kelvin in numbers(factors.attrs, "temperatures_given")
         if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE
     ]
-    which = f", those at {several(left)} are not" if len(left) > 1 else f", the one at {''.join(left)} is not"
-    known = len(left) == given - used
+    which = f"those at {several(left)} are left out" if len(left) > 1 else f"the one at {''.join(left)} is left out"
+    if len(left) != given - used:
+        which = "the others are left out"
     yield Check(
         "Isotherms used",
-        "look at this",
-        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve{which if known else ''}; the notes "
-        "on the input say why.",
+        "warning",
+        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve; {which} (reasons: notes on the input).",
     )
 
 
@@ -134,7 +135,7 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
         words = " ".join(sentences(whole.attrs, "sentences"))
         holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
         fails = whole.attrs.get("verdict", "roughly" if roughly else "fails") == "fails"
-        yield Check("Superposition", "passed" if holds else "failed" if fails else "look at this", words)
+        yield Check("Superposition", "passed" if holds else "failed" if fails else "warning", words)
         if whole.attrs.get("causality"):
             belong = number(whole.attrs, "consistent") == 1.0
             yield Check.of("Storage against loss modulus", belong, str(whole.attrs["causality"]))
@@ -183,7 +184,7 @@ _ASSUMPTIONS = {
     "uncoupled": "Pressure independent of shear",
     "one temperature": "Isothermal",
 }
-_VERDICTS: dict[int, Verdict] = {1: "passed", 0: "look at this", -1: "noted"}
+_VERDICTS: dict[int, Verdict] = {1: "passed", 0: "warning", -1: "noted"}
 
 
 def friction_checks(tree: xr.DataTree) -> Iterator[Check]:
@@ -238,17 +239,17 @@ def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
     reaches = np.concatenate([reach(tree, part) for part in parts])
     reaches = reaches[np.isfinite(reaches)]
     if not reaches.size:
-        words = "Could not be checked: the results do not say how large the ball or its contact is."
+        words = "Could not be checked: the results do not contain the size of the ball or of its contact."
         yield Check("Small strain", "noted", words)
         return
     wide = int(np.sum(reaches > SMALL_STRAIN))
-    along = " and along the friction master curve" if len(parts) > 1 else ""
-    many = f" This concerns {wide} of {reaches.size} requested cases{along}, which the tables mark." if wide else ""
+    along = " (those requested, and those along the friction master curve)" if len(parts) > 1 else ""
+    many = f" This concerns {wide} of {reaches.size} cases{along}, marked in the tables." if wide else ""
     yield Check.of(
         "Small strain",
         wide == 0,
-        f"The contact reaches up to {significant(float(reaches.max()), 2)} of the ball's radius from its axis; above "
-        f"{SMALL_STRAIN:g} the linear, half-space description of the contact is doubtful.{many}",
+        f"The contact extends to {significant(float(reaches.max()), 2)} ball radii from the axis at most; above "
+        f"{SMALL_STRAIN:g} linear theory of a half-space is doubtful.{many}",
     )
 
 
@@ -285,11 +286,11 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
     meaning = "the frequency of the contact (shift factor times speed over half-width)"
     if outside:
         words = (
-            f"In {several(counts)} {meaning} lies outside the {kind} range{measured}; friction there depends on the "
-            "extrapolated spectrum. The tables mark these cases."
+            f"In {several(counts)}, {meaning} lies outside the {kind} range{measured}; friction there depends on the "
+            "extrapolated spectrum. These cases are marked in the tables."
         )
     else:
-        words = f"Everywhere {meaning} lies within the {kind} range{measured}."
+        words = f"In all cases {meaning} lies within the {kind} range{measured}."
     yield Check.of("Measured frequency range", outside == 0, words)
 
 
@@ -315,7 +316,7 @@ def consistency_check(left_over: Array, error: Array) -> Check | None:
     return Check.of(
         "Consistency of the four configurations",
         bool(np.mean(sound) >= _CONSISTENT),
-        f"The combination of the four sign configurations that should vanish is {words}.",
+        f"The residual of the four sign configurations, which should vanish, is {words}.",
     )
 
 
@@ -337,7 +338,9 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
     failures = notes(tree.attrs, "failures")
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
-        yield Check("All cases solved", "failed", f"{many} could not be solved; see above.")
+        yield Check(
+            "All cases solved", "failed", f"{many} could not be solved; the reasons are listed with the results."
+        )
     else:
         yield Check("All cases solved", "passed", "Every case was solved.")
     cases, accuracy = solved_cases(tree), number(tree.attrs, "accuracy")
@@ -354,11 +357,11 @@ def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
     words = f"The numerical error of friction is estimated at {worst} at most; {percent(accuracy)} was requested."
     if beyond:
         why = " The points of the surface are too far apart for it." if rough else ""
-        words += f" It is larger than that in {beyond} of {friction.size} cases.{why}"
+        words += f" It is larger than requested in {beyond} of {friction.size} cases.{why}"
     if between:
         words += (
-            f" {between} of {friction.size} friction coefficients lie on a curve through solved contacts, which cases "
-            "of one material under one load share; the tables mark them, and their error includes that of the "
-            "interpolation."
+            f" {between} of {friction.size} friction coefficients are interpolated on a curve through solved contacts, "
+            "which is common to the cases of one material and load. They are marked in the tables, and their errors "
+            "include that of the interpolation."
         )
     return Check.of("Accuracy", beyond == 0, words)

@@ -39,7 +39,7 @@ def friction_table(curves: FrictionCurves) -> list[str]:
         *_coefficient("Coulomb", curves.coulomb, curves.coulomb_error, curves.coulomb_scatter),
     ]
     if curves.consistency is not None:
-        columns.append(["left over", *_pairs(curves.consistency, curves.consistency_error)])
+        columns.append(["residual", *_pairs(curves.consistency, curves.consistency_error)])
     return aligned(zip(*columns, strict=True))
 
 
@@ -55,7 +55,7 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     if curves.consistency is not None and curves.consistency_error is not None:
         words = consistency_words(curves.consistency, curves.consistency_error)
         if words is not None:
-            lines.append(("left over", words))
+            lines.append(("residual", words))
     return lines
 
 

@@ -46,22 +46,22 @@ if TYPE_CHECKING:
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
 _DOUBTFUL = {
-    WIDE: f"reaching beyond {SMALL_STRAIN:g} ball radii from the axis",
-    EXTRAPOLATED: "at frequencies that were not measured",
+    WIDE: f"extends beyond {SMALL_STRAIN:g} ball radii from the axis",
+    EXTRAPOLATED: "depends on frequencies that were not measured",
 }
 _MEANINGS = (
     "95 %: confidence band from the uncertainty of the material; "
     "front and rear: from the ball's axis to the leading and to the trailing edge of the contact; half-width: across "
     "the motion; energy balance: friction from the pressure minus friction from the dissipation, relative; "
     "complementarity: largest violation of the contact conditions, over the indentation; cells: along the longer "
-    "edge of the finest grid; products: with the influence matrix, the solver's work."
+    "edge of the finest grid; products: number of products with the influence matrix."
 )
 
 
 _ROUGH_MEANINGS = (
-    "95 %: confidence band from the uncertainty of the material; energy balance: friction from the pressure less "
+    "95 %: confidence band from the uncertainty of the material; energy balance: friction from the pressure minus "
     "friction from the dissipation, relative; complementarity: largest violation of the contact conditions; cells: "
-    "points along the longer edge of the surface; products: the solver's work."
+    "points along the longer edge of the surface; products: number of products with the influence matrix."
 )
 
 
@@ -164,7 +164,8 @@ def agreement_table(tree: xr.DataTree) -> Table | None:
         points = "1 measured point is" if left_out == 1 else f"{left_out:.0f} measured points are"
         left = f" {points} left out: without a prediction, or with friction not above zero."
     counted = number(agreement.attrs, "material_counted") == 1.0
-    material = "the material's own (sweeps, shift factors, spectrum)"
+    numerical = "the numerical error of the prediction"
+    material = "the uncertainty of the material (sweeps, shift factors, spectrum)"
     return made_table(
         "agreement",
         "Predicted minus measured friction, relative to the measured one, by temperature.",
@@ -178,8 +179,8 @@ def agreement_table(tree: xr.DataTree) -> Table | None:
             Column("within 2 standard errors", "share_within_error", lambda share: percent(share, 3)),
             Column("within the scatter", "share_within_scatter", lambda share: percent(share, 3)),
         ],
-        note="Standard error: of the measured mean, with the numerical error of the prediction"
-        + (f" and {material}" if counted else f"; {material} is not counted")
+        note="Standard error: includes that of the measured mean"
+        + (f", {numerical}, and {material}" if counted else f" and {numerical}, but not {material}")
         + f".{left}",
     )
 
@@ -280,7 +281,7 @@ def measurement_table(tree: xr.DataTree) -> Table | None:
             Column("predicted minus measured", "difference", signed_percent),
         ],
     )
-    for heading, name in (("Coulomb, measured", "coulomb"), ("left over (consistency)", "consistency")):
+    for heading, name in (("Coulomb, measured", "coulomb"), ("residual", "consistency")):
         if name in measurement.variables:
             table.headings.append(heading)
             pairs = zip(values(measurement, name), values(measurement, f"{name}_error"), strict=True)

@@ -77,10 +77,10 @@ def scope(tree: xr.DataTree) -> list[str]:
     if sweeps is not None:
         steps = _temperatures(sweeps)
         at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
-        file = f" ({attrs['dma_format']})" if attrs.get("dma_format") else ""
+        file = f", read as {attrs['dma_format']}" if attrs.get("dma_format") else ""
         said.append(
-            f"The material is fitted to dynamic mechanical analysis in {attrs.get('deformation', 'tension')}{file}: "
-            f"frequency sweeps at {at}, {unbroken(_range(values(sweeps, 'angular_frequency')) + ' rad/s')}"
+            f"The material is fitted to DMA frequency sweeps in {attrs.get('deformation', 'tension')}{file}: "
+            f"{at}, {unbroken(_range(values(sweeps, 'angular_frequency')) + ' rad/s')}"
             f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
         )
     elif attrs.get("material"):
@@ -208,10 +208,8 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         remark = f"rms over {points:.0f} points; {average} on average" if math.isfinite(points) else ""
         share = number(agreement.attrs, "share_within_error")
         if math.isfinite(share):
-            counted = "with" if number(agreement.attrs, "material_counted") == 1.0 else "without"
-            remark += (
-                f"; {percent(share, 3)} of the points within twice the standard error ({counted} the material's own)"
-            )
+            counted = "including" if number(agreement.attrs, "material_counted") == 1.0 else "without"
+            remark += f"; {percent(share, 3)} of the points within twice the standard error ({counted} the material's)"
         found.append(KeyNumber(AGREEMENT, percent(rms), remark))
     shifts = group(tree, "friction_shift_factors")
     if shifts is not None and not is_from_friction(tree):
@@ -226,7 +224,7 @@ def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
     wide, beyond = int(is_wide(tree, prediction).sum()), int(is_extrapolated(prediction).sum())
     of, said = prediction.sizes["case"], ""
     if wide:
-        said += f"; doubtful in {wide} of {of} cases, whose contact reaches beyond {SMALL_STRAIN:g} ball radii"
+        said += f"; doubtful in {wide} of {of} cases, whose contact extends beyond {SMALL_STRAIN:g} ball radii"
     if beyond:
         said += f"; extrapolated beyond the measured frequencies in {beyond} of {of} cases"
     return said

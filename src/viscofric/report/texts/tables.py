@@ -117,7 +117,7 @@ def spectrum_table(tree: xr.DataTree) -> Table | None:
         return None
     columns = [
         Column("retardation time τ (s)", "retardation_time", times(1.0)),
-        Column("creep coefficient C (1/GPa)", "creep_coefficient", times(1e9)),
+        Column("compliance C (1/GPa)", "creep_coefficient", times(1e9)),
     ]
     caption = "Retardation spectrum at the reference temperature: 1/E(ω) = 1/E∞ + Σ C/(1 + iωτ)."
     return made_table("spectrum", caption, spectrum, columns, is_open=False)

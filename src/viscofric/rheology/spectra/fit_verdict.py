@@ -168,12 +168,13 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: floa
             )
         )
     elif fit.E_inf_missed:
-        also = f" {end[0].upper()}{end[1:]}: the glass was not measured." if fit.E_inf_extrapolated else ""
+        also = f" {end[0].upper()}{end[1:]}: the glassy plateau was not measured." if fit.E_inf_extrapolated else ""
         notes.append(Note("glass-missed", f"{where}: the fit does not follow the stiffest points.{also}"))
     elif fit.E_inf_extrapolated:
         notes.append(
             Note(
-                "glass-extrapolated", f"{where}, and {end}: the glass was not measured, so that E_inf is extrapolated."
+                "glass-extrapolated",
+                f"{where}, and {end}: the glassy plateau was not measured, so that E_inf is extrapolated.",
             )
         )
     if spectrum.E_inf > STIFFEST_GLASS:

@@ -156,7 +156,7 @@ class RetardationSpectrum(FrequencyResponse):
             "mode",
             {
                 "retardation_time": (self.tau, "s", "retardation time"),
-                "creep_coefficient": (self.C, "1/Pa", "creep coefficient C of the mode"),
+                "creep_coefficient": (self.C, "1/Pa", "compliance C of the mode"),
             },
             attributes={"E0": self.E0, "E_inf": self.E_inf} | ({} if self.fit is None else self.fit.attributes),
         )

@@ -123,10 +123,10 @@ class KramersKronig:
     @property
     def sentence(self) -> str:
         """The verdict in a plain sentence."""
-        verdict = f"E' and E'' {'' if self.holds else 'do not '}belong to each other (Kramers–Kronig)"
+        verdict = f"E' and E'' are {'consistent' if self.holds else 'inconsistent'} (Kramers–Kronig)"
         rms = f"{self.rms_storage:.2g} decades rms"
         if self.holds:
-            return f"{verdict}: E' follows from E'' to {rms}, {LARGEST_RMS:g} allowed."
+            return f"{verdict}: E' calculated from E'' agrees with E' within {rms} (good if ≤ {LARGEST_RMS:g})."
         if self.scale_differs and self.rms_storage < SWAPPED:
             scale = f"{self.loss_scale:.2f} ± {self.loss_scale_error:.2f}"
             return (
@@ -134,8 +134,8 @@ class KramersKronig:
                 "a vertical shift that was left out, or for wrong shift factors."
             )
         return (
-            f"{verdict}: E' differs by {rms} from what E'' requires, {LARGEST_RMS:g} allowed; look for swapped "
-            "columns, wrong moduli, or shifts that do not make one master curve."
+            f"{verdict}: E' calculated from E'' differs from E' by {rms} (good if ≤ {LARGEST_RMS:g}); look for "
+            "swapped columns, wrong moduli, or shifts that do not make one master curve."
         )
 
 

@@ -79,7 +79,7 @@ def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     """Return a summary of the friction as a whole, without notes and checks."""
     from viscofric.report.texts.friction import friction_lines
 
-    return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "left over")]
+    return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "residual")]
 
 
 def _checks(curves: FrictionCurves) -> list[dict[str, str]]:

@@ -128,7 +128,7 @@ def is_number(cell: str) -> bool:
     return True
 
 
-NAME = "text table (columns separated by commas, semicolons, tabs or blanks)"
+NAME = "delimited text"
 _DELIMITERS = "\t;,"
 #: Headings may contain single blanks ("f (Hz)"), so two or more separate them; numbers contain none.
 _BLANKS = "blanks"

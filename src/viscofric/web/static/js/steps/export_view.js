@@ -172,11 +172,7 @@ function studyCard(app) {
     bar.finish(said);
     numbers.set([
       { label: "cases", value: String(found.cases), remark: found.failed ? `${found.failed} failed` : "all solved" },
-      {
-        label: "to look at",
-        value: String(found.warnings.length),
-        remark: found.warnings.length === 1 ? "warning" : "warnings",
-      },
+      { label: "warnings", value: String(found.warnings.length), remark: found.warnings.length ? "listed below" : "" },
     ]);
     files.replaceChildren(...found.downloads.map((one) => fileLine(app, one)));
     failures.set(found.failures);
