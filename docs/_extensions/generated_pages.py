@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import command_pages
 import curve_file_pages
 import overview_figure
+import published_pages
 import results_pages
 import run_file_pages
 import tutorial_figures
@@ -30,6 +31,7 @@ def generate(app: Sphinx) -> None:
     results_pages.generate()
     tutorial_figures.generate()
     verification_pages.generate()
+    published_pages.generate()
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

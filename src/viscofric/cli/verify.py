@@ -23,12 +23,13 @@ _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
 
 
 @click.command(name="verify")
+@click.option("--published", is_flag=True, help="Compare with published results and other programs instead.")
 @click.option("--only", "names", metavar="NAME", multiple=True, help="Run this check or group only; may be repeated.")
 @click.option("--list", "listed", is_flag=True, help="List the checks and exit.")
 @click.option("--details", is_flag=True, help="Print every comparison, and the reasons of the bounds.")
 @click.option("--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON.")
-def command(names: tuple[str, ...], listed: bool, details: bool, backend: str, as_json: bool) -> None:
+def command(published: bool, names: tuple[str, ...], listed: bool, details: bool, backend: str, as_json: bool) -> None:
     """Verify the contact engine on this machine, in less than a minute.
 
     Each check compares computed values with a closed form, a reference value, or an equivalent computation. Its
@@ -36,8 +37,9 @@ def command(names: tuple[str, ...], listed: bool, details: bool, backend: str, a
     """
     with reported_errors():
         from viscofric.verification import CHECKS, run_checks, select
+        from viscofric.verification.published import PUBLISHED
 
-        checks = select(CHECKS, names)
+        checks = select(PUBLISHED if published else CHECKS, names)
         if listed:
             _list(checks)
             return
@@ -68,6 +70,8 @@ def _list(checks: tuple[Check, ...]) -> None:
             click.echo(group)
         click.echo(f"  {check.name:<18} {check.title}")
         click.echo(f"  {'':<18} against {check.source}")
+        for about, text in _origin(check).items():
+            click.echo(f"  {'':<18} {about}: {text}")
 
 
 @contextmanager
@@ -119,9 +123,17 @@ def _line(outcome: Outcome) -> str:
     )
 
 
+def _origin(check: Check) -> dict[str, str]:
+    """Return how published numbers were obtained, and what their source does not state."""
+    texts = {"obtained": check.obtained, "unstated": check.unstated}
+    return {about: text for about, text in texts.items() if text}
+
+
 def _print_details(outcome: Outcome) -> None:
     click.echo(f"    {outcome.check.title}; against {outcome.check.source}")
     click.echo(f"    bounds: {outcome.check.reason}")
+    for about, text in _origin(outcome.check).items():
+        click.echo(f"    {about}: {text}")
     for one in outcome.comparisons:
         computed, expected, error, bound = _numbers(one)
         mark = " " if one.passed else "!"
@@ -147,6 +159,8 @@ def _table(outcomes: list[Outcome], details: bool) -> None:
         words = f"{escape(outcome.check.title)}\n[dim]{escape(outcome.check.source)}[/dim]"
         if details:
             words += f"\n[dim]Bounds: {escape(outcome.check.reason)}[/dim]"
+            for about, text in _origin(outcome.check).items():
+                words += f"\n[dim]{about.capitalize()}: {escape(text)}[/dim]"
         if outcome.trouble or outcome.worst is None:
             words += f"\n{escape(outcome.trouble or 'nothing to compare')}"
         table.add_row(outcome.check.name, words, "", "", "", "", mark, f"{outcome.seconds:.1f}")
@@ -182,6 +196,7 @@ def _record(outcomes: list[Outcome]) -> dict[str, Any]:
                 "group": outcome.check.group,
                 "source": outcome.check.source,
                 "reason_of_bounds": outcome.check.reason,
+                **_origin(outcome.check),
                 "passed": outcome.passed,
                 "trouble": outcome.trouble,
                 "seconds": outcome.seconds,

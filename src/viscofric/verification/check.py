@@ -66,6 +66,8 @@ class Check:
     source: str  # of the expected numbers
     reason: str  # for the bounds
     compare: Callable[[], Iterable[Comparison]]  # computes and yields the comparisons
+    obtained: str = ""  # of published numbers: how
+    unstated: str = ""  # what their source does not state
 
     def run(self, backend: str = "scipy") -> Outcome:
         """Compute the comparisons; a contact that cannot be solved is a failure of the check.

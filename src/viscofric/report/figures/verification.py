@@ -1,4 +1,4 @@
-"""Figures of the verification page: Hunter's line contact, errors against the cell, the limit of large windows."""
+"""Figures of the verification pages: line contact, errors against the cell, large windows, published results."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.report.figures.style import GREY, INK, decade_ticks, legend_above, looks
+from viscofric.report.figures.style import BLUE, GREY, INK, decade_ticks, legend_above, looks
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
@@ -110,3 +110,29 @@ def plot_windows(axes: Axes, found: Windows) -> None:
     axes.set_ylim(top=100.0)
     axes.set_xlabel(r"period $L/a_0$")
     axes.set_ylabel("friction missing (%)")
+
+
+def plot_sliding_ball(axes: Axes, memory: Array, friction: Array, points: Array) -> None:
+    """Draw the friction of a ball against speed, and published points (vτ/a0, μ, relative tolerance) on it."""
+    axes.plot(memory, friction, color=BLUE, linewidth=1.2, label="viscofric")
+    bars = points[:, 1] * points[:, 2]
+    axes.errorbar(points[:, 0], points[:, 1], yerr=bars, color=INK, marker="o", linestyle="none", label="published")
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0.0)
+    decade_ticks(axes.xaxis)
+    axes.set_xlabel(r"speed $v\tau/a_0$")
+    axes.set_ylabel("friction coefficient")
+    legend_above(axes, axes.get_legend_handles_labels()[0], columns=2)
+
+
+def plot_deviations(axes: Axes, deviations: Mapping[str, tuple[Array, Array]]) -> None:
+    """Draw, for each check, the relative differences of all its comparisons, and their bounds."""
+    for place, (errors, bounds) in enumerate(deviations.values()):
+        shown = np.maximum(errors, _LEAST_SHOWN)
+        axes.plot(bounds, np.full(len(bounds), place), color=GREY, marker="|", markersize=11, linestyle="none")
+        axes.plot(shown, np.full(len(shown), place), color=BLUE, marker="o", markersize=4, linestyle="none")
+    axes.set_xscale("log")
+    decade_ticks(axes.xaxis)
+    axes.set_yticks(range(len(deviations)), list(deviations))
+    axes.invert_yaxis()
+    axes.set_xlabel("relative difference (bars: bounds)")
