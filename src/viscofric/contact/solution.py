@@ -22,7 +22,7 @@ class Level(NamedTuple):
     cells : int
         Along the window's longer edge.
     pressure_friction, energy_friction : float
-        Friction coefficient from the lean of the pressure and from the dissipated energy.
+        Friction coefficient from the asymmetry of the pressure and from the dissipated energy.
     indentation : float
         m.
     products : int
@@ -54,7 +54,7 @@ class Diagnostics:
     load : float
         Relative error of the load.
     energy : float
-        Energy balance: friction from the pressure's lean less that from the dissipated energy, over the larger of
+        Energy balance: friction from the pressure's asymmetry less that from the dissipated energy, over the larger of
         them (or over 1e-6 a0/R).
     friction_error : float
         Error estimate of the friction coefficient (absolute), from its changes on the nested grids.
@@ -121,7 +121,7 @@ class ContactSolution:
         μ = F_t/F_N, with the sign of the speed: of the two below the one that has converged better on the nested
         grids, the second with what the cells at the edge leave out (see `viscofric.contact.free.balance`).
     pressure_friction_coefficient : float
-        From the lean of the pressure on the indenter's slope, on the finest grid.
+        From the asymmetry of the pressure on the indenter's slope, on the finest grid.
     energy_friction_coefficient : float
         From the energy that the material dissipates, on the finest grid.
     indentation : float
@@ -150,8 +150,8 @@ class ContactSolution:
     direction : (float, float)
         Of the motion at a positive speed over the indenter's own axes, of length one.
     lateral_friction_coefficient : float
-        F_y/F_N, from the lean of the pressure on the finest grid: the force towards +y with which the indenter pushes
-        the solid, as F_t is that towards +x.  Zero where the indenter is its own mirror image about the line of motion.
+        F_y/F_N, from the asymmetry of the pressure on the finest grid: the force of the indenter on the solid towards
+        +y, as F_t is that towards +x.  Zero where the indenter is its own mirror image about the line of motion.
     derivatives : FrictionDerivatives or None
         Of the friction coefficient, where requested.
     """

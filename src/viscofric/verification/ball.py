@@ -132,11 +132,11 @@ def _energy() -> Iterator[Comparison]:
     ):
         material = one_time(ratio, memory) if spectrum == "one time" else SPECTRA[spectrum](memory)
         case = f"{spectrum}, k = {ratio:g}, vτ/a0 = {memory:g}"
-        # Where the two ways differ the solver refines without end; these grids are finer than any that is needed.
+        # Where the two results differ the solver refines without end; these grids are finer than any that is needed.
         for name, solve, finest in (("ball", solve_ball, 256), ("cylinder", solve_cylinder, 4096)):
             found = solve(material, accuracy=ACCURACY, finest=finest)
-            lean, energy = found.pressure_friction_coefficient, found.energy_friction_coefficient
-            yield Comparison(f"{name}, {case}", "dissipated over lean", energy / lean, 1.0, 3.0 * ACCURACY)
+            pressure, energy = found.pressure_friction_coefficient, found.energy_friction_coefficient
+            yield Comparison(f"{name}, {case}", "dissipated over pressure", energy / pressure, 1.0, 3.0 * ACCURACY)
 
 
 _GROUP = "viscoelastic point contact"
@@ -169,7 +169,7 @@ CHECKS = (
     ),
     Check(
         "energy-balance",
-        "The pressure's lean against the dissipated energy, ball and cylinder",
+        "The pressure's asymmetry against the dissipated energy, ball and cylinder",
         _GROUP,
         "F_t v = dissipated power: another way to the same force, through −Im S",
         "Both settle with the grid, the slower one to three times the requested accuracy; the solver itself refuses an "

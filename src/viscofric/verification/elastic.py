@@ -40,9 +40,7 @@ def _ball() -> Iterator[Comparison]:
         yield Comparison(case, "front edge (m)", found.front, known.radius, _EDGE)
         yield Comparison(case, "contact area (m²)", found.contact_area, math.pi * known.radius**2, 0.004)
         yield Comparison(case, "largest pressure (Pa)", found.max_pressure, known.max_pressure, 0.002)
-        yield Comparison(
-            case, "lean of the pressure μ", found.pressure_friction_coefficient, 0.0, _ROUND_OFF, "absolute"
-        )
+        yield Comparison(case, "μ from the pressure", found.pressure_friction_coefficient, 0.0, _ROUND_OFF, "absolute")
 
 
 def _cylinder() -> Iterator[Comparison]:
@@ -90,7 +88,7 @@ CHECKS = (
         _GROUP,
         "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22-4.24, with E0 and with E∞",
         "128 cells: a quarter of a cell at an edge, a tenth all around the rim; depth and pressure converge faster. "
-        "The lean of a symmetric pressure is round-off.",
+        "The friction of a symmetric pressure is round-off.",
         _ball,
     ),
     Check(

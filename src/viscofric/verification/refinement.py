@@ -88,7 +88,7 @@ def _refinement(
 ) -> Refinement:
     """Compare nested grids with exact numbers: quantity -> (number, its relative error, least order)."""
     read = {
-        "friction μ, lean": lambda stage: stage.pressure_friction,
+        "friction μ, pressure": lambda stage: stage.pressure_friction,
         "friction μ, energy": lambda stage: stage.energy_friction,
         "indentation δ": lambda stage: stage.indentation,
         "contact area": lambda stage: stage.footprint.area,
@@ -128,7 +128,7 @@ def viscoelastic_ball() -> Refinement:
     known = {
         label: (row.values[name], row.errors[name] / row.values[name], order)
         for label, name, order in (
-            ("friction μ, lean", "friction", 1.4),
+            ("friction μ, pressure", "friction", 1.4),
             ("friction μ, energy", "friction", 1.4),
             ("indentation δ", "indentation", 1.4),
         )
@@ -142,7 +142,7 @@ def viscoelastic_cylinder() -> Refinement:
     exact = hunter(10.0, 1.0)
     friction, width = exact.friction_coefficient / SLOPE, 2.0 * exact.half_width / HERTZ_RADIUS
     known = {
-        "friction μ, lean": (friction, 1e-12, 1.4),
+        "friction μ, pressure": (friction, 1e-12, 1.4),
         "friction μ, energy": (friction, 1e-12, 1.4),
         "contact width": (width, 1e-12, 0.8),
     }

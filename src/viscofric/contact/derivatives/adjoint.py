@@ -84,8 +84,8 @@ def friction_way(stages: list[Stage]) -> Way:
     right, by its last share Λ r, but not the change of that share.
     """
     fine = stages[-1]
-    leaning = fine.operator.shift > 0.0 or friction_estimate(stages).value == fine.pressure_friction
-    return "pressure" if leaning else "balance"
+    from_pressure = fine.operator.shift > 0.0 or friction_estimate(stages).value == fine.pressure_friction
+    return "pressure" if from_pressure else "balance"
 
 
 def friction_adjoint(stage: Stage, way: Way) -> Adjoint:

@@ -70,8 +70,8 @@ class FrictionDerivatives:
     logarithmic : LogarithmicDerivatives
         The same with respect to the logarithms.
     way : {"pressure", "balance"}
-        What was differentiated: the friction coefficient from the lean of the pressure, or that from the dissipated
-        energy with what the cells at the edge leave out.
+        Which friction coefficient was differentiated: that from the asymmetry of the pressure, or that from the
+        dissipated energy, with the part that the cells at the edge leave out.
     error : float
         Error estimate of the logarithmic derivatives, from the largest of their changes on the last three grids and
         from what moving the cells takes away.

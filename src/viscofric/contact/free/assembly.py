@@ -57,7 +57,7 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
     results = [stage.result for stage in stages]
     products = sum(one.products for one in results)
     linear = sum(one.linear_iterations for one in results)
-    lean, energy = fine.pressure_friction, fine.energy_friction
+    pressure, energy = fine.pressure_friction, fine.energy_friction
     errors = FootprintErrors.of(stages)
     loaded = fine.problem.control.load is not None
     # The level that an indentation is counted from may be that of the leading edge, and is known no better than it.
@@ -68,7 +68,7 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
         collocation_shift=fine.operator.shift,
         complementarity=fine.result.complementarity,
         load=fine.result.load,
-        energy=(lean - energy) / max(abs(lean), abs(energy), FRICTION_FLOOR),
+        energy=(pressure - energy) / max(abs(pressure), abs(energy), FRICTION_FLOOR),
         friction_error=scale.slope * friction_estimate(stages).error,
         indentation_error=scale.depth * (indentation if loaded else 0.0),
         load_error=scale.force * (0.0 if loaded else error_of(stages, "load")),

@@ -17,25 +17,27 @@ if TYPE_CHECKING:
 FEWEST_GRIDS = 3  # one change alone may be small by chance
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
 FRICTION_FLOOR = 1e-6
-# By which changes fall from grid to grid at the least: those of the friction with the power 3/2 of the cell, since the
+# Least factor by which changes fall from grid to grid: those of the friction with the power 3/2 of the cell, since the
 # pressure rises like a square root at the edges; those of other numbers with its first power.
 _FADING, _SLOW_FADING = 0.5**1.5, 0.5
 
-# Parts of the difference between the two ways to friction that are claimed as error at the least, of the balanced
-# energy and of the lean; where the gap is looked at behind the cell centres, since friction then settles more slowly
-# than its changes promise; and of what the errors of both do not explain, the lean's taken generously.  With these,
-# the closed form of the line contact lies within the error on all but one of 700 grids, at E∞/E0 from 1.1 to 1e4 and
-# v τ/a0 from 1e-6 to 1e6.
+# Least errors, as parts of the difference between friction from the balanced energy and friction from the pressure: of
+# the former, and of the latter.
 _SHARES = (0.0, 0.5)
+# The same where the gap is evaluated behind the cell centres: friction then converges more slowly than its changes
+# suggest.
 _SHIFTED_SHARES = (0.5, 0.1)
-_UNEXPLAINED_SHARE, _LEAN_TRUST = 0.5, 3.0
-_FALL_OF_LEAN = 5.0
+# Part of the difference that counts as error where the errors of both, that of the pressure times the second number, do
+# not explain it.  With these numbers the closed form of the line contact lies within the error on all but one of 700
+# grids, at E∞/E0 from 1.1 to 1e4 and v τ/a0 from 1e-6 to 1e6.
+_UNEXPLAINED_SHARE, _PRESSURE_FACTOR = 0.5, 3.0
+# Factor by which the error of friction from the pressure falls per halving of the cells.
+_PRESSURE_ERROR_FALL = 5.0
 
-# The largest pressure counts as resolved this far from the edge (in cells) and settled this well.
+# The largest pressure is resolved at least this far from the edge (in cells) and with a change of at most this.
 _RESOLVED_CELLS = 3
 _RESOLVED_CHANGE = 0.02
-# No edge is claimed to be known better than to this part of a cell: twice what the extrapolation misses on Hertz's
-# contact.
+# Least error of an edge, as a part of a cell: twice the error of the extrapolation on Hertz's contact.
 _LEAST_EDGE_ERROR = 0.5
 
 
@@ -58,31 +60,33 @@ class Estimate(NamedTuple):
 def friction_estimate(stages: list[Stage]) -> Estimate:
     """Return the friction coefficient from the quantity that has converged best on the nested grids.
 
-    The lean of the pressure converges fastest where the layer at the leading edge is thinner than a cell; the
+    The asymmetry of the pressure converges fastest where the layer at the leading edge is thinner than a cell; the
     dissipated energy, with what cells leave out of it, nearly everywhere else.
     """
     last = stages[-1]
     if len(stages) < FEWEST_GRIDS:
         return Estimate(last.balanced_friction, math.inf)
     if len(last.operator.material.compliances) == 0:
-        return Estimate(0.0, 0.0)  # an elastic contact dissipates nothing, however its pressure leans on the grid
+        return Estimate(
+            0.0, 0.0
+        )  # an elastic contact dissipates nothing, even if its pressure is asymmetric on the grid
     energy = np.array([stage.balanced_friction for stage in stages])
-    lean = np.array([stage.pressure_friction for stage in stages])
-    difference = abs(float(lean[-1] - energy[-1]))
+    pressure = np.array([stage.pressure_friction for stage in stages])
+    difference = abs(float(pressure[-1] - energy[-1]))
     shares = _SHIFTED_SHARES if last.operator.shift > 0.0 else _SHARES
     balanced = settled(energy).at_least(max(_uncertainty(stages), shares[0] * difference))
-    leaning = settled(lean).at_least(shares[1] * difference)
-    best = min(balanced, leaning, key=lambda candidate: candidate.error)
-    unexplained = difference - balanced.error - _LEAN_TRUST * leaning.error  # counts against either
+    direct = settled(pressure).at_least(shares[1] * difference)
+    best = min(balanced, direct, key=lambda candidate: candidate.error)
+    unexplained = difference - balanced.error - _PRESSURE_FACTOR * direct.error  # counts against either
     error = max(best.error, _UNEXPLAINED_SHARE * unexplained)
     return Estimate(best.value, last.problem.geometry.scatter * error)
 
 
 def _uncertainty(stages: list[Stage]) -> float:
-    """Uncertainty of the energy that cells leave out on the last grid.
+    """Return the uncertainty of the energy that cells leave out on the last grid.
 
-    Where in its cell an edge lies is a matter of luck, and so is what is left out: the most that the last grids make
-    likely is taken, in proportion to the cell.
+    The position of an edge within its cell is random, and so is the energy left out: the largest that the last grids
+    make likely is taken, in proportion to the cell.
     """
     last = stages[-1]
     most = max(stage.opening * last.window.spacing / stage.window.spacing for stage in stages[-FEWEST_GRIDS:])
@@ -90,17 +94,17 @@ def _uncertainty(stages: list[Stage]) -> float:
 
 
 def least_error(stages: list[Stage], halvings: int) -> float:
-    """Relative error that the friction has at the least after so many further halvings of the cells.
+    """Return the least relative error of the friction after so many further halvings of the cells.
 
-    That of the balanced energy is no less than what is uncertain of what cells leave out, which is known beforehand:
-    the gap beside the contact opens in proportion to the cell.  That of the lean falls with the square of the cell, or
-    a little faster by chance.
+    That of the balanced energy is at least the uncertainty of the energy that cells leave out, which is known
+    beforehand: the gap beside the contact opens in proportion to the cell.  That from the pressure falls with the
+    square of the cell, or a little faster by chance.
     """
     last = stages[-1]
     uncertain = last.left_out_range(last.window.spacing / 2.0**halvings) / 2.0**halvings
-    lean = settled(np.array([stage.pressure_friction for stage in stages])).error / _FALL_OF_LEAN**halvings
+    pressure = settled(np.array([stage.pressure_friction for stage in stages])).error / _PRESSURE_ERROR_FALL**halvings
     scale = max(abs(last.balanced_friction), FRICTION_FLOOR)
-    return last.problem.geometry.scatter * min(uncertain, lean) / scale
+    return last.problem.geometry.scatter * min(uncertain, pressure) / scale
 
 
 def settled(values: Array, fading: float = _FADING) -> Estimate:

@@ -12,13 +12,7 @@ if TYPE_CHECKING:
 
 
 def poisson(value: float) -> float:
-    """Return Poisson's ratio, which must lie between 0 and 0.5.
-
-    Raises
-    ------
-    InputError
-        If it does not.
-    """
+    """Return Poisson's ratio; InputError if it is not between 0 and 0.5."""
     ratio = to_si(value, "dimensionless", "poisson_ratio")
     if not 0.0 <= ratio <= 0.5:
         raise InputError(f"poisson_ratio = {ratio:g}: must lie between 0 and 0.5.", code="poisson-ratio")

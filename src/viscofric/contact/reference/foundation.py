@@ -44,26 +44,13 @@ _SMALL = 1.0
 
 @dataclass(frozen=True)
 class RollingFoundationContact:
-    """A cylinder or a ball that moves towards +x over a foundation with one retardation time.
+    """A cylinder or a ball that moves towards +x over a foundation with one retardation time."""
 
-    Attributes
-    ----------
-    front, rear : float
-        Distances from the axis to the leading and to the trailing edge, on the centre line of a ball, m; the rear edge
-        lies ahead of the axis where `rear` is negative.
-    indentation : float
-        δ = front²/(2R), m.
-    friction_coefficient : float
-        μ = ∫ p x dA/(R F).
-    elastic_half_width : float
-        a0 of the same contact with M0, m.
-    """
-
-    front: float
-    rear: float
-    indentation: float
-    friction_coefficient: float
-    elastic_half_width: float
+    front: float  # m, from the axis to the leading edge, on the centre line of a ball
+    rear: float  # m, from the axis to the trailing edge, which lies ahead of the axis where `rear` is negative
+    indentation: float  # δ = front²/(2R), m
+    friction_coefficient: float  # μ = ∫ p x dA/(R F)
+    elastic_half_width: float  # a0 of the same contact with M0, m
     _strips: _Strips = field(repr=False)
     _pressure_unit: float = field(repr=False)
 
@@ -87,31 +74,15 @@ def rolling_foundation_line(
     tau: Quantity,
     speed: Quantity,
 ) -> RollingFoundationContact:
-    """Cylinder rolling or sliding without friction over a viscoelastic foundation.
+    """Cylinder rolling or sliding without friction towards +x over a viscoelastic foundation.
 
-    Parameters
-    ----------
-    load_per_length, radius, thickness : float, str or pint.Quantity
-        F' (N/m), R (m) and H (m).
-    foundation, glassy_foundation : float, str or pint.Quantity
-        M0 and M∞ of p = M u/H at rest and at infinite speed, Pa; see `foundation_modulus`.
-    tau, speed : float, str or pint.Quantity
-        Retardation time (s) and v (m/s), above zero; towards +x.
+    F' (N/m), R (m), H (m); M0 and M∞ (Pa) of p = M u/H at rest and at infinite speed, see `foundation_modulus`;
+    retardation time τ (s) and v (m/s), above zero.  The limit of a thin layer: front + rear ≫ H.  Edges and pressure
+    are accurate to about 1e-12, the friction coefficient to about 1e-15 a0/R at low speed, where it is a small
+    difference.
 
-    Returns
-    -------
-    RollingFoundationContact
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, M∞ is less than M0 or more than 1e6 times M0, or vτ is less than 1e-9 or more
-        than 1e9 times the half-width of the elastic contact.
-
-    Notes
-    -----
-    The limit of a thin layer: front + rear ≫ H.  Edges and pressure are right to about 1e-12, the friction
-    coefficient to about 1e-15 a0/R at low speed, where it is a small difference.
+    Raises InputError if a value is not above zero, M∞ is less than M0 or more than 1e6 times M0, or vτ is less than
+    1e-9 or more than 1e9 times the half-width of the elastic contact.
     """
     force, R, H, M = _numbers(load_per_length, "N/m", radius, thickness, foundation)
     a0 = (1.5 * force * R * H / M) ** (1.0 / 3.0)
@@ -130,23 +101,7 @@ def rolling_foundation_ball(
 ) -> RollingFoundationContact:
     """Ball rolling or sliding without friction over a viscoelastic foundation; see `rolling_foundation_line`.
 
-    Parameters
-    ----------
-    load, radius, thickness : float, str or pint.Quantity
-        F (N), R (m) and H (m).
-    foundation, glassy_foundation : float, str or pint.Quantity
-        M0 and M∞, Pa.
-    tau, speed : float, str or pint.Quantity
-        Retardation time (s) and v (m/s), above zero; towards +x.
-
-    Returns
-    -------
-    RollingFoundationContact
-
-    Raises
-    ------
-    InputError
-        As for the cylinder.
+    F (N), R (m), H (m); M0 and M∞ (Pa); τ (s) and v (m/s).  Errors as for the cylinder.
     """
     force, R, H, M = _numbers(load, "N", radius, thickness, foundation)
     a0 = (4.0 * force * R * H / (math.pi * M)) ** 0.25

@@ -26,21 +26,11 @@ def semi_ellipse(square: Array) -> Array:
 
 @dataclass(frozen=True)
 class HertzContact:
-    """Hertz's contact of a ball with an elastic half-space.
+    """Hertz's contact of a ball with an elastic half-space."""
 
-    Attributes
-    ----------
-    radius : float
-        Contact radius a, m.
-    indentation : float
-        δ = a²/R, m.
-    max_pressure : float
-        p0 = 3F/(2πa²), Pa.
-    """
-
-    radius: float
-    indentation: float
-    max_pressure: float
+    radius: float  # contact radius a, m
+    indentation: float  # δ = a²/R, m
+    max_pressure: float  # p0 = 3F/(2πa²), Pa
 
     def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
         """Pressure p0 √(1 − r²/a²) at (x, y) from the axis, in m; Pa, zero outside the contact."""
@@ -49,22 +39,10 @@ class HertzContact:
 
 
 def hertz_ball(load: Quantity, ball_radius: Quantity, modulus: Quantity, poisson_ratio: float) -> HertzContact:
-    """Hertz's solution for a rigid ball on an elastic half-space.
+    """Hertz's solution for a rigid ball on an elastic half-space; F in N, R in m, E in Pa.
 
-    Parameters
-    ----------
-    load, ball_radius, modulus : float, str or pint.Quantity
-        F, R and E: N, m and Pa.
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
-
-    References
-    ----------
-    K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22-4.24.
+    K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22-4.24.  Raises InputError if a value is not above zero, or
+    Poisson's ratio not between 0 and 0.5.
     """
     force, curvature = positive(load, "N", "load"), positive(ball_radius, "m", "ball_radius")
     radius = (3.0 * force * curvature / (4.0 * plane_strain_modulus(modulus, poisson_ratio))) ** (1.0 / 3.0)
@@ -77,17 +55,10 @@ class HertzLineContact:
 
     The indentation of a line contact has no value of its own: displacements grow like the logarithm of the distance
     from which they are counted.
-
-    Attributes
-    ----------
-    half_width : float
-        a, m.
-    max_pressure : float
-        p0 = 2F'/(πa), Pa, with F' the load per length.
     """
 
-    half_width: float
-    max_pressure: float
+    half_width: float  # a, m
+    max_pressure: float  # p0 = 2F'/(πa), Pa, with F' the load per length
 
     def pressure(self, x: ArrayLike) -> Array:
         """Pressure p0 √(1 − x²/a²) at x from the axis, in m; Pa, zero outside the contact."""
@@ -97,22 +68,10 @@ class HertzLineContact:
 def hertz_line(
     load_per_length: Quantity, cylinder_radius: Quantity, modulus: Quantity, poisson_ratio: float
 ) -> HertzLineContact:
-    """Hertz's solution for a rigid cylinder on an elastic half-space.
+    """Hertz's solution for a rigid cylinder on an elastic half-space; F' in N/m, R in m, E in Pa.
 
-    Parameters
-    ----------
-    load_per_length, cylinder_radius, modulus : float, str or pint.Quantity
-        F', R and E: N/m, m and Pa.
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
-
-    References
-    ----------
-    K. L. Johnson, Contact Mechanics (1985), Eqs. 4.43-4.45.
+    K. L. Johnson, Contact Mechanics (1985), Eqs. 4.43-4.45.  Raises InputError if a value is not above zero, or
+    Poisson's ratio not between 0 and 0.5.
     """
     force = positive(load_per_length, "N/m", "load_per_length")
     radius = positive(cylinder_radius, "m", "cylinder_radius")
@@ -122,22 +81,12 @@ def hertz_line(
 
 @dataclass(frozen=True)
 class HertzEllipticContact:
-    """Hertz's contact of a body with two radii of curvature: the contact is an ellipse.
+    """Hertz's contact of a body with two radii of curvature: the contact is an ellipse."""
 
-    Attributes
-    ----------
-    semi_axis_x, semi_axis_y : float
-        Half the contact's size along x and along y, m; the larger radius of curvature has the larger one.
-    indentation : float
-        δ, m.
-    max_pressure : float
-        p0 = 3F/(2π × the product of the semi-axes), Pa.
-    """
-
-    semi_axis_x: float
-    semi_axis_y: float
-    indentation: float
-    max_pressure: float
+    semi_axis_x: float  # m, half the contact's size along x; larger along the larger radius of curvature
+    semi_axis_y: float  # m, half the contact's size along y
+    indentation: float  # δ, m
+    max_pressure: float  # p0 = 3F/(2π × the product of the semi-axes), Pa
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> Array:
         """Pressure p0 √(1 − x²/a_x² − y²/a_y²) at (x, y) from the axis, in m; Pa, zero outside the contact."""
@@ -151,29 +100,15 @@ def hertz_ellipse(
 ) -> HertzEllipticContact:
     """Hertz's solution for a rigid indenter of height x²/(2R_x) + y²/(2R_y) on an elastic half-space.
 
-    Parameters
-    ----------
-    load, radius_x, radius_y, modulus : float, str or pint.Quantity
-        F, R_x, R_y and E: N, m, m and Pa.
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, Poisson's ratio not between 0 and 0.5, or the radii are more than a factor of
-        1e9 apart (then it is a line contact).
-
-    Notes
-    -----
-    With a the larger semi-axis, b the smaller, g = b²/a², and R_F and R_D Carlson's symmetric elliptic integrals
-    (which, unlike differences of K and E, lose no digits for g near 1; DLMF 19.25.1)::
+    F in N, R_x and R_y in m, E in Pa.  With a the larger semi-axis, b the smaller, g = b²/a², and R_F and R_D Carlson's
+    symmetric elliptic integrals (which, unlike differences of K and E, lose no digits for g near 1; DLMF 19.25.1)::
 
         R_large/R_small = R_D(0, 1, g)/R_D(0, g, 1),    δ = p0 b R_F(0, g, 1)/E*,
         1/(2 R_large) = p0 b R_D(0, g, 1)/(3 a² E*),    p0 = 3F/(2π a b)
 
-    References
-    ----------
-    K. L. Johnson, Contact Mechanics (1985), Eqs. 4.24-4.27 (with e² = 1 − g).
+    K. L. Johnson, Contact Mechanics (1985), Eqs. 4.24-4.27 (with e² = 1 − g).  Raises InputError if a value is not
+    above zero, Poisson's ratio not between 0 and 0.5, or the radii are more than a factor of 1e9 apart (then it is a
+    line contact).
     """
     from scipy.optimize import brentq
     from scipy.special import elliprd, elliprf

@@ -59,34 +59,15 @@ _POSITIONS_AT_ONCE = 512
 
 @dataclass(frozen=True)
 class HunterContact:
-    """A cylinder rolling or sliding without friction towards +x over a material with one retardation time.
+    """A cylinder rolling or sliding without friction towards +x over a material with one retardation time."""
 
-    Attributes
-    ----------
-    half_width : float
-        Half the contact's width, m.
-    front, rear : float
-        Distances from the cylinder's axis to the leading and to the trailing edge, m; the rear edge lies ahead of the
-        axis where `rear` is negative.
-    friction_coefficient : float
-        μ = ∫ p x dx/(R F').
-    max_pressure : float
-        Pa.
-    modulus_ratio : float
-        k = E∞/E0.
-    memory_length : float
-        l = vτ/a0, a0 being the half-width of the Hertz contact at E0.
-    hertz : HertzLineContact
-        That contact.
-    """
-
-    half_width: float
-    front: float
-    rear: float
-    friction_coefficient: float
-    max_pressure: float
-    modulus_ratio: float
-    memory_length: float
+    half_width: float  # half the contact's width, m
+    front: float  # m, from the cylinder's axis to the leading edge
+    rear: float  # m, from the axis to the trailing edge, which lies ahead of the axis where `rear` is negative
+    friction_coefficient: float  # μ = ∫ p x dx/(R F')
+    max_pressure: float  # Pa
+    modulus_ratio: float  # k = E∞/E0
+    memory_length: float  # l = vτ/a0, with a0 the half-width of the Hertz contact at E0
     hertz: HertzLineContact = field(repr=False)
 
     def pressure(self, x: ArrayLike) -> Array:
@@ -108,39 +89,15 @@ def hunter_line(
     speed: Quantity,
     poisson_ratio: float,
 ) -> HunterContact:
-    """Exact steady line contact with a half-space of one retardation time.
+    """Exact steady line contact with a half-space of one retardation time; the cylinder moves towards +x.
 
-    Parameters
-    ----------
-    load_per_length : float, str or pint.Quantity
-        F', N/m.
-    radius : float, str or pint.Quantity
-        R of the cylinder, m.
-    E0, E_inf : float, str or pint.Quantity
-        Rubber and glass modulus, Pa.
-    tau : float, str or pint.Quantity
-        Retardation time, s (a standard linear solid's relaxation time is τ E0/E∞).
-    speed : float, str or pint.Quantity
-        v above zero, m/s; the cylinder moves towards +x.
-    poisson_ratio : float
+    F' (N/m), R (m), relaxed and glassy modulus (Pa), retardation time τ (s; a standard linear solid's relaxation time
+    is τ E0/E∞), v above zero (m/s).  Accurate to about 1e-14 (relative, the friction coefficient included), the
+    pressures to about 1e-14 of the largest, for E∞/E0 from 1.01 to 1e4 and vτ/a0 from 1e-6 to 1e6.  S. C. Hunter, J.
+    Appl. Mech. 28 (1961) 611.
 
-    Returns
-    -------
-    HunterContact
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, E∞ is less than E0 or more than 1e6 times E0, or vτ/a0 lies outside 1e-9 … 1e9.
-
-    Notes
-    -----
-    Right to about 1e-14 (relative, the friction coefficient included), the pressures to about 1e-14 of the largest,
-    for E∞/E0 from 1.01 to 1e4 and vτ/a0 from 1e-6 to 1e6.
-
-    References
-    ----------
-    S. C. Hunter, J. Appl. Mech. 28 (1961) 611.
+    Raises InputError if a value is not above zero, E∞ is less than E0 or more than 1e6 times E0, or vτ/a0 lies outside
+    1e-9 … 1e9.
     """
     hertz = hertz_line(load_per_length, radius, E0, poisson_ratio)
     ratio = plane_strain_modulus(E_inf, poisson_ratio, "E_inf") / plane_strain_modulus(E0, poisson_ratio, "E0")

@@ -20,21 +20,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FlatPunchContact:
-    """A flat-ended rigid cylinder pressed into an elastic half-space.
+    """A flat-ended rigid cylinder pressed into an elastic half-space."""
 
-    Attributes
-    ----------
-    radius : float
-        a, m.
-    indentation : float
-        δ, m.
-    load : float
-        F = 2aE*δ, N.
-    """
-
-    radius: float
-    indentation: float
-    load: float
+    radius: float  # a, m
+    indentation: float  # δ, m
+    load: float  # F = 2aE*δ, N
 
     def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
         """Pressure F/(2πa √(a² − r²)) at (x, y) from the axis, in m; Pa, infinite at the rim, zero outside."""
@@ -46,22 +36,10 @@ class FlatPunchContact:
 
 
 def flat_punch(indentation: Quantity, radius: Quantity, modulus: Quantity, poisson_ratio: float) -> FlatPunchContact:
-    """Sneddon's solution for a flat-ended cylinder.
+    """Sneddon's solution for a flat-ended cylinder; δ in m, a in m, E in Pa.
 
-    Parameters
-    ----------
-    indentation, radius, modulus : float, str or pint.Quantity
-        δ (m), a (m) and E (Pa).
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
-
-    References
-    ----------
     I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 6; K. L. Johnson, Contact Mechanics (1985), Eqs. 3.34-3.36.
+    Raises InputError if a value is not above zero, or Poisson's ratio not between 0 and 0.5.
     """
     depth, a = positive(indentation, "m", "indentation"), positive(radius, "m", "radius")
     return FlatPunchContact(a, depth, 2.0 * a * plane_strain_modulus(modulus, poisson_ratio) * depth)
@@ -69,21 +47,11 @@ def flat_punch(indentation: Quantity, radius: Quantity, modulus: Quantity, poiss
 
 @dataclass(frozen=True)
 class ConeContact:
-    """A rigid cone pressed into an elastic half-space.
+    """A rigid cone pressed into an elastic half-space."""
 
-    Attributes
-    ----------
-    radius : float
-        Contact radius a, m.
-    indentation : float
-        δ = πa s/2, with s the slope of the cone's flank, m.
-    mean_pressure : float
-        p̄ = E* s/2 at any load, Pa; at the tip the pressure is (logarithmically) infinite.
-    """
-
-    radius: float
-    indentation: float
-    mean_pressure: float
+    radius: float  # contact radius a, m
+    indentation: float  # δ = πa s/2, with s the slope of the cone's flank, m
+    mean_pressure: float  # p̄ = E* s/2 at any load, Pa; at the tip the pressure is (logarithmically) infinite
 
     def pressure(self, x: ArrayLike, y: ArrayLike = 0.0) -> Array:
         """Pressure p̄ arcosh(a/r) at (x, y) from the axis, in m; Pa, infinite at the tip, zero outside the contact."""
@@ -93,24 +61,11 @@ class ConeContact:
 
 
 def sneddon_cone(load: Quantity, slope: float, modulus: Quantity, poisson_ratio: float) -> ConeContact:
-    """Sneddon's solution for a cone of height s·r.
+    """Sneddon's solution for a cone of height s·r; F in N, E in Pa.
 
-    Parameters
-    ----------
-    load, modulus : float, str or pint.Quantity
-        F and E: N and Pa.
-    slope : float
-        s = ∂h/∂r, the cotangent of the half-angle at the tip; small, as in all of linear elasticity.
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
-
-    References
-    ----------
-    I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 5; K. L. Johnson, Contact Mechanics (1985), Sec. 5.2.
+    s = ∂h/∂r, the cotangent of the half-angle at the tip, is small, as in all of linear elasticity.  I. N. Sneddon,
+    Int. J. Eng. Sci. 3 (1965) 47, Sec. 5; K. L. Johnson, Contact Mechanics (1985), Sec. 5.2.  Raises InputError if a
+    value is not above zero, or Poisson's ratio not between 0 and 0.5.
     """
     force, steepness = positive(load, "N", "load"), positive(slope, "dimensionless", "slope")
     mean_pressure = 0.5 * plane_strain_modulus(modulus, poisson_ratio) * steepness
@@ -120,16 +75,10 @@ def sneddon_cone(load: Quantity, slope: float, modulus: Quantity, poisson_ratio:
 
 @dataclass(frozen=True)
 class PowerLawContact:
-    """A rigid punch of height B r^n pressed into an elastic half-space.
+    """A rigid punch of height B r^n pressed into an elastic half-space."""
 
-    Attributes
-    ----------
-    radius, indentation : float
-        Contact radius a and indentation δ, m.
-    """
-
-    radius: float
-    indentation: float
+    radius: float  # contact radius a, m
+    indentation: float  # δ, m
 
 
 def power_law_punch(
@@ -142,28 +91,10 @@ def power_law_punch(
 ) -> PowerLawContact:
     """Contact radius and indentation for a punch of height h = h1 (r/r1)^n: a cone, a paraboloid, ever flatter ends.
 
-    Parameters
-    ----------
-    load, height, reference_radius : float, str or pint.Quantity
-        F (N), and the height h1 of the punch at the radius r1 (m).  The paraboloid of a ball has n = 2, h1 = r1²/2R.
-    exponent : float
-        n above zero.
-    modulus : float, str or pint.Quantity
-        E, Pa.
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
-
-    Notes
-    -----
-    δ = h(a) √π Γ(n/2 + 1)/Γ(n/2 + 1/2) and F = 2E* a δ n/(n + 1).
-
-    References
-    ----------
-    L. A. Galin, Prikl. Mat. Mekh. 10 (1946) 425; I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47.
+    F in N, the height h1 at the radius r1 in m, n above zero, E in Pa; the paraboloid of a ball has n = 2, h1 = r1²/2R.
+    δ = h(a) √π Γ(n/2 + 1)/Γ(n/2 + 1/2) and F = 2E* a δ n/(n + 1).  L. A. Galin, Prikl. Mat. Mekh. 10 (1946) 425; I. N.
+    Sneddon, Int. J. Eng. Sci. 3 (1965) 47.  Raises InputError if a value is not above zero, or Poisson's ratio not
+    between 0 and 0.5.
     """
     n = positive(exponent, "dimensionless", "exponent")
     h1, r1 = positive(height, "m", "height"), positive(reference_radius, "m", "reference_radius")

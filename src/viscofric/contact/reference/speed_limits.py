@@ -27,27 +27,10 @@ if TYPE_CHECKING:
 def low_speed_friction(speed: Quantity, radius: Quantity, E0: Quantity, C: Quantities, tau: Quantities) -> float:
     """Friction coefficient for v → 0, the same for a ball and for a cylinder: μ = (v/R) E0 Σ C_k τ_k.
 
-    Parameters
-    ----------
-    speed, radius, E0 : float, str or pint.Quantity
-        v (m/s, either sign), R along the motion (m) and the rubber modulus (Pa).
-    C, tau : array
-        Compliances (1/Pa) and retardation times (s) of the modes.
-
-    Returns
-    -------
-    float
-        With the sign of the speed; independent of the load.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
-
-    Notes
-    -----
-    Range: v τ_k ≪ a0 for every mode that matters in the sum, a0 being the Hertz radius at E0.  The error is about
-    v τ/a0, relative (with one retardation time and a cylinder: −v τ/(2a0) for E∞ ≫ E0).
+    v in m/s, of either sign, which is that of μ; R along the motion, m; relaxed modulus, Pa; C_k in 1/Pa and τ_k in s.
+    Independent of the load.  Range: v τ_k ≪ a0 for every mode that matters in the sum, a0 being the Hertz radius at E0.
+    The error is about v τ/a0, relative (with one retardation time and a cylinder: −v τ/(2a0) for E∞ ≫ E0).  Raises
+    InputError if a value is out of range.
     """
     compliance, time = _modes(C, tau)
     rubber = positive(E0, "Pa", "E0")
@@ -67,29 +50,9 @@ def high_speed_friction(
 
     In units of the Hertz contact at E0, this is μR/a0 = (4/5) k^(1/3) Σ c_k/l_k with c_k = C_k E0, l_k = v τ_k/a0.
 
-    Parameters
-    ----------
-    speed : float, str or pint.Quantity
-        v, m/s; either sign, not zero.
-    load, radius, E_inf : float, str or pint.Quantity
-        F (N), R (m) and the glass modulus (Pa).
-    poisson_ratio : float
-    C, tau : array
-        Compliances (1/Pa) and retardation times (s) of the modes.
-
-    Returns
-    -------
-    float
-        With the sign of the speed.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
-
-    Notes
-    -----
-    a∞ is the Hertz radius at E∞.  Range: relaxation lengths v τ_k E0/E∞ ≫ a∞.
+    v in m/s, of either sign, which is that of μ, not zero; F in N, R in m, glassy modulus in Pa; C_k in 1/Pa and τ_k in
+    s.  a∞ is the Hertz radius at E∞.  Range: relaxation lengths v τ_k E0/E∞ ≫ a∞.  Raises InputError if a value is out
+    of range.
     """
     hertz = hertz_ball(load, radius, E_inf, poisson_ratio)
     compliance, time = _modes(C, tau)
@@ -110,30 +73,10 @@ def high_speed_line_friction(
 
     μ = (a∞²/2R) E∞ Σ C_k/(v τ_k) · [ln(2 v τ_k/a∞) + 1/4 − 0.5772…]
 
-    Parameters
-    ----------
-    speed : float, str or pint.Quantity
-        v, m/s; either sign, not zero.
-    load_per_length, radius, E_inf : float, str or pint.Quantity
-        F' (N/m), R (m) and the glass modulus (Pa).
-    poisson_ratio : float
-    C, tau : array
-        Compliances (1/Pa) and retardation times (s) of the modes.
-
-    Returns
-    -------
-    float
-        With the sign of the speed.
-
-    Raises
-    ------
-    InputError
-        If a value is out of range.
-
-    Notes
-    -----
-    a∞ is the half-width of the Hertz contact at E∞.  Range: v τ_k E0/E∞ ≫ a∞.  It is the limit of the exact solution
-    for one retardation time (`hunter_line`), summed over modes, since each acts by itself in first order.
+    v in m/s, of either sign, which is that of μ, not zero; F' in N/m, R in m, glassy modulus in Pa; C_k in 1/Pa and τ_k
+    in s.  a∞ is the half-width of the Hertz contact at E∞.  Range: v τ_k E0/E∞ ≫ a∞.  It is the limit of the exact
+    solution for one retardation time (`hunter_line`), summed over modes, since they are independent in first order.
+    Raises InputError if a value is out of range.
     """
     hertz = hertz_line(load_per_length, radius, E_inf, poisson_ratio)
     compliance, time = _modes(C, tau)

@@ -21,27 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class WavyContact:
-    """Elastic contact with the waves of height Δ(1 − cos 2πx/λ).
+    """Elastic contact with the waves of height Δ(1 − cos 2πx/λ)."""
 
-    Attributes
-    ----------
-    mean_pressure : float
-        p̄, Pa.
-    full_contact_pressure : float
-        p* = πE*Δ/λ, the mean pressure from which on contact is full, Pa.
-    wavelength : float
-        λ, m.
-    half_width : float
-        a, half the width of the contact on each crest, m; λ/2 in full contact.
-    max_pressure : float
-        On the crests, Pa.
-    """
-
-    mean_pressure: float
-    full_contact_pressure: float
-    wavelength: float
-    half_width: float
-    max_pressure: float
+    mean_pressure: float  # p̄, Pa
+    full_contact_pressure: float  # p* = πE*Δ/λ, the mean pressure from which on contact is full, Pa
+    wavelength: float  # λ, m
+    half_width: float  # a, half the width of the contact on each crest, m; λ/2 in full contact
+    max_pressure: float  # on the crests, Pa
 
     @property
     def area_fraction(self) -> float:
@@ -63,20 +49,9 @@ def westergaard(
 ) -> WavyContact:
     """Westergaard's solution for parallel waves on an elastic half-space, partial or full contact.
 
-    Parameters
-    ----------
-    mean_pressure, amplitude, wavelength, modulus : float, str or pint.Quantity
-        p̄ (Pa), Δ (m, half the height from trough to crest), λ (m) and E (Pa).
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
-
-    References
-    ----------
-    H. M. Westergaard, J. Appl. Mech. 6 (1939) A49; K. L. Johnson, Contact Mechanics (1985), Sec. 13.2.
+    p̄ in Pa, Δ (half the height from trough to crest) in m, λ in m, E in Pa.  H. M. Westergaard, J. Appl. Mech. 6
+    (1939) A49; K. L. Johnson, Contact Mechanics (1985), Sec. 13.2.  Raises InputError if a value is not above zero, or
+    Poisson's ratio not between 0 and 0.5.
     """
     mean, length = positive(mean_pressure, "Pa", "mean_pressure"), positive(wavelength, "m", "wavelength")
     full = math.pi * plane_strain_modulus(modulus, poisson_ratio) * positive(amplitude, "m", "amplitude") / length
@@ -88,27 +63,13 @@ def westergaard(
 
 @dataclass(frozen=True)
 class CrossedWaves:
-    """Elastic contact with crossed waves of height Δ(1 − cos(2πx/λ) cos(2πy/λ)): what is known in closed form.
+    """Elastic contact with crossed waves of height Δ(1 − cos(2πx/λ) cos(2πy/λ)): the limits known in closed form."""
 
-    Attributes
-    ----------
-    full_contact_pressure : float
-        p* = √2 πE*Δ/λ, the mean pressure from which on contact is full, Pa.
-    wavelength : float
-        λ, m; there are two crests on each area λ².
-    """
-
-    full_contact_pressure: float
-    wavelength: float
+    full_contact_pressure: float  # p* = √2 πE*Δ/λ, the mean pressure from which on contact is full, Pa
+    wavelength: float  # λ, m; there are two crests on each area λ²
 
     def full_pressure(self, mean_pressure: float, x: ArrayLike, y: ArrayLike) -> Array:
-        """Pressure in full contact at (x, y) from a crest, Pa.
-
-        Raises
-        ------
-        InputError
-            If the mean pressure (Pa) is below `full_contact_pressure`.
-        """
+        """Return the pressure (Pa) at (x, y) from a crest; InputError if contact is not full at this mean pressure."""
         if mean_pressure < self.full_contact_pressure:
             raise InputError(
                 f"mean_pressure = {mean_pressure:g} Pa: contact is full from "
@@ -132,21 +93,9 @@ class CrossedWaves:
 def crossed_waves(amplitude: Quantity, wavelength: Quantity, modulus: Quantity, poisson_ratio: float) -> CrossedWaves:
     """Full contact and both asymptotes of partial contact for crossed waves on an elastic half-space.
 
-    Parameters
-    ----------
-    amplitude, wavelength, modulus : float, str or pint.Quantity
-        Δ (m), λ (m) and E (Pa).
-    poisson_ratio : float
-
-    Raises
-    ------
-    InputError
-        If a value is not above zero, or Poisson's ratio not between 0 and 0.5.
-
-    References
-    ----------
-    K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383,
-    doi:10.1016/0020-7403(85)90029-3.
+    Δ in m, λ in m, E in Pa.  K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383,
+    doi:10.1016/0020-7403(85)90029-3.  Raises InputError if a value is not above zero, or Poisson's ratio not between 0
+    and 0.5.
     """
     length, height = positive(wavelength, "m", "wavelength"), positive(amplitude, "m", "amplitude")
     full = math.sqrt(2.0) * math.pi * plane_strain_modulus(modulus, poisson_ratio) * height / length
@@ -155,25 +104,13 @@ def crossed_waves(amplitude: Quantity, wavelength: Quantity, modulus: Quantity, 
 
 @dataclass(frozen=True)
 class FullContactWave:
-    """Parallel waves of height Δ(1 − cos qx) in full contact with a viscoelastic half-space, moving towards +x.
+    """Parallel waves of height Δ(1 − cos qx) in full contact with a viscoelastic half-space, moving towards +x."""
 
-    Attributes
-    ----------
-    mean_pressure : float
-        p̄, Pa.
-    in_phase, out_of_phase : float
-        p = p̄ + in_phase cos qx + out_of_phase sin qx, Pa: the parts of E' and E''.
-    wavenumber : float
-        q = 2π/λ, 1/m.
-    friction_coefficient : float
-        μ = (qΔ)² E''(qv)/(4(1−ν²) p̄).
-    """
-
-    mean_pressure: float
-    in_phase: float
-    out_of_phase: float
-    wavenumber: float
-    friction_coefficient: float
+    mean_pressure: float  # p̄, Pa
+    in_phase: float  # of p = p̄ + in_phase cos qx + out_of_phase sin qx, Pa: the part of E'
+    out_of_phase: float  # Pa, the part of E''
+    wavenumber: float  # q = 2π/λ, 1/m
+    friction_coefficient: float  # μ = (qΔ)² E''(qv)/(4(1−ν²) p̄)
 
     @property
     def full_contact_pressure(self) -> float:
@@ -195,23 +132,11 @@ def full_contact_wave(
 ) -> FullContactWave:
     """Full contact of parallel waves that slide over a viscoelastic half-space, exactly, at any speed.
 
-    Parameters
-    ----------
-    mean_pressure, amplitude, wavelength : float, str or pint.Quantity
-        p̄ (Pa), Δ (m) and λ (m).
-    complex_modulus : complex
-        E(ω) at ω = 2πv/λ, with E'' ≥ 0 as its imaginary part, Pa.
-    poisson_ratio : float
+    p̄ in Pa, Δ and λ in m; `complex_modulus` is E(ω) at ω = 2πv/λ, Pa, with E'' ≥ 0 as its imaginary part.  u = const +
+    Δ cos qx gives p̂ = q E(−qv) û/(2(1−ν²)), with E(−ω) = E' − iE''; and F_t is the mean of p ∂h/∂x.
 
-    Raises
-    ------
-    InputError
-        If a value is not above zero, the loss modulus is negative, Poisson's ratio is not between 0 and 0.5, or
-        contact is not full at this mean pressure.
-
-    Notes
-    -----
-    u = const + Δ cos qx gives p̂ = q E(−qv) û/(2(1−ν²)), with E(−ω) = E' − iE''; and F_t is the mean of p ∂h/∂x.
+    Raises InputError if a value is not above zero, the loss modulus is negative, Poisson's ratio is not between 0 and
+    0.5, or contact is not full at this mean pressure.
     """
     mean = positive(mean_pressure, "Pa", "mean_pressure")
     q = 2.0 * math.pi / positive(wavelength, "m", "wavelength")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
-# A lean of the pressure below it is rounding.
+# Friction from the pressure below it is rounding.
 _ROUND_OFF = 1e-12
 
 # Relative to the friction: a lateral one below it is what the solver's tolerance leaves of none.
