@@ -106,10 +106,12 @@ class Note(str):
         Its place, such as a file, a key of a run file or a condition; it precedes the text.
     remedy : Remedy, optional
         Follows the text.
+    values : mapping, optional
+        For programs: text, numbers and lists of these by name, such as the headings that a file has.
 
     Attributes
     ----------
-    code, text, where, remedy
+    code, text, where, remedy, values
         As given.
     """
 
@@ -117,16 +119,27 @@ class Note(str):
     text: str
     where: str
     remedy: Remedy | None
+    values: Mapping[str, Any]
 
-    def __new__(cls, code: str, text: str, where: str = "", remedy: Remedy | None = None) -> Note:
+    def __new__(
+        cls,
+        code: str,
+        text: str,
+        where: str = "",
+        remedy: Remedy | None = None,
+        values: Mapping[str, Any] | None = None,
+    ) -> Note:
         """Return the sentence with its code."""
         said = (f"{where}: " if where else "") + text + ("" if remedy is None else remedy.python)
         note = super().__new__(cls, said)
         note.code, note.text, note.where, note.remedy = code, str(text), where, remedy
+        note.values = dict(values or {})
         return note
 
-    def __getnewargs__(self) -> tuple[str, str, str, Remedy | None]:  # type: ignore[override]  # pickled with all
-        return self.code, self.text, self.where, self.remedy
+    def __getnewargs__(  # type: ignore[override]  # pickled with all
+        self,
+    ) -> tuple[str, str, str, Remedy | None, Mapping[str, Any]]:
+        return self.code, self.text, self.where, self.remedy, self.values
 
     def words(self, reader: Reader) -> str:
         """Return the sentence in the words of a reader."""
@@ -136,24 +149,26 @@ class Note(str):
 
     def at(self, where: str) -> Note:
         """Return the note with a wider place in front; an empty one changes nothing."""
-        return Note(self.code, self.text, ": ".join(filter(None, (where, self.where))), self.remedy)
+        return Note(self.code, self.text, ": ".join(filter(None, (where, self.where))), self.remedy, self.values)
 
     def coded(self, code: str) -> Note:
         """Return the note with another code."""
-        return Note(code, self.text, self.where, self.remedy)
+        return Note(code, self.text, self.where, self.remedy, self.values)
 
     def reworded(self, change: Callable[[str], str]) -> Note:
         """Return the note with its words changed, such as with the user's own file names."""
         remedy = None if self.remedy is None else self.remedy.reworded(change)
-        return Note(self.code, change(self.text), change(self.where), remedy)
+        return Note(self.code, change(self.text), change(self.where), remedy, self.values)
 
     def record(self) -> dict[str, Any]:
-        """Return the note as JSON: code and text, and place and remedy if there are any."""
+        """Return the note as JSON: code and text, and place, remedy and values if there are any."""
         found: dict[str, Any] = {"code": self.code, "text": self.text}
         if self.where:
             found["where"] = self.where
         if self.remedy is not None:
             found["remedy"] = {name: said for name, said in asdict(self.remedy).items() if said is not None}
+        if self.values:
+            found["values"] = dict(self.values)
         return found
 
 
@@ -170,7 +185,8 @@ def note_of(record: Mapping[str, Any] | str) -> Note:
     if isinstance(record, str):
         return Note("", record)
     remedy = record.get("remedy")
-    return Note(record["code"], record["text"], record.get("where", ""), None if remedy is None else Remedy(**remedy))
+    remedy = None if remedy is None else Remedy(**remedy)
+    return Note(record["code"], record["text"], record.get("where", ""), remedy, record.get("values"))
 
 
 def records(notes: Iterable[str]) -> list[dict[str, Any]]:

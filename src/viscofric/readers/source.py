@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from viscofric.arguments import insist_on
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, InputError, brief
 from viscofric.files import decoded
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +26,8 @@ class Source:
     data: bytes
     temperature: float | None = None  # of all points, K, if the file does not hold it
     modulus_unit: str = ""  # of the moduli, if the file does not name it
+    columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, in the user's words
+    sheet: str = ""  # of a workbook, the only one to read
 
     @cached_property
     def text(self) -> str | None:
@@ -39,6 +41,19 @@ class Source:
     def stem(self) -> str:
         """The file's name without folder and ending."""
         return Path(self.path).stem
+
+
+def insist_on_content(source: Source) -> None:
+    """Raise `DataFileError` if the file is empty."""
+    if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
+        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.", code="empty")
+
+
+def checked_sheet(sheet: object) -> str:
+    """Return the name of a sheet that the user asks for, "" for none, or raise `InputError`."""
+    if sheet is not None and not isinstance(sheet, str):
+        raise InputError(f"sheet = {brief(sheet)}: must be the name of a sheet as text.", code="wrong-sheet")
+    return sheet or ""
 
 
 def _marked(data: bytes) -> bytes:
@@ -59,7 +74,25 @@ LARGEST_FACTOR = 1e12
 #: Relative agreement of Hz and rad/s in one row, both printed with about two digits.
 PRINTED_FREQUENCY = 0.05
 
-_PRESSURE = re.compile(r"([kKMG])[pP]a")
+#: Units as people and instruments print them, in lower case -> as pint knows them.
+_SPELLINGS = {
+    one.casefold(): one
+    for one in (
+        ["Pa", "kPa", "MPa", "GPa", "psi", "ksi", "N", "kN", "mm/s", "cm/s", "m/s", "um/s", "Hz", "kHz", "1/Pa", "1/kPa", "1/MPa", "1/GPa", "s", "ms", "min", "mm", "cm", "m", "um"]
+    )
+} | {
+    "kpsi": "ksi",
+    "sec": "s",
+    "rpm": "revolutions_per_minute",
+    "n/mm²": "MPa",
+    "mn/m²": "MPa",
+    "kn/m²": "kPa",
+    "n/m²": "Pa",
+    "dyn/cm²": "dyn/cm²",
+    "dynes/cm²": "dyn/cm²",
+    "dyne/cm²": "dyn/cm²",
+    **{f"{force}/{length}²": f"kgf/{length}²" for force in ("kgf", "kp") for length in ("cm", "mm")},
+}
 _PREFIXES = {"m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6}
 
 
@@ -89,7 +122,7 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
 def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
     """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``).
 
-    ``Mpa`` is read as MPa: a capital M never means a thousandth.
+    A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, but ``mPa`` is not.
 
     Raises
     ------
@@ -98,10 +131,13 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     """
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
-    pressure = _PRESSURE.fullmatch(plain)
-    if pressure:
-        plain = pressure[1].replace("K", "k") + "Pa"
-    return conversion(plain, unit, name)
+    folded = plain.replace(" ", "").casefold()
+    try:
+        return conversion(plain, unit, name)
+    except InputError:
+        if folded not in _SPELLINGS:
+            raise
+        return conversion(_SPELLINGS[folded], unit, name)
 
 
 def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
@@ -111,7 +147,7 @@ def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
     either; an angular frequency in 1/s is in rad/s.
     """
     plain = unit.replace(" ", "")
-    if re.fullmatch(r"rad(/s|/sec|s\^?-1|·s⁻¹|s⁻¹|\*s\^-1)", plain):
+    if re.fullmatch(r"rad(/s|/sec|_s|s\^?-1|·s⁻¹|s⁻¹|[*.·]s\^?-1)", plain, re.IGNORECASE):
         return 1.0
     if re.fullmatch(r"1/s|s\^?-1|s⁻¹", plain):
         return 1.0 if angular else None

@@ -1,4 +1,4 @@
-"""Delimited text tables with a unit in every heading: decoded, split and checked cell by cell."""
+"""Tables of text with a unit in every heading: cells checked one by one, and columns found by what they hold."""
 
 from __future__ import annotations
 
@@ -6,27 +6,27 @@ import csv
 import math
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
-from viscofric.notes import Remedy
-from viscofric.readers.dma.names import quantity
+from viscofric.notes import Note, Remedy
+from viscofric.readers.headings import Column, heading
 from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Iterable, Sequence
     from os import PathLike
 
     from viscofric.arrays import Array, Integers
+    from viscofric.readers.headings import Vocabulary
+
+    #: Cells of one row, with its number in the file.
+    NumberedRow = tuple[int, Sequence[str]]
 
 
-# "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C": tried in this order.
-_BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
-_SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
-_UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>°?[CKF]|deg[CFK]|[mkM]?Hz|rad/s|[kMG]?Pa|m?N|[mc]?m/s|1/s)$")
 #: Printed by instruments and people in place of a number.
 MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n/a", "#n/a", "n.a.", "null", "none", "*"})
 
@@ -34,25 +34,6 @@ _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 _IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 # Units of temperature as printed by instruments, which pint would read as coulomb, farad or nothing.
 _TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
-
-_NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
-#: A longer heading is not parsed.
-_LONGEST_HEADING = 200
-
-
-@dataclass(frozen=True)
-class Column:
-    """One column's heading as printed, its name (single-spaced, all primes as ``'`` and ``''``) and its unit, or ""."""
-
-    heading: str
-    name: str
-    unit: str
-
-    @property
-    def unnumbered(self) -> str:
-        """The name without the number at its end: "traction force" of "traction force 2"; empty if it has none."""
-        match = _NUMBERED.fullmatch(self.name)
-        return match["name"] if match else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +45,9 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
     lines: Integers
     decimal_comma: bool
-    tools: tuple[tuple[str, str], ...] = ()  # label and value of what names the sample holder
+    above: tuple[tuple[str, ...], ...] = ()  # cells of the rows above the header, and of other sheets
+    empty_rows: int = 0  # left out, with none of the quantities that make a header
+    key: str = ""  # of the run file, for the user's own headings
 
     def headings(self) -> str:
         """Return the headings as one readable list, for error messages."""
@@ -127,22 +110,36 @@ class Table:
         if not column.unit:
             right = f"{column.name} ({example})"
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
-            raise DataFileError(self.path, problem, code="no-unit", remedy=(hint or Remedy("")) + ".")
+            raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
         text = column.unit
         if unit == "K":
             text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]|℃", "", text.replace("℃", "C")).lower(), text)
         try:
             return unit_conversion(text, unit, column.heading)
         except InputError:
-            raise DataFileError(
-                self.path,
-                f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}.",
-                code="wrong-unit",
-            ) from None
+            problem = f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}."
+            raise self.refused("wrong-unit", problem) from None
+
+    def refused(
+        self, code: str, problem: str, remedy: Remedy | None = None, missing: Iterable[str] = ()
+    ) -> DataFileError:
+        """Return an error about the header, whose values let a program ask for the columns; see `header_values`."""
+        known = {column.quantity: column.heading for column in self.columns if column.quantity}
+        values = header_values([column.heading for column in self.columns], missing, known, self.key)
+        return DataFileError(self.path, Note(code, problem, remedy=remedy, values=values))
 
     def unused(self, used: Collection[int]) -> list[Column]:
         """Return the columns with a name at all other places."""
         return [column for place, column in enumerate(self.columns) if place not in used and column.name]
+
+    def place(self, what: str) -> int | None:
+        """Return the place of the one column of a quantity, or None; several such columns are an error."""
+        found = [place for place, column in enumerate(self.columns) if column.quantity == what]
+        return self._one_of(found, what)
+
+    def has(self, what: str) -> bool:
+        """Return whether a column holds a quantity."""
+        return any(column.quantity == what for column in self.columns)
 
     def find(self, names: frozenset[str], what: str) -> int | None:
         """Return the place of the one column whose name is among `names`, or None.
@@ -155,11 +152,13 @@ class Table:
             for place, column in enumerate(self.columns)
             if column.name in names or (len(column.name) > 1 and column.name.lower() in names)
         ]
+        return self._one_of(found, what)
+
+    def _one_of(self, found: list[int], what: str) -> int | None:
         if len(found) > 1:
             both = " and ".join(repr(self.columns[place].heading) for place in found)
-            raise DataFileError(
-                self.path, f"{both} could each be the {what}; keep one of them.", code="ambiguous-columns"
-            )
+            problem = f"{both} could each be the {what}; keep one of them"
+            raise self.refused("ambiguous-columns", problem, or_name_it(self.key, what, self.columns[found[0]].heading))
         return found[0] if found else None
 
 
@@ -203,36 +202,74 @@ def text_lines(text: str) -> list[tuple[int, str]]:
 
 
 def make_table(
-    path: str, columns: tuple[Column, ...], numbered: Sequence[tuple[int, Sequence[str]]], *, comma_is_free: bool = True
+    path: str,
+    columns: tuple[Column, ...],
+    numbered: Sequence[NumberedRow],
+    *,
+    comma_is_free: bool = True,
+    vocabulary: Vocabulary | None = None,
 ) -> Table:
     """Return a table of numbered rows under their headings; `comma_is_free`: a comma may be a decimal comma.
+
+    Rows without any cell, or with none in the columns of the quantities that make a header, are left out.
 
     Raises
     ------
     DataFileError
         If there is no row, a row differs in length from the header, or commas may separate decimals or thousands.
     """
-    rows = []
+    needed = {what for some in vocabulary.needed for what in some} if vocabulary else set()
+    places = [place for place, column in enumerate(columns) if column.quantity in needed]
+    rows, lines, empty = [], [], 0
     for number, row in numbered:
         cells = list(row)
         while len(cells) > len(columns) and not cells[-1].strip():  # delimiters that close a row
             cells.pop()
+        if not any(cell.strip() for cell in cells):
+            continue
         if len(cells) != len(columns):
             problem = f"the row has {len(cells)} cells where the header names {len(columns)} columns."
             raise DataFileError(path, problem, number, code="row-length")
+        if places and not any(cells[place].strip() for place in places):
+            empty += 1
+            continue
         rows.append(tuple(cells))
+        lines.append(number)
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")
     # a remark may contain any comma; a pure number, such as a coefficient of friction, has no unit
     measured = [
         place
         for place, column in enumerate(columns)
-        if column.unit or quantity(column.name) or all(_IS_NUMBER.fullmatch(row[place].strip()) for row in rows)
+        if column.unit or column.quantity or all(_IS_NUMBER.fullmatch(row[place].strip()) for row in rows)
     ]
-    lines = [number for number, _ in numbered]
     printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
     comma = comma_is_free and decimal_comma(path, printed)
-    return Table(path, columns, tuple(rows), np.array(lines, dtype=np.int64), comma)
+    key = vocabulary.key if vocabulary else ""
+    return Table(path, columns, tuple(rows), np.array(lines, dtype=np.int64), comma, empty_rows=empty, key=key)
+
+
+def header_values(
+    headings: Sequence[str], missing: Iterable[str] = (), known: dict[str, str] | None = None, key: str = ""
+) -> dict[str, Any]:
+    """Return the values of an error about a header: headings found, quantities missing, those recognised, and the key.
+
+    ``{"headings": ["f in Hz", …], "missing": ["frequency"], "known": {"temperature": "T"}, "key": "material.columns"}``
+    """
+    return {"headings": list(headings), "missing": list(missing), "known": dict(known or {}), "key": key}
+
+
+def or_name_it(key: str, what: str, said: str) -> Remedy:
+    """Return the end of a sentence: the column can be named by the user, for each reader."""
+    name = what.replace(" ", "_")
+    shown = repr(said)
+    return Remedy(
+        f", or name it: columns={{{name!r}: {shown}}}.",
+        f", or name it: --column {name}={shown}.",
+        f", or name it: columns = {{ {name} = {shown} }} under [{key.partition('.')[0]}].",
+        ", or choose the columns below.",
+        key or None,
+    )
 
 
 def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
@@ -241,18 +278,3 @@ def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
         return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
     except csv.Error as error:
         raise DataFileError(path, f"the row cannot be split into cells ({error}).", number, code="row-length") from None
-
-
-def heading(text: str) -> Column:
-    """Split a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``."""
-    text = text.strip()
-    if len(text) > _LONGEST_HEADING:
-        return Column(text, text, "")
-    plain = re.sub(r"[’′‘`´]", "'", text).replace("″", "''").replace("”", "''").replace('"', "''")
-    name, unit = plain, ""
-    for pattern in (_BRACKETED, _SLASHED, _UNDERSCORED):
-        match = pattern.match(plain)
-        if match:
-            name, unit = match["name"], match["unit"]
-            break
-    return Column(text, " ".join(name.replace("_", " ").split()), unit)

@@ -10,14 +10,17 @@ import numpy as np
 from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
-from viscofric.readers.dma.names import NOT_SAID
+from viscofric.notes import setting
+from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import delimited, dma_table, reptate, workbook
-from viscofric.readers.source import Source, unit_conversion
+from viscofric.readers.source import Source, checked_sheet, unit_conversion
+from viscofric.readers.tables import find_tables
 from viscofric.units import checked_poisson_ratio, conversion, positive, shown_celsius
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from os import PathLike
 
     from viscofric.arrays import Array, Integers
@@ -41,6 +44,8 @@ def read_master_curve(
     poisson_ratio: float = 0.5,
     *,
     modulus_unit: str | None = None,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
 ) -> MasterCurve:
     r"""Read a master curve: moduli over reduced frequency at one reference temperature.
 
@@ -57,6 +62,10 @@ def read_master_curve(
         ν of E = 2(1+ν)G, for moduli in shear.
     modulus_unit : str, optional
         Of the moduli, where the headings have none.
+    columns : mapping, optional
+        Headings that are not understood, by quantity, as for `read_dma`: ``{"frequency": "w (rad/s)"}``.
+    sheet : str, optional
+        Name of the sheet of a workbook.
 
     Returns
     -------
@@ -87,8 +96,8 @@ def read_master_curve(
     ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
-    source = Source(str(path), read_bytes(path), modulus_unit=modulus_unit or "")
-    if reptate.recognises(source):
+    source = Source(str(path), read_bytes(path), None, modulus_unit or "", DMA.checked(columns), checked_sheet(sheet))
+    if not source.columns and reptate.recognises(source):
         said: Deformation | None = "shear"  # RepTate has G' and G'' only
         frequency, storage, loss, temperature = _of_reptate(source, kelvin)
     else:
@@ -105,15 +114,14 @@ def read_master_curve(
 def _table(source: Source) -> Table:
     """Return the one table of a text file or a workbook."""
     found = format_of(source)
-    if found.NAME == delimited.NAME:
-        return delimited.delimited_table(source)
-    if found.NAME != workbook.NAME:
+    if found.NAME not in (delimited.NAME, workbook.NAME):
         problem = f"is a file of an instrument ({found.NAME}), not a table of a master curve"
         raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
-    tables = workbook.tables(source)
+    tables = find_tables(source, DMA)
     if len(tables) > 1:
-        problem = f"the sheets {', '.join(map(repr, tables))} each contain a table with moduli; keep one of them."
-        raise DataFileError(source.path, problem, code="several-tables")
+        problem = f"the sheets {', '.join(map(repr, tables))} each contain a table with moduli; choose one with "
+        remedy = setting("material.sheet", "Sheet", repr(next(iter(tables)))) + "."
+        raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
     return next(iter(tables.values()))
 
 
@@ -123,7 +131,7 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
     frequency = dma_table.angular_frequency(table, places, doubts)
     if doubts:  # a master curve carries no notes
         heading = table.columns[places["frequency"]].heading
-        raise DataFileError(table.path, f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.", code="no-unit")
+        raise table.refused("no-unit", f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.")
     dma_table.insist_on_one_frequency(table, places, frequency)
     storage, loss = dma_table.moduli(table, places, source, [])
     temperature = np.full(len(frequency), reference)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from typing import TYPE_CHECKING
 
 from viscofric.notes import Note, setting
+from viscofric.readers.headings import Vocabulary
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -83,21 +83,31 @@ STRAIN_AMPLITUDE = frozenset(
 )
 STEP = frozenset({"set", "step", "segment", "interval", "sweep", "schritt", "abschnitt", "intervalle", "étape", "paso"})
 
-#: Name of a quantity in errors -> names of its columns.
-QUANTITIES = {
-    "temperature": TEMPERATURE,
-    "set temperature": SET_TEMPERATURE,
-    "angular frequency": ANGULAR_FREQUENCY,
-    "frequency": FREQUENCY,
-    "reduced angular frequency": REDUCED_ANGULAR_FREQUENCY,
-    "reduced frequency": REDUCED_FREQUENCY,
-    "storage modulus": STORAGE_MODULUS,
-    "loss modulus": LOSS_MODULUS,
-    "complex modulus": COMPLEX_MODULUS,
-    "tan delta": LOSS_TANGENT,
-    "strain amplitude": STRAIN_AMPLITUDE,
-    "step": STEP,
-}
+#: The words of DMA tables: name of a quantity in errors -> names of its columns.
+DMA = Vocabulary(
+    "a DMA table",
+    {
+        "temperature": TEMPERATURE,
+        "frequency": FREQUENCY,
+        "storage modulus": STORAGE_MODULUS,
+        "loss modulus": LOSS_MODULUS,
+        "complex modulus": COMPLEX_MODULUS,
+        "tan delta": LOSS_TANGENT,
+        "angular frequency": ANGULAR_FREQUENCY,
+        "reduced frequency": REDUCED_FREQUENCY,
+        "reduced angular frequency": REDUCED_ANGULAR_FREQUENCY,
+        "set temperature": SET_TEMPERATURE,
+        "isotherm": ISOTHERM,
+        "strain amplitude": STRAIN_AMPLITUDE,
+        "step": STEP,
+    },
+    needed=(
+        ("frequency", "angular frequency", "reduced frequency", "reduced angular frequency"),
+        ("storage modulus", "loss modulus", "complex modulus"),
+    ),
+    example="a DMA table has e.g. 'temperature (degC)', 'frequency (Hz)', 'storage modulus (MPa)', "
+    "'loss modulus (MPa)'",
+)
 
 # "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.
 _TEMPERATURE_IN_NAME = re.compile(
@@ -107,12 +117,8 @@ _TEMPERATURE_IN_NAME = re.compile(
 
 
 def quantity(name: str) -> str | None:
-    """Return the quantity, a key of `QUANTITIES`, that a heading without its unit names, or None."""
-    plain = unicodedata.normalize("NFC", name)
-    for what, names in QUANTITIES.items():
-        if plain in names or (len(plain) > 1 and plain.lower() in names):
-            return what
-    return None
+    """Return the quantity of `DMA` that a heading without its unit names, or None."""
+    return DMA.quantity(name) or None
 
 
 def temperature_in_name(name: str) -> float | None:

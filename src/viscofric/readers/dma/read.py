@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
+from viscofric.notes import Remedy
 from viscofric.readers.dma.instruments import (
     eplexor,
     mettler,
@@ -18,13 +19,15 @@ from viscofric.readers.dma.instruments import (
     universal_analysis,
 )
 from viscofric.readers.dma.isotherms import traced_sweeps
-from viscofric.readers.dma.names import NOT_SAID
+from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.tables import delimited, reptate, workbook
-from viscofric.readers.source import Source, unit_conversion
+from viscofric.readers.mtm.delimited import TRACTION
+from viscofric.readers.source import Source, checked_sheet, insist_on_content, unit_conversion
+from viscofric.readers.tables import holds_table, no_header
 from viscofric.units import kelvin_hint, positive, shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from os import PathLike
 
     from viscofric.data import Deformation, IsothermalSweeps
@@ -63,16 +66,38 @@ FORMATS: tuple[Format, ...] = (
 
 def format_of(source: Source) -> Format:
     """Return the format of a file, or raise `DataFileError` if the file is empty or no format recognises it."""
+    insist_on_content(source)
+    if source.columns or source.sheet:  # the user knows the columns of a table better than any format
+        return workbook if workbook.recognises(source) else delimited
     for one in FORMATS:
         if one.recognises(source):
             return one
-    if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
-        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.", code="empty")
     if source.text is None:
-        what = "is a binary file of an unknown format"
-    else:
-        what = "has no columns named as a modulus and a frequency"
-    raise DataFileError(source.path, f"{what}. Supported formats: {known()}.", code="unknown-format")
+        problem = f"is a binary file of an unknown format. Supported formats: {known()}."
+        raise DataFileError(source.path, problem, code="unknown-format")
+    _refuse_traction(source)
+    refusal = no_header(source, DMA)
+    if not refusal.note.values["headings"]:
+        problem = f"has no columns named as a modulus and a frequency. Supported formats: {known()}."
+        raise DataFileError(source.path, problem, code="unknown-format")
+    raise refusal
+
+
+def _refuse_traction(source: Source) -> None:
+    """Raise `DataFileError` if a text is a table of traction runs."""
+    if holds_table(source, TRACTION):
+        raise DataFileError(
+            source.path,
+            "this is a table of traction runs, not of DMA sweeps",
+            code="traction-runs",
+            remedy=Remedy(
+                "; use read_mtm, or name it as mtm under [measurement] of a run file.",
+                "; viscofric measure reads it, and as mtm under [measurement] a run file.",
+                "; name it as mtm under [measurement].",
+                "; drop it under “Measurement”.",
+                "material.dma",
+            ),
+        )
 
 
 def known() -> str:
@@ -86,6 +111,8 @@ def read_dma(
     deformation: Deformation | None = None,
     temperature: Quantity | Sequence[Quantity | None] | None = None,
     modulus_unit: str | None = None,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
 ) -> IsothermalSweeps:
     """Read frequency sweeps at several temperatures from files of a dynamic mechanical analyser or a rheometer.
 
@@ -104,6 +131,14 @@ def read_dma(
         (``foam_-25C.csv``), with a note.
     modulus_unit : str, optional
         For files without the unit of their moduli, such as ``"MPa"``.
+    columns : mapping, optional
+        Headings of columns whose names are not understood, by quantity: ``{"frequency": "f in Hz"}``.  A heading is
+        written as in the file, without regard to case, or as the number of a column (``"#2"``); a unit that the file
+        does not state follows in brackets (``"#2 (Hz)"``) and counts instead of that of the file.  Quantities are
+        temperature, frequency, storage_modulus, loss_modulus, complex_modulus, tan_delta, strain_amplitude and step;
+        columns not named here are recognised as without it.
+    sheet : str, optional
+        Name of the only sheet of a workbook to read.
 
     Returns
     -------
@@ -129,7 +164,14 @@ def read_dma(
     >>> len(sweeps.isotherms), sweeps.isotherms[0].storage_modulus.shape
     (26, (17,))
     """
-    traced = trace_dma(*paths, deformation=deformation, temperature=temperature, modulus_unit=modulus_unit)
+    traced = trace_dma(
+        *paths,
+        deformation=deformation,
+        temperature=temperature,
+        modulus_unit=modulus_unit,
+        columns=columns,
+        sheet=sheet,
+    )
     if not traced.deformation_known:
         raise DataFileError(traced.sweeps.source, NOT_SAID)
     return traced.sweeps
@@ -140,6 +182,8 @@ def trace_dma(
     deformation: Deformation | None = None,
     temperature: Quantity | Sequence[Quantity | None] | None = None,
     modulus_unit: str | None = None,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
 ) -> TracedSweeps:
     """Read the same as `read_dma`, and return the sweeps with every reading of the files.
 
@@ -151,8 +195,10 @@ def trace_dma(
     given = _temperatures(temperature, len(files))
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
+    asked, one_sheet = DMA.checked(columns), checked_sheet(sheet)
     sources = [
-        Source(path, _bytes(path), kelvin, modulus_unit or "") for path, kelvin in zip(files, given, strict=True)
+        Source(path, _bytes(path), kelvin, modulus_unit or "", asked, one_sheet)
+        for path, kelvin in zip(files, given, strict=True)
     ]
     _insist_on_different(sources)
     readings = [_read(source) for source in sources]

@@ -7,42 +7,53 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Note, Remedy, setting
+from viscofric.readers.dma.names import DMA
+from viscofric.readers.headings import Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
-from viscofric.readers.table import Column, Table, table_of_text
+from viscofric.readers.tables import find_tables, holds_table, name_columns
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
+    from viscofric.readers.headings import Column
     from viscofric.readers.source import Source
+    from viscofric.readers.table import Table
 
 
 NAME = "delimited text, one reading per row"
 
-#: Required columns: known names, and the SI unit.
-COLUMNS = {
-    "disc speed": (frozenset({"disc speed", "disk speed", "u disc", "u disk"}), "m/s"),
-    "ball speed": (frozenset({"ball speed", "u ball"}), "m/s"),
-    "traction force": (frozenset({"traction force", "traction"}), "N"),
-    "load": (frozenset({"load", "ball load", "normal load", "normal force"}), "N"),
-    "temperature": (frozenset({"T", "temp", "temp.", "temperature"}), "K"),
-}
-#: Optional columns; cells may be empty.
-OPTIONAL = {
-    "zero force": (frozenset({"zero force", "zero traction force"}), "N"),
-    "time": (frozenset({"t", "time", "step time"}), "s"),
-    "track radius": (frozenset({"track radius", "disc track radius"}), "m"),
-}
-REPLICATE = frozenset({"replicate", "repetition", "repeat"})
-STEP = frozenset({"step", "step number"})
+#: The words of tables of traction runs: quantity -> names of its columns.
+TRACTION = Vocabulary(
+    "a table of traction runs",
+    {
+        "temperature": frozenset({"T", "temp", "temp.", "temperature"}),
+        "disc speed": frozenset({"disc speed", "disk speed", "u disc", "u disk"}),
+        "ball speed": frozenset({"ball speed", "u ball"}),
+        "load": frozenset({"load", "ball load", "normal load", "normal force"}),
+        "traction force": frozenset({"traction force", "traction"}),
+        "zero force": frozenset({"zero force", "zero traction force"}),
+        "time": frozenset({"t", "time", "step time"}),
+        "track radius": frozenset({"track radius", "disc track radius"}),
+        "replicate": frozenset({"replicate", "repetition", "repeat"}),
+        "step": frozenset({"step", "step number"}),
+    },
+    needed=(("disc speed", "ball speed"), ("traction force",)),
+    example="a table of traction runs has e.g. 'temperature (degC)', 'disc speed (mm/s)', 'ball speed (mm/s)', "
+    "'load (N)', 'traction force (N)'",
+    key="measurement.columns",
+)
+#: Quantity -> SI unit; the optional ones may have empty cells.
+REQUIRED = {"disc speed": "m/s", "ball speed": "m/s", "traction force": "N", "load": "N", "temperature": "K"}
+OPTIONAL = {"zero force": "N", "time": "s", "track radius": "m"}
 
 LARGEST_COUNT = 1e9
 
 
 def read(source: Source) -> TractionReadings:
     """Return the rows of a table, or raise `DataFileError`."""
-    table = table_of_text(source.path, source.text or "")
+    table = _table(source)
     places = _columns(table)
-    values = {name: table.values(places[name], unit) for name, (_, unit) in COLUMNS.items()}
+    values = {name: table.values(places[name], unit) for name, unit in REQUIRED.items()}
     for name, limit in (("load", "zero"), ("temperature", "absolute zero")):
         _insist_on_positive(table, places[name], values[name], limit)
     notes = _unused(table, places)
@@ -58,48 +69,59 @@ def read(source: Source) -> TractionReadings:
         load=values["load"],
         temperature=values["temperature"],
         row=np.arange(len(table.rows)),
-        replicate=_whole_numbers(table, REPLICATE, "replicate"),
+        replicate=_whole_numbers(table, "replicate"),
         zero_force=optional["zero force"],
         time=time,
         track_radius=optional["track radius"],
-        step=_whole_numbers(table, STEP, "step"),
+        step=_whole_numbers(table, "step"),
         notes=notes,
     )
 
 
+def _table(source: Source) -> Table:
+    """Return the one table of a text or a workbook."""
+    _refuse_sweeps(source)
+    tables = find_tables(source, TRACTION)
+    if len(tables) > 1:
+        problem = f"the sheets {', '.join(map(repr, tables))} each contain a table of traction runs; choose one with "
+        remedy = setting("measurement.sheet", "Sheet", repr(next(iter(tables)))) + "."
+        raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
+    return next(iter(tables.values()))
+
+
+def _refuse_sweeps(source: Source) -> None:
+    """Raise `DataFileError` if a file is a table of DMA sweeps."""
+    if not source.columns and holds_table(source, DMA) and not holds_table(source, TRACTION):
+        raise DataFileError(
+            source.path,
+            "this is a table of DMA sweeps, not of traction runs",
+            code="dma-sweeps",
+            remedy=Remedy(
+                "; use read_dma, or name it as dma under [material] of a run file.",
+                "; viscofric material reads it, and as dma under [material] a run file.",
+                "; name it as dma under [material].",
+                "; drop it at the step “Data”.",
+                "measurement.mtm",
+            ),
+        )
+
+
 def _columns(table: Table) -> dict[str, int]:
-    places = {name: table.find(names, name) for name, (names, _) in COLUMNS.items()}
+    places = {name: table.place(name) for name in REQUIRED}
     missing = [name for name, place in places.items() if place is None]
     if missing:
-        if any("loss" in c.name.lower() or "''" in c.name for c in table.columns):
-            raise DataFileError(
-                table.path,
-                "this is a table of DMA sweeps, not of traction runs",
-                code="dma-sweeps",
-                remedy=Remedy(
-                    "; use read_dma, or name it as dma under [material] of a run file.",
-                    "; viscofric material reads it, and as dma under [material] a run file.",
-                    "; name it as dma under [material].",
-                    "; drop it at the step “Data”.",
-                    "measurement.mtm",
-                ),
-            )
-        raise DataFileError(
-            table.path,
-            f"no column for {' or '.join(missing)}; a table of traction runs has e.g. 'temperature (degC)', "
-            f"'disc speed (mm/s)', 'ball speed (mm/s)', 'load (N)', 'traction force (N)', "
-            f"this one has {table.headings()}.",
-            code="missing-columns",
-        )
+        problem = f"no column for {' or '.join(missing)}; {TRACTION.example}, this one has {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(table.key, missing), missing)
     return {name: place for name, place in places.items() if place is not None}
 
 
 def _unused(table: Table, places: dict[str, int]) -> tuple[str, ...]:
     """Return a note on unread columns; refuse numbered forces and speeds, which are separate readings."""
-    known = [names for names, _ in OPTIONAL.values()] + [REPLICATE, STEP]
-    others = [place for names in known if (place := table.find(names, min(names))) is not None]
+    others = [place for name in (*OPTIONAL, "replicate", "step") if (place := table.place(name)) is not None]
     unused = table.unused([*places.values(), *others])
-    readings = frozenset().union(*(COLUMNS[name][0] for name in ("traction force", "disc speed", "ball speed")), {"tf"})
+    readings = frozenset[str]().union(
+        *(TRACTION.quantities[name] for name in ("traction force", "disc speed", "ball speed")), {"tf"}
+    )
     numbered = [column for column in unused if column.unnumbered.lower() in readings]
     if numbered:
         raise DataFileError(
@@ -116,11 +138,10 @@ def _named(columns: list[Column]) -> str:
 
 
 def _optional(table: Table, name: str) -> Array | None:
-    names, unit = OPTIONAL[name]
-    place = table.find(names, name)
+    place = table.place(name)
     if place is None:
         return None
-    factor, offset = table.conversion(table.columns[place], unit)
+    factor, offset = table.conversion(table.columns[place], OPTIONAL[name])
     values = factor * table.numbers_or_missing(place) + offset
     if name == "track radius":
         _insist_on_positive(table, place, values, "zero")
@@ -140,8 +161,8 @@ def _insist_on_positive(table: Table, place: int, values: Array, limit: str) -> 
         )
 
 
-def _whole_numbers(table: Table, names: frozenset[str], what: str) -> Integers | None:
-    place = table.find(names, what)
+def _whole_numbers(table: Table, what: str) -> Integers | None:
+    place = table.place(what)
     if place is None:
         return None
     numbers = table.numbers(place)

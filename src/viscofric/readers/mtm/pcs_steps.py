@@ -8,8 +8,9 @@ from datetime import datetime
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError, InputError
+from viscofric.readers.headings import heading
 from viscofric.readers.source import decimal_comma, unit_conversion
-from viscofric.readers.table import MISSING, heading
+from viscofric.readers.table import MISSING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -10,11 +10,11 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
+from viscofric.readers.headings import heading
 from viscofric.readers.mtm.pcs_rows import SIGNALS, notes, rows_of
 from viscofric.readers.mtm.pcs_steps import number_of, parse, start_times
 from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.source import unit_conversion
-from viscofric.readers.table import heading
 from viscofric.traction import TractionStep
 from viscofric.units import shown_celsius
 

@@ -14,11 +14,12 @@ from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.notes import Note, note_of
 from viscofric.readers.mtm import delimited, pcs_text
-from viscofric.readers.source import Source
+from viscofric.readers.source import Source, checked_sheet, insist_on_content
+from viscofric.readers.workbook import is_workbook
 from viscofric.traction import TractionRuns, TractionStep, notes_on_friction
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from os import PathLike
 
     from viscofric.arrays import Array, Integers
@@ -27,11 +28,10 @@ if TYPE_CHECKING:
 
 def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:
     """Return the readings of a file, or raise `DataFileError` for an empty, binary or damaged one."""
-    if not source.data.strip(b"\0 \t\r\n\xef\xbb\xbf\xff\xfe"):
-        raise DataFileError(source.path, "the file is empty; it must hold a header and rows of numbers.", code="empty")
+    insist_on_content(source)
     if pcs_text.recognises(source):
         return pcs_text.read(source, thermometer)
-    if source.text is None:
+    if source.text is None and not is_workbook(source):
         what = f"Supported formats: {pcs_text.NAME} and {delimited.NAME}"
         raise DataFileError(source.path, f"is a binary file of an unknown format. {what}.", code="unknown-format")
     return delimited.read(source)
@@ -45,7 +45,12 @@ def format_name(source: Source) -> str:
 _MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature")
 
 
-def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> TractionRuns:
+def read_mtm(
+    *paths: str | PathLike[str],
+    thermometer: Thermometer = "lube",
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
+) -> TractionRuns:
     """Read signed traction readings from one or several files of a tribometer (MTM, ETM or your own tables).
 
     The format is recognised by the content, never by the name: text exports of PCS Instruments' MTM and ETM, and text
@@ -59,6 +64,12 @@ def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> 
     thermometer : {"lube", "pot"}
         Which of an export's thermometers to use: that in the lubricant, nearer to the contact, or that of the pot.
         If a file has only one of them, that one is used, with a note.
+    columns : mapping, optional
+        Headings of a table that are not understood, by quantity, as for `read_dma`: ``{"disc_speed": "V1 (m/s)"}``.
+        Quantities are temperature, disc_speed, ball_speed, load, traction_force, zero_force, time, track_radius,
+        replicate and step.
+    sheet : str, optional
+        Name of the sheet of a workbook.
 
     Returns
     -------
@@ -113,7 +124,8 @@ def read_mtm(*paths: str | PathLike[str], thermometer: Thermometer = "lube") -> 
     for place, path in enumerate(files):
         if any(Path(path).resolve() == Path(other).resolve() for other in files[:place] if "\0" not in path + other):
             raise DataFileError(path, "is given twice; name each file once.", code="given-twice")
-    parts = [read_file(Source(path, read_bytes(path)), thermometer) for path in files]
+    asked, one_sheet = delimited.TRACTION.checked(columns), checked_sheet(sheet)
+    parts = [read_file(Source(path, read_bytes(path), columns=asked, sheet=one_sheet), thermometer) for path in files]
     for place, part in enumerate(parts):
         for other in parts[:place]:
             if part.same_as(other):

@@ -17,9 +17,9 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
 from viscofric.processes import LimitedProcess
-from viscofric.readers.dma.tables.workbook import is_workbook, sheets
 from viscofric.readers.source import Source
 from viscofric.readers.topography.scan import Asked, Scan, name_of
+from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.units import conversion
 
 if TYPE_CHECKING:

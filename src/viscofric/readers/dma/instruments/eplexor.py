@@ -22,8 +22,8 @@ from viscofric.readers.dma.instruments.eplexor_master import (
     shift_list,
 )
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.dma.tables.workbook import sheet_names, sheets
 from viscofric.readers.source import LARGEST_FACTOR, decimal_comma, unit_conversion
+from viscofric.readers.workbook import sheet_names, sheets
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:

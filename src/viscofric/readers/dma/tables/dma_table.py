@@ -15,6 +15,7 @@ from viscofric.readers.dma.names import deformation_of, quantity, said_by_column
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
 from viscofric.readers.table import MISSING
+from viscofric.readers.tables import name_columns
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
@@ -37,16 +38,11 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     DataFileError
         If there is no frequency, or the columns do not give both moduli.
     """
-    found = {
-        "temperature": table.find(names.TEMPERATURE, "temperature"),
-        "frequency": _frequency_place(table, master_curve=master_curve),
-        "storage modulus": table.find(names.STORAGE_MODULUS, "storage modulus"),
-        "loss modulus": table.find(names.LOSS_MODULUS, "loss modulus"),
-        "complex modulus": table.find(names.COMPLEX_MODULUS, "complex modulus"),
-        "tan delta": table.find(names.LOSS_TANGENT, "tan delta"),
-    }
+    wanted = ("temperature", *_MODULI, "tan delta")
+    found = {what: table.place(what) for what in wanted}
+    found["frequency"] = _frequency_place(table, master_curve=master_curve)
     if found["temperature"] is None:
-        found["temperature"] = table.find(names.ISOTHERM if master_curve else names.SET_TEMPERATURE, "temperature")
+        found["temperature"] = table.place("isotherm" if master_curve else "set temperature")
     places = {what: place for what, place in found.items() if place is not None}
     tangent = places.get("tan delta")
     if tangent is not None and table.columns[tangent].unit not in ("", "1"):  # a tangent has no unit
@@ -57,19 +53,17 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     if missing and "temperature" not in places:
         missing.insert(0, "temperature")
     if missing:
-        raise DataFileError(
-            table.path,
-            f"no column for {' or '.join(missing)}; a DMA table has e.g. 'temperature (degC)', 'frequency (Hz)', "
-            f"'storage modulus (MPa)', 'loss modulus (MPa)', this one has {table.headings()}.",
-            code="missing-columns",
-        )
+        problem = f"no column for {' or '.join(missing)}; {names.DMA.example}, this one has {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(table.key, missing), missing)
     return places
 
 
 def _frequency_place(table: Table, *, master_curve: bool) -> int | None:
     measured, reduced = ["angular frequency", "frequency"], ["reduced angular frequency", "reduced frequency"]
-    for what in reduced + measured if master_curve else measured + reduced:
-        place = table.find(names.QUANTITIES[what], what)
+    order = reduced + measured if master_curve else measured + reduced
+    given = [what for what in order if any(column.given and column.quantity == what for column in table.columns)]
+    for what in given or order:
+        place = table.place(what)
         if place is not None:
             return place
     return None
@@ -77,7 +71,7 @@ def _frequency_place(table: Table, *, master_curve: bool) -> int | None:
 
 def is_reduced(table: Table, places: dict[str, int]) -> bool:
     """Return whether the frequencies are reduced ones, those of a master curve."""
-    return "reduced" in (quantity(table.columns[places["frequency"]].name) or "")
+    return "reduced" in table.columns[places["frequency"]].quantity
 
 
 def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) -> Array:
@@ -92,7 +86,7 @@ def angular_frequency(table: Table, places: dict[str, int], notes: list[str]) ->
 
 
 def _is_angular(table: Table, place: int) -> bool:
-    return "angular" in (quantity(table.columns[place].name) or "")
+    return "angular" in table.columns[place].quantity
 
 
 def _in_rad_per_second(table: Table, place: int) -> Array:
@@ -104,13 +98,13 @@ def _in_rad_per_second(table: Table, place: int) -> Array:
         return factor * table.numbers_or_missing(place)
     right = "'rad/s'" if named_angular else "'Hz' or 'rad/s'"
     shown = f"the unit {column.unit!r}" if column.unit else "no unit"
-    raise DataFileError(table.path, f"column {column.heading!r} has {shown}; it must be {right}.", code="wrong-unit")
+    raise table.refused("wrong-unit", f"column {column.heading!r} has {shown}; it must be {right}.")
 
 
 def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array) -> None:
     """Raise `DataFileError` where a second column of frequency contradicts the first."""
-    used, other = places["frequency"], table.find(names.FREQUENCY, "frequency")
-    if other is None or other == used or is_reduced(table, places):
+    used, other = places["frequency"], table.place("frequency")
+    if other is None or other == used or is_reduced(table, places) or table.columns[used].given:
         return
     apart = np.abs(_in_rad_per_second(table, other) - angular) > PRINTED_FREQUENCY * np.abs(angular)
     if np.any(apart):
@@ -186,7 +180,7 @@ def deformation(table: Table, places: dict[str, int]) -> Said:
         for place, column in enumerate(table.columns)
         if any(row[place].strip().lower() not in MISSING for row in table.rows)
     ]
-    return said_by_columns((), filled, table.tools)
+    return said_by_columns((), filled, names.tools_in(table.above))
 
 
 #: Frequency range of the sweeps of any instrument; master curves exceed it.
@@ -210,6 +204,9 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
         raise DataFileError(table.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
     notes: list[str] = []
+    if table.empty_rows:
+        rows = "1 row holds" if table.empty_rows == 1 else f"{table.empty_rows} rows hold"
+        notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
     frequency = angular_frequency(table, places, notes)
     insist_on_one_frequency(table, places, frequency)
     storage, loss = moduli(table, places, source, notes)
@@ -304,7 +301,7 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
 
 def _note_numbered(table: Table, notes: list[str]) -> None:
     """Add a note on unread columns whose names differ from those of a sweep by a number only."""
-    others = (column for column in table.columns if not quantity(column.name))
+    others = (column for column in table.columns if not column.quantity)
     numbered = [repr(column.heading) for column in others if quantity(column.unnumbered)]
     if numbered:
         text = f"Numbered columns that are not read: {', '.join(numbered)}; give each sweep a table of its own."
@@ -313,7 +310,7 @@ def _note_numbered(table: Table, notes: list[str]) -> None:
 
 def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     """Return fractions, None without exactly one column of them with a known unit."""
-    found = [p for p, column in enumerate(table.columns) if quantity(column.name) == "strain amplitude"]
+    found = [p for p, column in enumerate(table.columns) if column.quantity == "strain amplitude"]
     if len(found) > 1:
         several = " and ".join(repr(table.columns[place].heading) for place in found)
         said = f"The strain amplitudes were not read: {several} may hold them."
@@ -338,7 +335,7 @@ def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
 
 def _step(table: Table) -> Integers | None:
     """Return the numbers of steps, None without exactly one column of whole numbers for them."""
-    found = [p for p, column in enumerate(table.columns) if column.name.lower() in names.STEP]
+    found = [p for p, column in enumerate(table.columns) if column.quantity == "step"]
     if len(found) != 1:
         return None
     try:

@@ -14,8 +14,8 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.names import deformation_of, quantity
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
+from viscofric.readers.headings import heading
 from viscofric.readers.source import to_rad_per_second, unit_conversion
-from viscofric.readers.table import heading
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:

@@ -1,0 +1,181 @@
+"""Headings of columns: name, unit, and the quantity that a vocabulary, or the user, sees in them."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import InputError, brief
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+
+# "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
+_BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
+_SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
+_UNIT = (
+    r"(?i:°[CKF]|℃|deg[CFK]|[mkM]?Hz|rad[/_]?s(?:ec)?|[kMG]?Pa|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)|dynes?/cm(?:\^?2|²)"
+    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µu]m|ms|min|%)|mN"
+)
+_SEPARATED = re.compile(
+    rf"^(?P<name>.*?[^\s/_,])(?:(?:\s+in\s+|_in_|\s*,\s*|_|\s+)(?P<unit>{_UNIT})"
+    r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm]))$"
+)
+_LETTER = re.compile(r"^(?P<name>.*temp[^\s_]*|T)[\s_]+(?P<unit>[ckf])$", re.IGNORECASE)
+_CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
+_NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
+#: "#3": the third column of a table, whatever its heading.
+_PLACE = re.compile(r"#\s*(?P<number>\d{1,4})")
+#: A longer heading is not parsed.
+_LONGEST_HEADING = 200
+#: Names of fewer letters are compared with their blanks.
+_SHORT = 5
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column's heading as printed, its name (single-spaced, all primes as ``'`` and ``''``) and its unit, or ""."""
+
+    heading: str
+    name: str
+    unit: str
+    quantity: str = ""  # of the vocabulary
+    given: bool = False  # named by the user, not recognised
+
+    @property
+    def unnumbered(self) -> str:
+        """The name without the number at its end: "traction force" of "traction force 2"; empty if it has none."""
+        match = _NUMBERED.fullmatch(self.name)
+        return match["name"] if match else ""
+
+
+@dataclass(frozen=True, eq=False)
+class Vocabulary:
+    """The words that one kind of table is recognised by.
+
+    Parameters
+    ----------
+    kind : str
+        Of the table, in words, such as ``"a DMA table"``.
+    quantities : mapping
+        Quantity, such as ``"storage modulus"`` -> names of its columns, as printed or in lower case.
+    needed : tuple of tuples
+        A header names at least one quantity of each.
+    example : str
+        Headings of such a table, for errors.
+    key : str
+        Path of the run file's key with the user's own headings.
+    """
+
+    kind: str
+    quantities: Mapping[str, frozenset[str]]
+    needed: tuple[tuple[str, ...], ...]
+    example: str = ""
+    key: str = "material.columns"
+    asked: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
+
+    @cached_property
+    def _meaning(self) -> dict[str, str]:
+        found: dict[str, str] = {}
+        for what, names in self.quantities.items():
+            for name in names:
+                found.setdefault(name, what)
+                if len(name) > _SHORT:
+                    found.setdefault(name.replace(" ", ""), what)
+        return found
+
+    def quantity(self, name: str) -> str:
+        """Return the quantity that a heading without its unit names, or ""."""
+        plain = unicodedata.normalize("NFC", name)
+        return self._meaning.get(plain) or (self._meaning.get(plain.lower(), "") if len(plain) > 1 else "")
+
+    def missing(self, found: Iterable[str]) -> list[str]:
+        """Return what a header of these quantities lacks, one word for each of `needed`."""
+        named = set(found)
+        return [one[0] for one in self.needed if not named & set(one)]
+
+    def checked(self, columns: Mapping[str, str] | None) -> dict[str, str]:
+        """Return the user's own headings by quantity, which he may write with underscores, or raise `InputError`."""
+        asked: dict[str, str] = {}
+        try:
+            pairs: dict[Any, Any] = dict(columns or {})
+        except (TypeError, ValueError):
+            raise InputError(
+                f"columns = {brief(columns)}: must map quantities to headings, such as {{'frequency': 'f in Hz'}}.",
+                code="wrong-columns",
+            ) from None
+        for key, said in pairs.items():
+            what = " ".join(re.split(r"[\s_-]+", str(key).strip().lower()))
+            if what not in self.quantities:
+                known = ", ".join(one.replace(" ", "_") for one in self.quantities)
+                raise InputError(
+                    f"columns: {brief(key)} is not a quantity of {self.kind}; known are {known}.",
+                    code="unknown-quantity",
+                )
+            if not isinstance(said, str) or not said.strip():
+                raise InputError(f"columns: {what} = {brief(said)}: must be a heading as text.", code="wrong-columns")
+            asked[what] = " ".join(said.split())
+        return asked
+
+    def asking(self, columns: Mapping[str, str]) -> Vocabulary:
+        """Return the vocabulary with the user's own headings, as `checked` returns them."""
+        return replace(self, asked=dict(columns))
+
+    def columns(self, cells: Sequence[str]) -> tuple[Column, ...]:
+        """Return the columns under a row of headings, each with the quantity that it names or that the user says."""
+        found = []
+        for cell in cells:
+            column = heading(cell)
+            what = self.quantity(column.name)
+            found.append(replace(column, quantity="" if what in self.asked else what))
+        for what, said in self.asked.items():
+            place, unit = place_of(said, cells)
+            if place is not None:
+                column = found[place]
+                found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True)
+        return tuple(found)
+
+
+def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:
+    """Return the place of the column that the user means, None if there is none, and the unit that he adds, or "".
+
+    `said` is a heading as printed, without regard to case, or the number of a column (``"#3"``); a unit may follow in
+    brackets, which then counts instead of that of the file.  Of several equal headings the first counts.
+    """
+    bracketed = _BRACKETED.match(said)
+    for words, unit in ((said, ""), (bracketed["name"], bracketed["unit"]) if bracketed else ("", "")):
+        numbered = _PLACE.fullmatch(words)
+        if numbered and 0 < int(numbered["number"]) <= len(cells):
+            return int(numbered["number"]) - 1, unit
+        for place, cell in enumerate(cells):
+            if words and " ".join(cell.split()).casefold() == words.casefold():
+                return place, unit
+    return None, ""
+
+
+def is_place(said: str) -> bool:
+    """Return whether the user names a column by its number."""
+    bracketed = _BRACKETED.match(said)
+    return bool(_PLACE.fullmatch(bracketed["name"] if bracketed else said))
+
+
+@lru_cache(maxsize=4096)
+def heading(text: str) -> Column:
+    """Split a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``, ``"f in Hz"``."""
+    text = text.strip()
+    if len(text) > _LONGEST_HEADING:
+        return Column(text, text, "")
+    plain = re.sub(r"[’′‘`´]", "'", text).replace("″", "''").replace("”", "''").replace('"', "''")
+    name, unit = plain, ""
+    for pattern in (_BRACKETED, _SEPARATED, _SLASHED, _LETTER):
+        match = pattern.match(plain)
+        if match:
+            name, unit = match["name"], match["unit"] or match.groupdict().get("letter") or ""
+            break
+    if name.strip() == "t" and _CELSIUS.fullmatch(unit):  # not a time
+        name = "T"
+    return Column(text, " ".join(name.replace("_", " ").split()), unit)

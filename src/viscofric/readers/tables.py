@@ -1,0 +1,401 @@
+"""Tables found in text and workbooks by the words of a vocabulary, or by the headings that the user names."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from viscofric.errors import DataFileError
+from viscofric.notes import Note, Remedy
+from viscofric.readers.headings import heading, is_place, place_of
+from viscofric.readers.source import decimal_comma
+from viscofric.readers.table import MISSING, header_values, make_table, split_cells
+from viscofric.readers.workbook import is_workbook, sheets
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.readers.headings import Column, Vocabulary
+    from viscofric.readers.source import Source
+    from viscofric.readers.table import NumberedRow, Table
+    from viscofric.readers.workbook import Rows
+
+
+#: Tables by people and instruments begin above this line.
+DEEPEST_HEADER = 300
+#: A longer line names no columns.
+_LONGEST_LINE = 10_000
+_DELIMITERS = "\t;,"
+#: Headings may contain single blanks ("f (Hz)"), so two or more separate them; numbers contain none.
+_BLANKS = "blanks"
+_LONGEST_NAME = 100
+#: First characters of names that begin with no letter: "|E*|", " f (Hz)", '"f"'.
+_BEFORE_LETTERS = ("|", " ", '"', "'")
+_FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Rows of cells that are not blank, and the place of their header."""
+
+    rows: list[NumberedRow]
+    header: int
+    comma_is_free: bool = True
+
+
+def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
+    """Return the tables of a file by the names of their sheets, ``""`` for text.
+
+    Of a workbook these are all sheets with a header, or the one that `source.sheet` names.  A header is the first row
+    that names what the vocabulary needs, or all headings that `source.columns` names; else the first that names two of
+    its quantities, so that the caller can say what is missing.
+
+    Raises
+    ------
+    DataFileError
+        If no row is a header (code ``"missing-columns"``, with the headings found in its values), a named heading
+        (``"no-column"``) or sheet (``"no-sheet"``) is not there, or a row differs from its header in length.
+    """
+    words = vocabulary.asking(source.columns)
+    if is_workbook(source):
+        return _of_workbook(source, words)
+    if source.sheet:
+        raise DataFileError(source.path, "is not a workbook; leave out sheet.", code="no-sheet")
+    found = _in_text(source, words)
+    if found is None:
+        raise no_header(source, words)
+    remarks = [
+        tuple(re.split(r"[\t;,]", line))
+        for line in (source.text or "").splitlines()[:DEEPEST_HEADER]
+        if line.lstrip().startswith("#")
+    ]
+    table = _table_under(source.path, found, words)
+    return {"": replace(table, above=(*table.above, *remarks))}
+
+
+def holds_table(source: Source, vocabulary: Vocabulary) -> bool:
+    """Return whether a text has a row that names columns of such a table; never raises."""
+    if source.text is None:
+        return False
+    return bool(source.columns) or _in_text(source, vocabulary) is not None
+
+
+def no_header(source: Source, vocabulary: Vocabulary) -> DataFileError:
+    """Return the error of a file in which no row is a header; its values list the headings of what looks like one."""
+    words = vocabulary.asking(source.columns)
+    if is_workbook(source):
+        return _no_header_in_workbook(source, words)
+    candidates = [_guessed(_split_lines(source, delimiter)) for delimiter in (*_DELIMITERS, _BLANKS)]
+    return _not_understood(source.path, words, max(candidates, key=len))
+
+
+def _of_workbook(source: Source, words: Vocabulary) -> dict[str, Table]:
+    known = sheets(source)
+    if source.sheet and source.sheet not in known:
+        shown = ", ".join(map(repr, known)) or "none"
+        note = Note("no-sheet", f"has no sheet {source.sheet!r}; its sheets are {shown}.", values={"sheets": [*known]})
+        raise DataFileError(source.path, note)
+    found = {}
+    for name, cells in known.items():
+        if source.sheet in ("", name):
+            rows = _numbered(f"{source.path}, sheet {name!r}", cells)
+            one = header_of(rows, words)
+            if one is not None:
+                found[name] = one
+    if not found:
+        raise _no_header_in_workbook(source, words)
+    # a sheet of, say, shift factors names two quantities of sweeps, but no modulus
+    whole = {name: one for name, one in found.items() if not words.missing(named(one.rows[one.header][1], words))}
+    taken = whole or found
+    others = [
+        tuple(str(cell) for cell in row)
+        for name, rows in known.items()
+        if name not in found
+        for row in rows[:DEEPEST_HEADER]
+    ]
+    tables = {name: _table_under(f"{source.path}, sheet {name!r}", one, words) for name, one in taken.items()}
+    return {name: replace(table, above=(*table.above, *others)) for name, table in tables.items()}
+
+
+def _no_header_in_workbook(source: Source, words: Vocabulary) -> DataFileError:
+    known = sheets(source)
+    asked = [source.sheet] if source.sheet in known else [*known]
+    guessed = {name: _guessed(_numbered(f"{source.path}, sheet {name!r}", known[name])) for name in asked}
+    return _not_understood(source.path, words, max(guessed.values(), key=len, default=[]), [*known])
+
+
+def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheets: Sequence[str] = ()) -> DataFileError:
+    """Return the error of a header without the needed words, or without the headings that the user names."""
+    columns = words.columns(headings)
+    values: dict[str, Any] = header_values(
+        headings,
+        words.missing(column.quantity for column in columns),
+        {column.quantity: column.heading for column in columns if column.quantity},
+        words.key,
+    )
+    shown = listed_headings(headings)
+    among = f" in any of its sheets ({', '.join(map(repr, sheets))})" if sheets else ""
+    if sheets:
+        values["sheets"] = list(sheets)
+    absent = [said for said in words.asked.values() if place_of(said, headings)[0] is None]
+    if absent:
+        problem = f"no row has a column {' and '.join(map(repr, absent))}{among}; this file has {shown}."
+        return DataFileError(path, Note("no-column", problem, values=values))
+    missing = " or ".join(values["missing"])
+    problem = f"no row names columns for {missing}{among}; {words.example}, this file has {shown}"
+    if not headings:
+        return DataFileError(path, Note("missing-columns", f"{problem}.", values=values))
+    return DataFileError(
+        path, Note("missing-columns", problem, remedy=name_columns(words.key, values["missing"]), values=values)
+    )
+
+
+def listed_headings(headings: Sequence[str]) -> str:
+    """Return headings as one readable list."""
+    return ", ".join(map(repr, headings)) or "none"
+
+
+def name_columns(key: str, missing: Sequence[str]) -> Remedy:
+    """Return the end of a sentence: the user may name the columns, for each reader."""
+    name = (missing[0] if missing else "frequency").replace(" ", "_")
+    return Remedy(
+        f"; name them, e.g. columns={{'{name}': 'heading'}}.",
+        f"; name them, e.g. --column {name}=HEADING.",
+        f'; name them, e.g. columns = {{ {name} = "heading" }} under [{key.partition(".")[0]}].',
+        "; choose the columns below.",
+        key,
+    )
+
+
+def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
+    """Return the quantities that the cells of one row name."""
+    if not any(cell[:1].isalpha() or cell[:1] in _BEFORE_LETTERS for cell in cells):
+        return set()
+    if words.asked:
+        return {column.quantity for column in words.columns(cells)} - {""}
+    return {words.quantity(heading(cell).name) for cell in cells if 0 < len(cell) < _LONGEST_NAME} - {""}
+
+
+def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> _Found | None:
+    """Return rows with the place of their header, None without one; a missing header is put in where places suffice.
+
+    It is the first row with all headings that the user names; without these the first that names what is needed;
+    without such a row the first that names two quantities.
+    """
+    if words.asked:
+        return _header_with(rows, words)
+    second_best = None
+    for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
+        found = named(cells, words)
+        if found and not words.missing(found):
+            return _Found(list(rows), place)
+        if second_best is None and len(found) > 1:
+            second_best = place
+    return None if second_best is None else _Found(list(rows), second_best)
+
+
+def _header_with(rows: Sequence[NumberedRow], words: Vocabulary) -> _Found | None:
+    asked = words.asked.values()
+    if not all(map(is_place, asked)):
+        for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
+            if all(place_of(said, cells)[0] is not None for said in asked):
+                return _Found(list(rows), place)
+        return None
+    first = _first_numbers(rows)
+    if first is None or any(place_of(said, rows[first][1])[0] is None for said in asked):
+        return None
+    top = _top_of_header(rows, first)
+    if top is not None:
+        return _Found(list(rows), top)
+    number, cells = rows[first]
+    places = [f"#{place}" for place in range(1, len(cells) + 1)]
+    return _Found([*rows[:first], (number, places), *rows[first:]], first)
+
+
+def _first_numbers(rows: Sequence[NumberedRow]) -> int | None:
+    """Return the place of the first row of numbers, at least two and most of its cells."""
+    for place, (_, cells) in enumerate(rows[: DEEPEST_HEADER + 3]):
+        count = sum(map(is_number, cells))
+        if count > 1 and 2 * count >= len([cell for cell in cells if cell.strip()]):
+            return place
+    return None
+
+
+def _top_of_header(rows: Sequence[NumberedRow], first: int) -> int | None:
+    """Return the highest of the rows of text, at most three, that stand above numbers and have as many cells."""
+    width, top = len(rows[first][1]), None
+    for place in range(first - 1, max(-1, first - 4), -1):
+        cells = [cell for cell in rows[place][1] if cell.strip()]
+        fits = 2 * len(cells) > width >= len(cells) - 1
+        if not fits or any(map(is_number, cells)):
+            break
+        top = place
+    return top
+
+
+def _guessed(rows: Sequence[NumberedRow]) -> list[str]:
+    """Return the headings above the first row of numbers, or the numbers of its columns; none without numbers."""
+    first = _first_numbers(rows)
+    if first is None:
+        return []
+    top = _top_of_header(rows, first)
+    if top is None:
+        return [f"#{place}" for place in range(1, len(rows[first][1]) + 1)]
+    return [cell.strip() for cell in rows[top][1]]
+
+
+def _table_under(path: str, found: _Found, words: Vocabulary) -> Table:
+    """Return the table under a header, from all rows that are not blank.
+
+    Raises
+    ------
+    DataFileError
+        If rows of numbers stand above the header, there is none below it, or a row differs from it in length.
+    """
+    rows, header = found.rows, found.header
+    _insist_on_text(path, rows[:header])
+    names = list(rows[header][1])
+    while names and not names[-1].strip():
+        names.pop()
+    columns = words.columns(names)
+    body = list(rows[header + 1 :])
+    if body and _is_row_of_units(columns, body[0][1]):
+        units = body.pop(0)[1]
+        columns = tuple(
+            column if column.unit else replace(column, unit=_unit(cell))
+            for column, cell in zip(columns, [*units, *[""] * len(columns)], strict=False)
+        )
+    repeated = list(rows[header][1])  # stacked tables repeat their header
+    body = [row for row in body if list(row[1]) != repeated]
+    table = make_table(path, columns, body, comma_is_free=found.comma_is_free, vocabulary=words)
+    return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]))
+
+
+def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
+    for number, cells in above:
+        if sum(is_number(cell) for cell in cells) > 2:
+            raise DataFileError(
+                path,
+                "a row of numbers precedes the header; put the header first.",
+                number,
+                code="numbers-above-header",
+            )
+
+
+def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
+    """Return whether a row under headings without units gives them; units that the user adds do not count."""
+    known = [place for place, column in enumerate(columns[: len(cells)]) if column.quantity]
+    if any(columns[place].unit and not columns[place].given for place in known):
+        return False
+    if any(map(is_number, cells)) or len(cells) > len(columns) + 1:
+        return False
+    return any(_unit(cells[place]) and cells[place].strip().lower() not in MISSING for place in known)
+
+
+def _unit(cell: str) -> str:
+    plain = cell.strip().strip("[]()").strip()
+    return "" if plain in ("-", "–", "1") else plain
+
+
+def is_number(cell: str) -> bool:
+    """Return whether a cell is a number, with a decimal point or comma."""
+    try:
+        float(cell.strip().replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
+
+def _in_text(source: Source, words: Vocabulary) -> _Found | None:
+    """Return the rows and the header of a text, split at the delimiter that makes most of a header.
+
+    Where no line is a header, remarks (``# f (Hz), E' (MPa)``) are looked at too.
+    """
+    for remarks in (False, True) if "#" in (source.text or "") else (False,):
+        best: tuple[int, str] | None = None
+        for delimiter in (*_DELIMITERS, _BLANKS):
+            if delimiter == _BLANKS and best is not None:
+                break
+            found = header_of(_split_lines(source, delimiter, remarks), words)
+            if found is not None and (delimiter != _BLANKS or _fits_below(found)):
+                count = len(named(found.rows[found.header][1], words))
+                best = max(best or (-1, ""), (count, delimiter), key=lambda one: one[0])
+        if best is not None:
+            return _whole(source, words, best[1], remarks)
+    return None
+
+
+def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> _Found | None:
+    """Return all rows of a text with its header; remarks below it are left out."""
+    lines = _lines(source.text or "", remarks)
+    if delimiter == _BLANKS:
+        rows: list[NumberedRow] = [(number, _split_at_blanks(line)) for number, line, _ in lines]
+    else:
+        rows = [(number, split_cells(source.path, number, line, delimiter)) for number, line, _ in lines]
+    found = header_of(rows, words)
+    if found is None:
+        return None
+    above = found.rows[: found.header + 1]
+    remarked = {number for number, _, is_remark in lines if is_remark}
+    below = [row for row in found.rows[found.header + 1 :] if row[0] not in remarked]
+    return _Found([*above, *below], found.header, delimiter != ",")
+
+
+def _lines(text: str, remarks: bool) -> list[tuple[int, str, bool]]:
+    """Return the lines that are not blank, with their numbers and whether they are remarks, which may be left out."""
+    found = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        plain = line.lstrip()
+        is_remark = plain.startswith("#")
+        if plain and (remarks or not is_remark) and not _FOR_EXCEL.fullmatch(line):
+            found.append((number, plain.lstrip("# ") if is_remark else line, is_remark))
+    return found
+
+
+def _split_lines(source: Source, delimiter: str, remarks: bool = False) -> list[NumberedRow]:
+    """Return the cells of the first lines; a line that cannot be split has none."""
+    lines = _lines("\n".join((source.text or "").splitlines()[: 2 * DEEPEST_HEADER]), remarks)
+    split = _split_at_blanks if delimiter == _BLANKS else lambda line: _split(line, delimiter)
+    return [(number, split(line[:_LONGEST_LINE])) for number, line, _ in lines]
+
+
+def _fits_below(found: _Found) -> bool:
+    """Return whether lines of as many numbers follow; prose, whose words blanks separate, may name quantities too."""
+    width = len(found.rows[found.header][1])
+    below = found.rows[found.header + 1 : found.header + 3]
+    return any(len(cells) == width and all(map(is_number, cells)) for _, cells in below)
+
+
+def _split_at_blanks(line: str) -> list[str]:
+    """Return cells separated by two blanks or more, or by single ones if no heading has several words."""
+    wide = re.split(r"\s{2,}", line.strip())
+    single = line.split()
+    return single if len(wide) == 1 or all(map(is_number, single)) else wide
+
+
+def _split(line: str, delimiter: str) -> list[str]:
+    try:
+        return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
+    except csv.Error:
+        return []
+
+
+def _numbered(path: str, cells: Rows) -> list[NumberedRow]:
+    """Return the rows of a sheet that are not blank as text, with their numbers."""
+    texts = ((cell, n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
+    comma = decimal_comma(path, texts)
+    rows: list[NumberedRow] = []
+    for number, row in enumerate(cells, start=1):
+        shown = [_text(cell, comma=comma) for cell in row]
+        if any(cell.strip() for cell in shown) and not shown[0].lstrip().startswith("#"):
+            rows.append((number, shown))
+    return rows
+
+
+def _text(cell: float | str, *, comma: bool) -> str:
+    """Write a cell as a text table would, with the decimal mark of the sheet's other cells."""
+    if isinstance(cell, str):
+        return cell
+    return repr(float(cell)).removesuffix(".0").replace(".", "," if comma else ".")

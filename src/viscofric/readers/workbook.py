@@ -1,0 +1,103 @@
+"""Excel workbooks, parsed in a separate process: sheets as rows of cells."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
+
+from viscofric.errors import DataFileError
+from viscofric.files import insist_on_size
+
+if TYPE_CHECKING:
+    from viscofric.readers.source import Source
+
+    #: Rows of cells, each a number or text, empty text where the sheet has nothing.
+    Rows = list[list[float | int | str | bool]]
+
+#: A zip archive (.xlsx) and a compound document (.xls).
+MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")
+#: Far above the time to parse a workbook of measurements.
+LONGEST_PARSE = 30.0  # s
+
+_PARSER = Path(__file__).with_name("parse_workbook.py")
+
+
+@dataclass(frozen=True, eq=False)
+class Workbook:
+    """Rows of each sheet, and the names of those that Excel does not show."""
+
+    sheets: dict[str, Rows]
+    hidden: tuple[str, ...]
+
+
+_parsed: WeakKeyDictionary[Source, Workbook | DataFileError] = WeakKeyDictionary()
+
+
+def is_workbook(source: Source) -> bool:
+    """Return whether the file begins as an Excel workbook does."""
+    return source.data.startswith(MAGIC)
+
+
+def sheet_names(source: Source) -> tuple[str, ...]:
+    """Return the names of the sheets, none if the file is no workbook that can be read; never raises."""
+    if not is_workbook(source):
+        return ()
+    try:
+        return tuple(sheets(source))
+    except DataFileError:
+        return ()
+
+
+def sheets(source: Source) -> dict[str, Rows]:
+    """Return the sheets of a workbook, in its order: numbers as float, dates and times as text, ``""`` for nothing.
+
+    The file is parsed once, in a separate process with limited memory and time: a crafted workbook can request
+    hundreds of gigabytes.  A damaged, protected or oversized workbook is a `DataFileError`.
+    """
+    return opened(source).sheets
+
+
+def opened(source: Source) -> Workbook:
+    """Return the whole workbook; see `sheets`."""
+    if source not in _parsed:
+        try:
+            _parsed[source] = _parse(source)
+        except DataFileError as error:
+            _parsed[source] = error
+    found = _parsed[source]
+    if isinstance(found, DataFileError):
+        raise DataFileError(found.path, found.problem, code=found.code)
+    return found
+
+
+def _parse(source: Source) -> Workbook:
+    insist_on_size(source.data, source.path)
+    # -P: modules in the script's folder must not replace those of Python
+    command = [sys.executable, "-P", str(_PARSER)]
+    window = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # none flashes up under Windows
+    try:
+        done = subprocess.run(
+            command, input=source.data, capture_output=True, timeout=LONGEST_PARSE, check=False, creationflags=window
+        )
+        answer = json.loads(done.stdout)
+    except subprocess.TimeoutExpired:
+        problem = f"takes longer than {LONGEST_PARSE:.0f} s to parse; save the sheet of measurements alone, or as CSV."
+        raise DataFileError(source.path, problem, code="too-slow") from None
+    except ValueError:  # the parser ended, usually for lack of memory
+        raise DataFileError(
+            source.path, "is a workbook that cannot be parsed; save it again, or as CSV.", code="damaged"
+        ) from None
+    except OSError as error:
+        problem = f"was not read: workbooks are parsed by {sys.executable!r}, which does not start ({error.strerror}); "
+        raise DataFileError(source.path, problem + "save the sheet as CSV.", code="no-parser") from None
+    if "missing" in answer:
+        problem = f"was not read: workbooks need {answer['missing']}, which this Python does not find; install it, or "
+        raise DataFileError(source.path, problem + "save the sheet as CSV.", code="package-missing")
+    if "problem" in answer:
+        raise DataFileError(source.path, answer["problem"], code=answer["code"])
+    return Workbook(dict(answer["sheets"]), tuple(answer["hidden"]))

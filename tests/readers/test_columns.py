@@ -1,0 +1,236 @@
+"""Headings that are not understood: named by the user, or refused with all that a program needs to ask for them."""
+
+from __future__ import annotations
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from readers.refusal import refused
+from readers.samples.workbook import write as write_workbook
+from viscofric.errors import DataFileError
+from viscofric.notes import note_of
+from viscofric.readers import read_dma, read_mtm
+from viscofric.readers.headings import heading
+from viscofric.readers.source import to_rad_per_second, unit_conversion
+
+ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
+NAMES = {"temperature": "Chamber", "frequency": "v1", "storage_modulus": "Alpha", "loss_modulus": "Beta"}
+
+
+def write(tmp_path, *lines, name="sweeps.csv"):
+    path = tmp_path / name
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return path
+
+
+def assert_is_the_table(sweeps):
+    assert sweeps.temperatures == pytest.approx([293.15, 303.15], rel=1e-12)
+    assert sweeps.isotherms[0].angular_frequency == pytest.approx([2 * math.pi, 20 * math.pi], rel=1e-12)
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6], rel=1e-12)
+    assert sweeps.isotherms[1].loss_modulus == pytest.approx([4e5, 6e5], rel=1e-12)
+
+
+def read(path, **asked):
+    return read_dma(path, deformation="tension", **asked)
+
+
+@pytest.mark.parametrize(
+    ("header", "columns"),
+    [
+        ("Chamber (degC),v1 (Hz),Alpha (MPa),Beta (MPa)", {k: f"{v} ({u})" for (k, v), u in zip(NAMES.items(), ("degC", "Hz", "MPa", "MPa"), strict=True)}),
+        ("Chamber,v1,Alpha,Beta", {"temperature": "chamber (°C)", "frequency": "V1 (Hz)", "storage modulus": "ALPHA [MPa]", "loss-modulus": "beta (MPa)"}),
+        # units of the file that are wrong, or in the row below
+        ("Chamber (K?),v1 [cycles],Alpha,Beta", {"temperature": "Chamber (K?) (degC)", "frequency": "v1 [cycles] (Hz)", "storage_modulus": "Alpha (MPa)", "loss_modulus": "Beta (MPa)"}),
+        ("Chamber,v1,Alpha,Beta\n°C,Hz,MPa,MPa", NAMES),
+        # one is named, the others are understood
+        ("T_C,v1,E' (MPa),E'' (MPa)", {"frequency": "v1 (Hz)"}),
+        ("T_C,omega,E' (MPa),E'' (MPa)", {"frequency": "omega (Hz)"}),
+        ("T_C,f (Hz),E' (MPa),loss (MPa),E'' (GPa)", {"loss_modulus": "loss (MPa)"}),
+        # by number, with a header and without
+        ("x,x,x,x", {"temperature": "#1 (degC)", "frequency": "#2 (Hz)", "storage_modulus": "#3 (MPa)", "loss_modulus": "# 4 (MPa)"}),
+        ("# exported by hand", {"temperature": "#1 (degC)", "frequency": "#2 (Hz)", "storage_modulus": "#3 (MPa)", "loss_modulus": "#4 (MPa)"}),
+    ],
+)  # fmt: skip
+def test_headings_are_named_by_the_user(tmp_path, header, columns):
+    rows = [f"{row},1" if header.count(",") == 4 else row for row in ROWS]
+    assert_is_the_table(read(write(tmp_path, header, *rows), columns=columns))
+
+
+def test_a_header_that_is_not_understood_is_refused_with_headings_and_missing_quantities(tmp_path):
+    path = write(tmp_path, "Sample,A7", "Chamber (degC),v1 (Hz),E' (MPa),Beta", *ROWS)
+    with refused("missing-columns", None, "'Beta'") as caught:
+        read_dma(path)
+    error = pickle.loads(pickle.dumps(caught.value))
+    values = error.note.values
+    assert values["headings"] == ["Chamber (degC)", "v1 (Hz)", "E' (MPa)", "Beta"]
+    assert values["missing"] == ["frequency"]
+    assert values["known"] == {"storage modulus": "E' (MPa)"}
+    assert values["key"] == error.field == "material.columns"
+    assert note_of(error.note.record()).values == values
+    for reader, word in (("python", "columns={"), ("shell", "--column"), ("run_file", "[material]")):
+        assert word in error.remedy.words(reader)
+    named = {"frequency": "v1 (Hz)", "temperature": "Chamber (degC)", "loss_modulus": "Beta (MPa)"}
+    assert_is_the_table(read_dma(path, columns=named))
+
+
+@pytest.mark.parametrize(
+    ("header", "code", "missing"),
+    [
+        ("T_C,f_Hz,E'_MPa,Beta", "missing-columns", ["loss modulus"]),
+        ("T_C,f,E'_MPa,E''_MPa", "wrong-unit", []),
+        ("T_C,f_Hz,E',E''", "no-unit", []),
+        ("T_C,f_Hz,E' (furlong),E''_MPa", "wrong-unit", []),
+        ("T_C,f_Hz,E'_MPa,E'_MPa", "missing-columns", ["loss modulus"]),
+    ],
+)
+def test_every_error_about_a_header_lists_it(tmp_path, header, code, missing):
+    with pytest.raises(DataFileError) as caught:
+        read_dma(write(tmp_path, header, *ROWS))
+    values = caught.value.note.values
+    assert caught.value.code in (code, "ambiguous-columns")
+    assert values["headings"] == header.split(",")
+    assert set(missing) >= set(values["missing"])
+
+
+def test_numbers_without_a_header_are_offered_by_their_place(tmp_path):
+    with refused("missing-columns") as caught:
+        read_dma(write(tmp_path, *ROWS))
+    assert caught.value.note.values["headings"] == ["#1", "#2", "#3", "#4"]
+
+
+def test_wrong_mappings_are_refused(tmp_path):
+    path = write(tmp_path, "T_C,f_Hz,E'_MPa,E''_MPa", *ROWS)
+    with refused("unknown-quantity", None, "colour", "storage_modulus"):
+        read_dma(path, columns={"colour": "red"})
+    with refused("wrong-columns"):
+        read_dma(path, columns={"frequency": 3})
+    with refused("wrong-columns"):
+        read_dma(path, columns=["frequency"])
+    with refused("no-column", None, "'v9'", "'f_Hz'") as caught:
+        read_dma(path, columns={"frequency": "v9"})
+    assert caught.value.note.values["headings"] == ["T_C", "f_Hz", "E'_MPa", "E''_MPa"]
+    with refused("no-column"):
+        read_dma(path, columns={"frequency": "#9 (Hz)"})
+    with refused("no-sheet"):
+        read_dma(path, sheet="DMA")
+    with refused("wrong-sheet"):
+        read_dma(path, sheet=1)
+
+
+def test_one_sheet_is_chosen(tmp_path):
+    points = [[float(cell) for cell in row.split(",")] for row in ROWS]
+    header = ["T (degC)", "f (Hz)", "E' (MPa)", "E'' (MPa)"]
+    other = [[T, f, 2 * E, E2] for T, f, E, E2 in points]
+    path = write_workbook(tmp_path / "a.xlsx", {"run 1": [header, *points], "run 2": [header, *other], "log": [["x"]]})
+    with refused("several-tables") as caught:
+        read_dma(path)
+    assert caught.value.field == "material.sheet"
+    assert_is_the_table(read_dma(path, sheet="run 1"))
+    assert read_dma(path, sheet="run 2").isotherms[0].storage_modulus == pytest.approx([10e6, 12e6])
+    with refused("no-sheet", None, "'run 1'") as caught:
+        read_dma(path, sheet="run 3")
+    assert caught.value.note.values["sheets"] == ["run 1", "run 2", "log"]
+    with refused("missing-columns") as caught:
+        read_dma(path, sheet="log")
+    renamed = [["Chamber", "v1", "Alpha", "Beta"], ["°C", "Hz", "MPa", "MPa"]]
+    strange = write_workbook(tmp_path / "b.xlsx", {"notes": [["by", "hand"]], "data": [*renamed, *points]})
+    with refused("missing-columns", None, "'data'") as caught:
+        read_dma(strange)
+    assert caught.value.note.values["headings"] == renamed[0]
+    assert caught.value.note.values["sheets"] == ["notes", "data"]
+    assert_is_the_table(read(strange, columns=NAMES))
+
+
+def test_columns_of_traction_runs_and_their_workbooks(tmp_path):
+    header = "V1 (mm/s),V2 (mm/s),traction force (N),load (N),T_C"
+    rows = ["22,18,0.5,25,30", "18,22,-0.5,25,30"]
+    with refused("missing-columns") as caught:
+        read_mtm(write(tmp_path, header, *rows))
+    assert caught.value.note.values["missing"] == ["disc speed", "ball speed"]
+    assert caught.value.note.values["key"] == "measurement.columns"
+    columns = {"disc_speed": "V1 (mm/s)", "ball speed": "V2 (mm/s)"}
+    runs = read_mtm(write(tmp_path, header, *rows), columns=columns)
+    assert runs.disc_speed == pytest.approx([0.022, 0.018])
+    cells = [header.split(","), *([float(cell) for cell in row.split(",")] for row in rows)]
+    book = write_workbook(tmp_path / "runs.xlsx", {"a": cells, "b": [["x"]]})
+    assert np.array_equal(read_mtm(book, columns=columns, sheet="a").ball_speed, runs.ball_speed)
+    twice = write_workbook(tmp_path / "twice.xlsx", {"a": cells, "b": cells})
+    with refused("several-tables") as caught:
+        read_mtm(twice, columns=columns)
+    assert caught.value.field == "measurement.sheet"
+
+
+def test_columns_of_a_master_curve(tmp_path):
+    path = write(tmp_path, "w,A,B", "0.1,3,0.2", "10,4,0.5", name="curve.csv")
+    columns = {"frequency": "w (rad/s)", "storage_modulus": "A (MPa)", "loss_modulus": "B (MPa)"}
+    curve = vf.read_master_curve(path, "30 degC", deformation="tension", columns=columns)
+    assert curve.angular_frequency == pytest.approx([0.1, 10.0])
+    assert curve.storage_modulus == pytest.approx([3e6, 4e6])
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "unit"),
+    [
+        ("freq_hz", "freq", "hz"),
+        ("G_storage_pa", "G storage", "pa"),
+        ("f in Hz", "f", "Hz"),
+        ("Speichermodul in MPa", "Speichermodul", "MPa"),
+        ("Temperature, °C", "Temperature", "°C"),
+        ("omega_rad_s", "omega", "rad_s"),
+        ("omega rad/s", "omega", "rad/s"),
+        ("E' psi", "E'", "psi"),
+        ("temp c", "temp", "c"),
+        ("T_C", "T", "C"),
+        ("F_n", "F n", ""),
+        ("x in y", "x in y", ""),
+        ("tan δ", "tan δ", ""),
+        ("ω / rad/s", "ω", "rad/s"),
+    ],
+)
+def test_names_and_units_of_headings(text, name, unit):
+    assert (heading(text).name, heading(text).unit) == (name, unit)
+
+
+@pytest.mark.parametrize(
+    ("header", "factor"),
+    [
+        ("t_c,freq_hz,e_storage_mpa,e_loss_mpa", 1.0),
+        ("TEMPERATURE (DEGC),FREQUENCY (HZ),STORAGE MODULUS (MPA),LOSS MODULUS (MPA)", 1.0),
+        ("T in °C,f in Hz,E' in MPa,E'' in MPa", 1.0),
+        ("Temp,Freq,E',E''\nC,hz,PSI,psi", 6894.757293168361e-6),
+        ("T [°C],f [Hz],E' [dyn/cm²],E'' [dynes/cm^2]", 1e-7),
+        ("T [°C],f [Hz],E' [kgf/mm²],E'' [kgf/mm2]", 9.80665),
+        ("T [°C],f [Hz],E' [kgf/cm²],E'' [kp/cm²]", 0.0980665),
+        ("T [°C],f [Hz],E' [ksi],E'' [KSI]", 6.894757293168361),
+        ("StorageTemp,Temperature (C),Frequency (Hz),StorageModulus (MPa),LossModulus (MPa)", 1.0),
+    ],
+)
+def test_units_without_regard_to_case_and_older_ones(tmp_path, header, factor):
+    rows = [f"0,{row}" if header.startswith("StorageTemp") else row for row in ROWS]
+    sweeps = read(write(tmp_path, header, *rows))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6 * factor, 6e6 * factor], rel=1e-9)
+
+
+def test_case_counts_where_both_spellings_are_units():
+    assert unit_conversion("mN", "N")[0] == pytest.approx(1e-3)
+    assert unit_conversion("MN", "N")[0] == pytest.approx(1e6)
+    assert unit_conversion("mpa", "Pa")[0] == pytest.approx(1e6)
+    assert to_rad_per_second("mHz", angular=False) == pytest.approx(2e-3 * math.pi)
+    assert to_rad_per_second("RAD/S", angular=True) == 1.0
+
+
+def test_a_header_in_a_remark(tmp_path):
+    path = write(tmp_path, "# by numpy.savetxt", "# T_C f_Hz E'_MPa E''_MPa", *[row.replace(",", " ") for row in ROWS])
+    assert_is_the_table(read_dma(path))
+
+
+def test_blank_rows_may_outnumber_data(tmp_path):
+    blank = [",,,"] * 20 + ["25,,,"] * 20
+    path = write(tmp_path, "T_C,f_Hz,E'_MPa,E''_MPa", *blank, *ROWS, *blank)
+    sweeps = read_dma(path)
+    assert_is_the_table(sweeps)
+    assert [note for note in map(note_of, sweeps.notes) if note.code == "empty-rows"][0].startswith("40 rows")
