@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from readers.refusal import refused
+from readers.refusal import noted, refused
 from readers.samples.workbook import write as write_workbook
 from viscofric.errors import DataFileError
 from viscofric.notes import note_of
@@ -19,6 +19,7 @@ from viscofric.readers.source import to_rad_per_second, unit_conversion
 
 ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
 NAMES = {"temperature": "Chamber", "frequency": "v1", "storage_modulus": "Alpha", "loss_modulus": "Beta"}
+HALF = {"temperature": "Chamber (degC)", "frequency": "v1 (Hz)"}
 
 
 def write(tmp_path, *lines, name="sweeps.csv"):
@@ -38,23 +39,29 @@ def read(path, **asked):
     return read_dma(path, deformation="tension", **asked)
 
 
+def mapped(*headings):
+    """Return headings by quantity: temperature, frequency, storage and loss modulus."""
+    return dict(zip(NAMES, headings, strict=True))
+
+
 @pytest.mark.parametrize(
     ("header", "columns"),
     [
-        ("Chamber (degC),v1 (Hz),Alpha (MPa),Beta (MPa)", {k: f"{v} ({u})" for (k, v), u in zip(NAMES.items(), ("degC", "Hz", "MPa", "MPa"), strict=True)}),
-        ("Chamber,v1,Alpha,Beta", {"temperature": "chamber (°C)", "frequency": "V1 (Hz)", "storage modulus": "ALPHA [MPa]", "loss-modulus": "beta (MPa)"}),
+        ("A (degC),v1 (Hz),B (MPa),C (MPa)", mapped("A (degC)", "v1 (Hz)", "B (MPa)", "C (MPa)")),
+        ("Chamber,v1,Alpha,Beta", mapped("chamber (°C)", "V1 (Hz)", "ALPHA [MPa]", "beta (MPa)")),
+        ("Chamber,v1,Alpha,Beta", {"storage modulus": "Alpha (MPa)", "loss-modulus": "Beta (MPa)"} | HALF),
         # units of the file that are wrong, or in the row below
-        ("Chamber (K?),v1 [cycles],Alpha,Beta", {"temperature": "Chamber (K?) (degC)", "frequency": "v1 [cycles] (Hz)", "storage_modulus": "Alpha (MPa)", "loss_modulus": "Beta (MPa)"}),
+        ("T (K?),v1 [cycles],a,b", mapped("T (K?) (degC)", "v1 [cycles] (Hz)", "a (MPa)", "b (MPa)")),
         ("Chamber,v1,Alpha,Beta\n°C,Hz,MPa,MPa", NAMES),
         # one is named, the others are understood
         ("T_C,v1,E' (MPa),E'' (MPa)", {"frequency": "v1 (Hz)"}),
         ("T_C,omega,E' (MPa),E'' (MPa)", {"frequency": "omega (Hz)"}),
         ("T_C,f (Hz),E' (MPa),loss (MPa),E'' (GPa)", {"loss_modulus": "loss (MPa)"}),
         # by number, with a header and without
-        ("x,x,x,x", {"temperature": "#1 (degC)", "frequency": "#2 (Hz)", "storage_modulus": "#3 (MPa)", "loss_modulus": "# 4 (MPa)"}),
-        ("# exported by hand", {"temperature": "#1 (degC)", "frequency": "#2 (Hz)", "storage_modulus": "#3 (MPa)", "loss_modulus": "#4 (MPa)"}),
+        ("x,x,x,x", mapped("#1 (degC)", "#2 (Hz)", "#3 (MPa)", "# 4 (MPa)")),
+        ("# exported by hand", mapped("#1 (degC)", "#2 (Hz)", "#3 (MPa)", "#4 (MPa)")),
     ],
-)  # fmt: skip
+)
 def test_headings_are_named_by_the_user(tmp_path, header, columns):
     rows = [f"{row},1" if header.count(",") == 4 else row for row in ROWS]
     assert_is_the_table(read(write(tmp_path, header, *rows), columns=columns))
@@ -233,4 +240,4 @@ def test_blank_rows_may_outnumber_data(tmp_path):
     path = write(tmp_path, "T_C,f_Hz,E'_MPa,E''_MPa", *blank, *ROWS, *blank)
     sweeps = read_dma(path)
     assert_is_the_table(sweeps)
-    assert [note for note in map(note_of, sweeps.notes) if note.code == "empty-rows"][0].startswith("40 rows")
+    assert noted(sweeps.notes, "empty-rows", "40 rows")

@@ -78,7 +78,8 @@ PRINTED_FREQUENCY = 0.05
 _SPELLINGS = {
     one.casefold(): one
     for one in (
-        ["Pa", "kPa", "MPa", "GPa", "psi", "ksi", "N", "kN", "mm/s", "cm/s", "m/s", "um/s", "Hz", "kHz", "1/Pa", "1/kPa", "1/MPa", "1/GPa", "s", "ms", "min", "mm", "cm", "m", "um"]
+        *("Pa", "kPa", "MPa", "GPa", "psi", "ksi", "N", "kN", "1/Pa", "1/kPa", "1/MPa", "1/GPa", "Hz", "kHz"),
+        *("mm/s", "cm/s", "m/s", "um/s", "s", "ms", "min", "um", "mm", "cm", "m"),
     )
 } | {
     "kpsi": "ksi",
@@ -122,7 +123,7 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
 def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
     """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``).
 
-    A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, but ``mPa`` is not.
+    A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.
 
     Raises
     ------

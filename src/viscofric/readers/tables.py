@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import csv
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import heading, is_place, place_of
+from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
+from viscofric.readers.headings import place_of
 from viscofric.readers.source import decimal_comma
 from viscofric.readers.table import MISSING, header_values, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
@@ -23,26 +24,12 @@ if TYPE_CHECKING:
     from viscofric.readers.workbook import Rows
 
 
-#: Tables by people and instruments begin above this line.
-DEEPEST_HEADER = 300
 #: A longer line names no columns.
 _LONGEST_LINE = 10_000
 _DELIMITERS = "\t;,"
 #: Headings may contain single blanks ("f (Hz)"), so two or more separate them; numbers contain none.
 _BLANKS = "blanks"
-_LONGEST_NAME = 100
-#: First characters of names that begin with no letter: "|E*|", " f (Hz)", '"f"'.
-_BEFORE_LETTERS = ("|", " ", '"', "'")
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
-
-
-@dataclass(frozen=True)
-class _Found:
-    """Rows of cells that are not blank, and the place of their header."""
-
-    rows: list[NumberedRow]
-    header: int
-    comma_is_free: bool = True
 
 
 def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
@@ -87,7 +74,7 @@ def no_header(source: Source, vocabulary: Vocabulary) -> DataFileError:
     words = vocabulary.asking(source.columns)
     if is_workbook(source):
         return _no_header_in_workbook(source, words)
-    candidates = [_guessed(_split_lines(source, delimiter)) for delimiter in (*_DELIMITERS, _BLANKS)]
+    candidates = [guessed(_split_lines(source, delimiter)) for delimiter in (*_DELIMITERS, _BLANKS)]
     return _not_understood(source.path, words, max(candidates, key=len))
 
 
@@ -122,8 +109,8 @@ def _of_workbook(source: Source, words: Vocabulary) -> dict[str, Table]:
 def _no_header_in_workbook(source: Source, words: Vocabulary) -> DataFileError:
     known = sheets(source)
     asked = [source.sheet] if source.sheet in known else [*known]
-    guessed = {name: _guessed(_numbered(f"{source.path}, sheet {name!r}", known[name])) for name in asked}
-    return _not_understood(source.path, words, max(guessed.values(), key=len, default=[]), [*known])
+    headings = {name: guessed(_numbered(f"{source.path}, sheet {name!r}", known[name])) for name in asked}
+    return _not_understood(source.path, words, max(headings.values(), key=len, default=[]), [*known])
 
 
 def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheets: Sequence[str] = ()) -> DataFileError:
@@ -169,84 +156,7 @@ def name_columns(key: str, missing: Sequence[str]) -> Remedy:
     )
 
 
-def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
-    """Return the quantities that the cells of one row name."""
-    if not any(cell[:1].isalpha() or cell[:1] in _BEFORE_LETTERS for cell in cells):
-        return set()
-    if words.asked:
-        return {column.quantity for column in words.columns(cells)} - {""}
-    return {words.quantity(heading(cell).name) for cell in cells if 0 < len(cell) < _LONGEST_NAME} - {""}
-
-
-def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> _Found | None:
-    """Return rows with the place of their header, None without one; a missing header is put in where places suffice.
-
-    It is the first row with all headings that the user names; without these the first that names what is needed;
-    without such a row the first that names two quantities.
-    """
-    if words.asked:
-        return _header_with(rows, words)
-    second_best = None
-    for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
-        found = named(cells, words)
-        if found and not words.missing(found):
-            return _Found(list(rows), place)
-        if second_best is None and len(found) > 1:
-            second_best = place
-    return None if second_best is None else _Found(list(rows), second_best)
-
-
-def _header_with(rows: Sequence[NumberedRow], words: Vocabulary) -> _Found | None:
-    asked = words.asked.values()
-    if not all(map(is_place, asked)):
-        for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
-            if all(place_of(said, cells)[0] is not None for said in asked):
-                return _Found(list(rows), place)
-        return None
-    first = _first_numbers(rows)
-    if first is None or any(place_of(said, rows[first][1])[0] is None for said in asked):
-        return None
-    top = _top_of_header(rows, first)
-    if top is not None:
-        return _Found(list(rows), top)
-    number, cells = rows[first]
-    places = [f"#{place}" for place in range(1, len(cells) + 1)]
-    return _Found([*rows[:first], (number, places), *rows[first:]], first)
-
-
-def _first_numbers(rows: Sequence[NumberedRow]) -> int | None:
-    """Return the place of the first row of numbers, at least two and most of its cells."""
-    for place, (_, cells) in enumerate(rows[: DEEPEST_HEADER + 3]):
-        count = sum(map(is_number, cells))
-        if count > 1 and 2 * count >= len([cell for cell in cells if cell.strip()]):
-            return place
-    return None
-
-
-def _top_of_header(rows: Sequence[NumberedRow], first: int) -> int | None:
-    """Return the highest of the rows of text, at most three, that stand above numbers and have as many cells."""
-    width, top = len(rows[first][1]), None
-    for place in range(first - 1, max(-1, first - 4), -1):
-        cells = [cell for cell in rows[place][1] if cell.strip()]
-        fits = 2 * len(cells) > width >= len(cells) - 1
-        if not fits or any(map(is_number, cells)):
-            break
-        top = place
-    return top
-
-
-def _guessed(rows: Sequence[NumberedRow]) -> list[str]:
-    """Return the headings above the first row of numbers, or the numbers of its columns; none without numbers."""
-    first = _first_numbers(rows)
-    if first is None:
-        return []
-    top = _top_of_header(rows, first)
-    if top is None:
-        return [f"#{place}" for place in range(1, len(rows[first][1]) + 1)]
-    return [cell.strip() for cell in rows[top][1]]
-
-
-def _table_under(path: str, found: _Found, words: Vocabulary) -> Table:
+def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     """Return the table under a header, from all rows that are not blank.
 
     Raises
@@ -299,16 +209,7 @@ def _unit(cell: str) -> str:
     return "" if plain in ("-", "–", "1") else plain
 
 
-def is_number(cell: str) -> bool:
-    """Return whether a cell is a number, with a decimal point or comma."""
-    try:
-        float(cell.strip().replace(",", "."))
-    except ValueError:
-        return False
-    return True
-
-
-def _in_text(source: Source, words: Vocabulary) -> _Found | None:
+def _in_text(source: Source, words: Vocabulary) -> Found | None:
     """Return the rows and the header of a text, split at the delimiter that makes most of a header.
 
     Where no line is a header, remarks (``# f (Hz), E' (MPa)``) are looked at too.
@@ -327,7 +228,7 @@ def _in_text(source: Source, words: Vocabulary) -> _Found | None:
     return None
 
 
-def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> _Found | None:
+def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> Found | None:
     """Return all rows of a text with its header; remarks below it are left out."""
     lines = _lines(source.text or "", remarks)
     if delimiter == _BLANKS:
@@ -340,7 +241,7 @@ def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> 
     above = found.rows[: found.header + 1]
     remarked = {number for number, _, is_remark in lines if is_remark}
     below = [row for row in found.rows[found.header + 1 :] if row[0] not in remarked]
-    return _Found([*above, *below], found.header, delimiter != ",")
+    return Found([*above, *below], found.header, delimiter != ",")
 
 
 def _lines(text: str, remarks: bool) -> list[tuple[int, str, bool]]:
@@ -361,7 +262,7 @@ def _split_lines(source: Source, delimiter: str, remarks: bool = False) -> list[
     return [(number, split(line[:_LONGEST_LINE])) for number, line, _ in lines]
 
 
-def _fits_below(found: _Found) -> bool:
+def _fits_below(found: Found) -> bool:
     """Return whether lines of as many numbers follow; prose, whose words blanks separate, may name quantities too."""
     width = len(found.rows[found.header][1])
     below = found.rows[found.header + 1 : found.header + 3]
