@@ -1,4 +1,4 @@
-"""Built-in rubbers: parameters that others published, with their source, and one synthetic fluoroelastomer."""
+"""Predefined materials: published parameters with their source, and one synthetic fluoroelastomer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: The half-Gaussians end so many standard deviations from their centres, where they hold no more compliance.
+#: The half-Gaussians end this many standard deviations from their centres, where their compliance is negligible.
 WIDTH = 4.5
 
 
@@ -116,7 +116,7 @@ def _plain(name: str) -> str:
 
 
 def _vhb_4910() -> Material:
-    """Small-strain limit: equilibrium shear modulus and three Maxwell branches, incompressible (E = 3G).
+    """Return the small-strain limit: equilibrium shear modulus and three Maxwell branches, incompressible (E = 3G).
 
     The equilibrium is a chain law of Arruda and Boyce (1993, doi:10.1016/0022-5096(93)90013-6): the deviatoric stress
     is G0 ζ dev(B), ζ = β(z)/(3z), z = λ/λL, with λ = 1 at small strain.  β is the inverse Langevin function, in
@@ -132,7 +132,7 @@ def _vhb_4910() -> Material:
 
 
 def _pvb() -> Material:
-    """Shear relaxation in 11 relative moduli about G0 = 471 MPa, taken as incompressible (E = 3G)."""
+    """Return shear relaxation in 11 relative moduli of G0 = 471 MPa, taken as incompressible (E = 3G)."""
     glass = 3.0 * 471e6  # Pa
     share = np.array(
         [0.1606, 0.07877, 0.2912, 0.071155, 0.2688, 0.089568, 0.030183, 0.0076056, 0.0009634, 0.0004059, 0.0006143]
@@ -192,7 +192,7 @@ def synthetic_fluoroelastomer() -> Material:
 
 
 def _half_gaussians(log10_tau: Array, centre: float, long: float, short: float) -> Array:
-    """Two half-Gaussians joined at their centre, of total 1 over the given retardation times."""
+    """Return two half-Gaussians joined at their centre, of total 1 over the given retardation times."""
     away = log10_tau - centre
     weight = np.exp(-0.5 * (away / np.where(away > 0.0, long, short)) ** 2)
     return np.asarray(weight / weight.sum())

@@ -1,4 +1,4 @@
-"""A rubber: its modulus at one temperature, how temperature shifts it, and its Poisson ratio."""
+"""A viscoelastic material: its modulus at one temperature, its shift with temperature, and its Poisson ratio."""
 
 from __future__ import annotations
 
@@ -209,7 +209,7 @@ class Material:
 
 
 def insist_on_material(given: object) -> None:
-    """Raise `InputError` where something else is given."""
+    """Raise `InputError` unless a Material is given."""
     if not isinstance(given, Material):
         raise InputError(
             f"material = {brief(given)}: must be a Material, such as vf.read_card('rubber.json').", code="wrong-type"

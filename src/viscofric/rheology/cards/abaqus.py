@@ -2,7 +2,7 @@
 
 Keywords and data lines as in the Abaqus Keywords Guide (*ELASTIC, *HYPERELASTIC, *VISCOELASTIC, *TRS,
 *PHYSICAL CONSTANTS) and the Analysis Guide, Time domain viscoelasticity: g_R(t) = 1 − Σ g_i (1 − exp(−t/τ_i)),
-k_R alike, both of the instantaneous moduli, though *ELASTIC must hold the long-term ones in the frequency domain;
+k_R likewise, both of the instantaneous moduli, though *ELASTIC must hold the long-term ones in the frequency domain;
 −log10 A = C1 (θ − θ0)/(C2 + θ − θ0), with A our α, or ln A = E0/R (1/(θ − θZ) − 1/(θ0 − θZ)).
 """
 
@@ -38,7 +38,7 @@ NAME = "Abaqus"
 _LONGEST_NAME = 80
 _LONGEST_NUMBER = 20  # characters
 _UNDERSTOOD = {"MATERIAL", "ELASTIC", "HYPERELASTIC", "VISCOELASTIC", "TRS", "DENSITY", "PHYSICALCONSTANTS"}
-#: Keywords that do not change what is read here.
+#: Keywords without effect on the properties read here.
 _IMMATERIAL = {
     "HEADING",
     "EXPANSION",
@@ -52,12 +52,12 @@ _IMMATERIAL = {
 
 
 def recognises(text: str) -> bool:
-    """Tell by the keywords whether a text is an Abaqus card."""
+    """Return whether a text has the keywords of an Abaqus card."""
     return bool(re.search(r"(?im)^\s*\*\s*(VISCOELASTIC\s*,|MATERIAL\s*,\s*NAME)", text))
 
 
 def card_name(name: str) -> str:
-    """Return a name that Abaqus takes: at most 80 characters, a letter first."""
+    """Return a valid Abaqus name: at most 80 characters, a letter first."""
     plain = re.sub(r"[^A-Za-z0-9_-]+", "_", name.encode("ascii", "ignore").decode()).strip("_") or "rubber"
     return (plain if plain[0].isalpha() else f"M_{plain}")[:_LONGEST_NAME]
 
@@ -109,7 +109,7 @@ class _Block:
 
 
 def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
-    """Return what the first viscoelastic material in the text says."""
+    """Return the first viscoelastic material in the text."""
     blocks = _blocks(text)
     notes: list[str] = [] if content else reading.unit_note()
     chosen, name = _material(blocks, notes)
@@ -206,7 +206,7 @@ def _only(blocks: list[_Block], keyword: str) -> _Block | None:
 
 
 def _left(shares: list[float], row: int) -> float:
-    """Long-term modulus as a share of the instantaneous one."""
+    """Return the long-term modulus over the instantaneous one."""
     left = 1.0 - sum(shares)
     if left <= 0.0:
         raise InputError(
@@ -220,10 +220,10 @@ def _left(shares: list[float], row: int) -> float:
 def _as_stated(
     shear: float, bulk: float | None, poisson: float, content: dict[str, Any] | None
 ) -> tuple[float, float | None]:
-    """Return the instantaneous moduli of the comments where they are those of the card, to the last digit."""
+    """Return the instantaneous moduli of the comments where they equal those of the card, except for the last digit."""
     stated = number_of(content, "E_inf")
     tensile_modulus = 2.0 * (1.0 + poisson) * shear
-    # Division by 1 − Σg loses as many digits as rubber and glass lie apart.
+    # Division by 1 − Σg loses as many digits as relaxed and glassy modulus differ by decades.
     if stated is None or abs(stated - tensile_modulus) > 1e-9 * tensile_modulus:
         return shear, bulk
     scale = stated / tensile_modulus
@@ -265,7 +265,7 @@ def _hyperelastic(block: _Block) -> tuple[float, float]:
     """Return the shear modulus at small strain and D1 = 2/K, in the card's unit."""
     values = [number for row in block.data for number in row]
     options = {option.upper().replace("-", " ") for option in block.options}
-    # constants per model, those whose doubled sum is the shear modulus, and where D1 stands
+    # number of constants, indices of those whose doubled sum is the shear modulus, and index of D1
     known = {"NEO HOOKE": ((0,), 1), "MOONEY RIVLIN": ((0, 1), 2), "YEOH": ((0,), 3)}
     for model, (stiff, place) in known.items():
         if model in options:

@@ -47,7 +47,7 @@ _ARITHMETIC: dict[type, Callable[[float, float], float]] = {
 
 
 def recognises(text: str) -> bool:
-    """Tell by its commands whether a text is an ANSYS card."""
+    """Return whether a text has the commands of an ANSYS card."""
     return bool(re.search(r"(?im)^\s*TB\s*,\s*PRON", text))
 
 
@@ -83,7 +83,7 @@ def write(material: Material, writing: Writing) -> str:
 
 @dataclass
 class _Table:
-    """One TB command and the constants that its TBDATA give, by their place."""
+    """One TB command and the constants of its TBDATA, by their number."""
 
     name: str
     option: str
@@ -103,7 +103,7 @@ class _Table:
 
 
 def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
-    """Return what the commands of one material say."""
+    """Return the material of the commands."""
     properties, tables, ignored = _commands(text)
     notes: list[str] = [] if content else reading.unit_note()
     if ignored:
@@ -133,12 +133,12 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     bulk_series = relative_series(bulk, *series.get("BULK", ([], [])), None if share is None else share * bulk)
     spectrum, poisson, found = tensile(shear_series, bulk_series)
     shift = _shift(next((table for table in tables if table.name == "SHIFT"), None), reading, content, notes)
-    # With alike series the ratio of the card is the ratio, to the last digit.
+    # With equal series the ratio of the card is exact.
     return Solid(spectrum, ratio if alike else poisson, shift, "", (*notes, *found))
 
 
 def _commands(text: str) -> tuple[dict[str, float], list[_Table], set[str]]:
-    """Return properties (MP), tables (TB with TBDATA), and names of commands that mean nothing here."""
+    """Return properties (MP), tables (TB with TBDATA), and names of the commands that are ignored."""
     properties: dict[str, float] = {}
     tables: list[_Table] = []
     ignored: set[str] = set()

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
 
 
-#: How a card may count: SI, or tonne, mm, s, N and so MPa, in which density is in t/mm³.
+#: Unit systems of a card: SI, or tonne, mm, s, N and so MPa, in which density is in t/mm³.
 UnitSystem: TypeAlias = Literal["Pa", "MPa"]
 _PASCAL = {"Pa": 1.0, "MPa": 1e6}
 _DENSITY = {"Pa": 1.0, "MPa": 1e12}  # kg/m³ in one kg/m³ or t/mm³
 _ENERGY = {"Pa": 1.0, "MPa": 1e-3}  # J in one J or N mm
 
-#: A temperature without unit below this is in °C: no rubber is referred to −73 °C, nor to 200 °C.
+#: A temperature without unit below this is in °C: no rubber has a reference of −73 °C, nor of 200 °C.
 _KELVIN_FROM = 200.0
 
 
@@ -40,20 +40,20 @@ class Writing:
     unit_system: UnitSystem = "Pa"  # "Pa": SI; "MPa": tonne, mm, s
 
     def modulus(self, pascal: float) -> float:
-        """Return a modulus as the model counts it."""
+        """Return a modulus in the card's unit."""
         return pascal / _PASCAL[self.unit_system]
 
     def energy(self, joule: float) -> float:
-        """Return an energy as the model counts it."""
+        """Return an energy in the card's unit."""
         return joule / _ENERGY[self.unit_system]
 
     @property
     def written_density(self) -> float | None:
-        """Density as the model counts it."""
+        """Density in the card's unit."""
         return None if self.density is None else self.density / _DENSITY[self.unit_system]
 
     def temperature(self, kelvin: float) -> float:
-        """Return a temperature as the model counts it."""
+        """Return a temperature in the card's unit."""
         return kelvin - CELSIUS_ZERO if self.temperature_unit == "degC" else kelvin
 
 
@@ -95,7 +95,7 @@ class Reading:
         return temperature + CELSIUS_ZERO
 
     def unit_note(self) -> list[str]:
-        """Return the sentence that says which units were assumed, if any."""
+        """Return a sentence on the units that were assumed, if any."""
         assumed = [unit for given, unit in ((self.modulus_unit, "Pa"), (self.time_unit, "s")) if not given]
         if not assumed:
             return []
@@ -153,7 +153,7 @@ def number_text(value: float, longest: int) -> str:
 
 
 def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:
-    """Return a material's Prony series; refuse a table, which has none."""
+    """Return a material's Prony series; InputError for a table, which has none."""
     spectrum: Any = material.spectrum
     if not isinstance(spectrum, RetardationSpectrum):
         raise InputError(
@@ -186,13 +186,13 @@ def written_poisson_ratio(material: Material, writing: Writing, program: str, in
 
 
 def card_law(law: Any) -> WLF | Arrhenius | None:
-    """Return a shift law as programs know it: WLF (VFT is the same curve) or Arrhenius; None for all others."""
+    """Return a shift law that programs have: WLF (VFT is the same curve) or Arrhenius; None for all others."""
     if isinstance(law, VFT):
         return law.to_wlf()
     return law if isinstance(law, (WLF, Arrhenius)) else None
 
 
-#: Shear and bulk modes of a card whose times and ratios agree so well are one relaxation.
+#: Shear and bulk modes of a card whose times and ratios agree within this are one relaxation.
 _ALIKE = 1e-9
 
 

@@ -1,4 +1,4 @@
-"""Materials written as cards of finite-element programs and read back: the verbs, and which formats there are."""
+"""Materials written as cards of finite-element programs and read back: the functions and the formats."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.laws import ParametricLaw
     from viscofric.units import Quantity
 
-#: What `write_card` can write.
+#: Formats of `write_card`.
 CardFormat: TypeAlias = Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"]
 
 
 #: Laws that `write_card` fits for programs.
 CardLaw: TypeAlias = Literal["best", "wlf", "vft", "arrhenius"]
-#: Programs whose cards have no units: the model's own count.
+#: Programs whose cards have no units: those of the model apply.
 _WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
 
 
@@ -179,7 +179,7 @@ def write_card(
 
 
 def _with_law(material: Material, law: str, notes: list[Note]) -> Material:
-    """Return the material with a law fitted to its table of shift factors, and note where that misses them."""
+    """Return the material with a law fitted to its table of shift factors, and a note on its misfit."""
     if law not in get_args(CardLaw):
         raise InputError(f"law = {law!r}: must be one of {', '.join(get_args(CardLaw))}.", code="unknown-law")
     factors: Any = material.shift
@@ -196,7 +196,7 @@ def _with_law(material: Material, law: str, notes: list[Note]) -> Material:
 
 
 def _best_law(factors: ShiftFactors) -> ParametricLaw:
-    """Return the best of the laws that programs know."""
+    """Return the best of the laws that programs have."""
     laws = factors.compare_laws()
     known = [row.law for row in (laws.chosen, *laws.rows) if row.law is not None and card_law(row.law) is not None]
     if not known:
@@ -209,7 +209,7 @@ def _missed(factors: ShiftFactors, law: ParametricLaw) -> float:
 
 
 def _left_out(material: Material, form: str, domain: str, text: str) -> list[Note]:
-    """Say what of the dependence on temperature the program does not get from a card."""
+    """Return a sentence on the part of the temperature dependence that the card cannot contain."""
     notes, shift = [], material.shift
     written = (stored_content(text) or {"card": {}})["card"].get("shift")
     if shift is not None and not written:
@@ -221,7 +221,7 @@ def _left_out(material: Material, form: str, domain: str, text: str) -> list[Not
 
 
 def _no_shift(about: str, shift: Any, form: str, domain: str) -> Note:
-    """Say why a card has no shift, and what would write one."""
+    """Return the reason why a card has no shift, and how to write one."""
     only = "the program takes a shift law, but no table of shift factors"
     remedy = None
     if form == "comsol-branches":

@@ -1,4 +1,4 @@
-"""Comments of a material card: for people, and for `read_card` the properties that the program cannot hold."""
+"""Comments of a material card: for people, and for `read_card` the properties that the card cannot contain."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
-#: Begins each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
+#: Start of each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
 _MARK = "viscofric>"
 _PIECE = 66  # characters: LS-DYNA reads 80 of a line
 _UNITS = {"Pa": "Pa, s, m, kg", "MPa": "MPa, s, mm, tonne (density in t/mm^3, forces in N)"}
@@ -59,7 +59,7 @@ def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_wr
 def stored(
     material: Material, writing: Writing, poisson_ratio: float, relaxation: RelaxationSpectrum, shift_written: bool
 ) -> dict[str, Any]:
-    """Return what the card itself cannot hold, for `comment_lines`."""
+    """Return the properties that the card itself cannot contain, for `comment_lines`."""
     zero = 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO
     card = {
         "poisson_ratio": poisson_ratio,
@@ -73,7 +73,7 @@ def stored(
 
 
 def number_of(content: dict[str, Any] | None, name: str) -> float | None:
-    """Return a number that `stored` put aside for the reader of the card, if there is one."""
+    """Return a number that `stored` wrote into the comments, if there is one."""
     value = None if content is None else content["card"].get(name)
     if value is None or (isinstance(value, (int, float)) and np.isfinite(value)):
         return value
@@ -81,7 +81,7 @@ def number_of(content: dict[str, Any] | None, name: str) -> float | None:
 
 
 def modulus_unit_of(content: dict[str, Any] | None) -> str | None:
-    """Return the unit of moduli that `stored` put aside, if there is one."""
+    """Return the unit of moduli that `stored` wrote into the comments, if there is one."""
     unit = None if content is None else content["card"].get("unit_system")
     if unit is None or unit in _UNITS:
         return unit
@@ -146,7 +146,7 @@ def stored_content(text: str) -> dict[str, Any] | None:
 
 
 def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material, list[Note]]:
-    """Join what a card's keywords say with what its comments say; the keywords count where they differ."""
+    """Combine the properties of a card's keywords and of its comments; the keywords take precedence."""
     if content is None:
         stated = {"name": solid.name, "poisson_ratio": solid.poisson_ratio}
         material = assembled(solid.spectrum, stated)

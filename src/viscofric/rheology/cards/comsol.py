@@ -5,7 +5,7 @@ number of the branch, its shear modulus and its relaxation time (Linear Viscoela
 Structural Mechanics Module User's Guide, Viscoelasticity).  Generalised Maxwell model: G(t) = G + Σ G_m exp(−t/τ_m);
 log10 aT = −C1 (T − Tref)/(C2 + T − Tref), or ln aT = (Q/R)(1/T − 1/Tref).  In COMSOL 6.0 all branches are deviatoric
 and the bulk modulus is one constant; in 6.2 they may be "Volumetric and deviatoric", K(t) = K + Σ K_m exp(−t/τ_m).
-Only these make a constant Poisson ratio: with the long-term bulk modulus alone the glass would be far too soft.
+Only these have a constant Poisson ratio: with the long-term bulk modulus alone the glass would be far too soft.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
 
 NAME = "COMSOL"
-#: Bulk moduli that belong to nu and the shear moduli agree so well with them.
+#: Bulk moduli within this of those that follow from nu and the shear moduli agree with them.
 _SAME = 1e-9
 _LINE = re.compile(r"(?P<name>[A-Za-z]\w*)\s+(?P<value>[-+0-9.eE]+)(?:\s*\[(?P<unit>[^\]]*)\])?(?:\s+.*)?")
 
 
 def recognises(text: str) -> bool:
-    """Tell by its names whether a text is a list of such parameters."""
+    """Return whether a text is a list of such parameters, by their names."""
     return bool(re.search(r"(?m)^G_long_term\s", text) and re.search(r"(?m)^G_1\s", text))
 
 
 def recognises_branches(text: str) -> bool:
-    """Tell by its columns whether a text is a table of branches (only ours says its long-term modulus)."""
+    """Return whether a text is a table of branches (only viscofric's own states its long-term modulus)."""
     rows = [line.split() for line in text.splitlines() if line.strip() and not line.startswith("%")]
     try:
         return bool(rows) and all(
@@ -59,10 +59,10 @@ def _head(material: Material, writing: Writing, parameters: bool) -> tuple[Relax
 
 
 def _bulk_remarks(relaxation: RelaxationSpectrum, ratio: float, parameters: bool) -> list[str]:
-    """Return what to choose in the program so that it has the material's E."""
+    """Return the choices in the program that give the material's E."""
     bulk = 1.0 / (3.0 * (1.0 - 2.0 * ratio))
     constant, long_term = bulk * relaxation.E_inf, bulk * relaxation.E0
-    # 1/E = 1/(3G) + 1/(9K) with G of the rubber and K of the glass; nowhere else is E further off.
+    # 1/E = 1/(3G) + 1/(9K) with the relaxed G and the glassy K: the largest error of E.
     excess = 1.0 / ((2.0 + 2.0 * ratio) / 3.0 + (1.0 - 2.0 * ratio) / 3.0 * relaxation.E0 / relaxation.E_inf) - 1.0
     names = (
         ("G_long_term and K_long_term", "its G_m, K_m and tau_m", "K_constant")
@@ -117,7 +117,7 @@ def write(material: Material, writing: Writing) -> str:
 
 
 def write_branches(material: Material, writing: Writing) -> str:
-    """Return the table of branches as text; long-term moduli and shift stand in its comments."""
+    """Return the table of branches as text; long-term moduli and shift are in its comments."""
     relaxation, ratio, _, lines = _head(material, writing, False)
     shear = 1.0 / (2.0 * (1.0 + ratio))
     lines.append(f"% Long-term shear modulus {relaxation.E0 * shear!r} Pa, Poisson ratio {ratio!r}.")
@@ -130,7 +130,7 @@ def write_branches(material: Material, writing: Writing) -> str:
 
 
 def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
-    """Return what a list of parameters says."""
+    """Return the material of a list of parameters."""
     del reading  # every parameter has its unit
     values: dict[str, str] = {}
     ignored = []
@@ -170,7 +170,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
 
 
 def read_branches(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
-    """Return what a table of branches says, with the long-term modulus of its comments."""
+    """Return the material of a table of branches, with the long-term modulus of its comments."""
     E0, ratio = number_of(content, "E0"), number_of(content, "poisson_ratio")
     if content is None or E0 is None or ratio is None:
         raise InputError(
@@ -187,7 +187,7 @@ def read_branches(text: str, reading: Reading, content: dict[str, Any] | None) -
 
 
 def _bulk_note(values: dict[str, str], ratio: float) -> list[str]:
-    """Return a sentence where bulk moduli do not belong to nu and the shear moduli."""
+    """Return a sentence if bulk moduli do not agree with nu and the shear moduli."""
     odd = []
     for name in (one for one in values if re.fullmatch(r"K_long_term|K_\d+", one)):
         bulk, shear = _value(values, name, "Pa"), _value(values, f"G{name[1:]}", "Pa")
@@ -210,6 +210,6 @@ def _value(values: dict[str, str], name: str, unit: str) -> float:
 
 
 def _long_term(E0: float, content: dict[str, Any] | None) -> float:
-    """Return E0 of the comments where it is that of the card, to the last digit."""
+    """Return E0 of the comments where it equals that of the card, except for the last digit."""
     stated = number_of(content, "E0")
     return stated if stated is not None and abs(stated - E0) <= 1e-12 * abs(E0) else E0

@@ -3,11 +3,11 @@
 As in the LS-DYNA Keyword User's Manual, volume II, *MAT_076: G(t) = Σ G_i exp(−β_i t) and K(t) = Σ K_i exp(−β_ki t)
 with decay constants β = 1/τ (0 for the long-term modulus), at most 18 terms; time is multiplied by
 Φ = exp(−A (1/T − 1/TREF)) if B = 0, else by Φ = exp(−A (T − TREF)/(B + T − TREF)), so that Φ = 1/α: an Arrhenius
-law has A = Ea/R, a WLF law A = −C1 ln 10 and B = C2.  With one and the same sign of A the two formulae shift in
-opposite directions, so that one of them may stand wrongly in the manual: a WLF card must be checked on one element,
-which has to relax faster when warm; else A changes its sign.  The second card, for fits of load curves, is left
-blank, since terms count only then.  Fields are 20 characters wide (long format, marked by the '+'
-after the keyword): the 10 characters of the standard format would cut numbers to 5 or 6 digits.
+law has A = Ea/R, a WLF law A = −C1 ln 10 and B = C2.  With the same sign of A the two formulae shift in opposite
+directions, so that one of them may be wrong in the manual: check a WLF card on one element, which has to relax faster
+when warm; else change the sign of A.  The second card, for fits of load curves, is left blank, since terms are used
+only then.  Fields are 20 characters wide (long format, marked by the '+' after the keyword): the 10 characters of the
+standard format would cut numbers to 5 or 6 digits.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _KEYWORD = re.compile(r"\*MAT_(GENERAL_VISCOELASTIC|0?76)(_TITLE)?\s*([+-]?)\s*$
 
 
 def recognises(text: str) -> bool:
-    """Tell by the keyword whether a text is an LS-DYNA card."""
+    """Return whether a text has the keyword of an LS-DYNA card."""
     return any(_KEYWORD.match(line.strip()) for line in text.splitlines() if line.startswith("*"))
 
 
@@ -108,7 +108,7 @@ def write(material: Material, writing: Writing) -> str:
 
 
 def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
-    """Return what the first general viscoelastic material in the text says."""
+    """Return the first general viscoelastic material in the text."""
     notes: list[str] = [] if content else reading.unit_note()
     name, head, terms = _cards(text, notes)
     _, _, elastic_bulk, _, elastic, reference, A, B = head
@@ -168,7 +168,7 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
 
 
 def _values(line: str, row: int, width: int) -> list[float]:
-    """Return the eight numbers of a line in fields of fixed width, or parted by commas; empty fields are zero."""
+    """Return the eight numbers of a line in fields of fixed width, or separated by commas; empty fields are zero."""
     parts = line.split(",") if "," in line else [line[start : start + width] for start in range(0, len(line), width)]
     parts = [part.strip() for part in parts][:8]
     try:

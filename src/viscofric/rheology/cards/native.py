@@ -22,7 +22,7 @@ from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-#: Raised by one when files of this version could no longer be read by older programs.
+#: Version of the format, increased when older programs can no longer read its files.
 VERSION = 1
 
 _SHIFTS: tuple[type, ...] = (WLF, VFT, Arrhenius, WLFArrhenius, InversePolynomial, ShiftFactors)
@@ -35,7 +35,7 @@ def _kinds() -> dict[str, type]:
 
 
 def plain(value: Any) -> Any:
-    """Return a value as what JSON knows: a dataclass as its class's name and what its constructor takes."""
+    """Return a value in JSON's types: a dataclass as its class's name and its constructor's arguments."""
     if value is None or isinstance(value, (bool, str, int)):
         return value
     if isinstance(value, (float, np.floating)):
@@ -77,7 +77,7 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
 
 
 def _is_row(content: Any) -> bool:
-    """Tell a row (a tuple of texts or numbers) from a matrix."""
+    """Return whether a value is a row (a tuple of texts or numbers), not a matrix."""
     return isinstance(content, list) and not any(isinstance(one, list) for one in content)
 
 
@@ -98,7 +98,7 @@ def vertical_shift_of(value: Any) -> Any:
 
 
 def about(material: Material) -> dict[str, Any]:
-    """Return all of a material but its spectrum, as plain values; what is not set is left out."""
+    """Return a material without its spectrum, as plain values; properties that are not set are left out."""
     return {
         name: content
         for name, content in (
@@ -114,7 +114,7 @@ def about(material: Material) -> dict[str, Any]:
 
 
 def assembled(spectrum: RetardationSpectrum | ModulusTable, about: dict[str, Any]) -> Material:
-    """Return the material of a spectrum and what `about` said of it."""
+    """Return the material of a spectrum and of the values from `about`."""
     if about.get("fit") is not None and isinstance(spectrum, RetardationSpectrum):
         fit = fit_of(about["fit"])
         spectrum = RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, fit)
@@ -194,7 +194,7 @@ def from_plain(content: Any) -> Material:
 NAME_JSON = "viscofric JSON"
 NAME_CSV = "viscofric CSV"
 _FIRST_LINE = "# viscofric material"
-#: Columns of the table: kind of spectrum -> field and how it is headed.
+#: Columns of the table: kind of spectrum -> field and heading.
 _COLUMNS = {
     "RetardationSpectrum": {"tau": "retardation time (s)", "C": "compliance (1/Pa)"},
     "ModulusTable": {
@@ -206,12 +206,12 @@ _COLUMNS = {
 
 
 def recognises_json(text: str) -> bool:
-    """Tell whether a text is JSON."""
+    """Return whether a text is JSON."""
     return text.lstrip().startswith("{")
 
 
 def write_json(material: Material) -> str:
-    """Return the material as JSON; numbers to their last digit."""
+    """Return the material as JSON, with all digits of numbers."""
     return json.dumps(to_plain(material), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -233,7 +233,7 @@ def _no_constant(name: str) -> float:
 
 
 def recognises_csv(text: str) -> bool:
-    """Tell by the first line whether a text is one of our CSV files."""
+    """Return whether a text is a CSV file of viscofric, by its first line."""
     return text.startswith(_FIRST_LINE)
 
 

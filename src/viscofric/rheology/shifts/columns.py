@@ -1,4 +1,4 @@
-"""Columns of a table of shifts, horizontal or vertical: checked alike; and shifts as plain records."""
+"""Validation of tables of horizontal and vertical shifts; shifts as plain records."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def checked_columns(
 
 
 def checked_covariance(values: Any, size: int, what: str) -> Array:
-    """Return the covariance of so many values as a copy; `what` they are is named in errors."""
+    """Return a validated copy of the covariance (size, size); `what` names the values in errors."""
     covariance = np.array(numbers(values, f"covariance of {what}"))
     if covariance.shape != (size, size) or np.any(np.diag(covariance) < 0.0):
         raise InputError(
@@ -49,7 +49,7 @@ def checked_covariance(values: Any, size: int, what: str) -> Array:
 
 
 def as_record(value: Any) -> dict[str, Any]:
-    """Return a frozen dataclass as its class's name (``kind``) and what its constructor takes and it keeps."""
+    """Return a frozen dataclass as its class's name (``kind``) and the constructor's arguments that it keeps."""
     return {"kind": type(value).__name__} | {name: getattr(value, name) for name in kept_arguments(type(value))}
 
 

@@ -148,7 +148,7 @@ class InversePolynomial(ParametricLaw):
 
 
 def _moved(degree: int, step: float) -> Array:
-    """Matrix that turns coefficients of x into those of x − step, the constant left out: (y + step)^k expanded."""
+    """Return the matrix from coefficients in x to those in x − step, without the constant: (y + step)^k expanded."""
     matrix = np.zeros((degree, degree))
     for old in range(1, degree + 1):
         for new in range(1, old + 1):
@@ -157,7 +157,7 @@ def _moved(degree: int, step: float) -> Array:
 
 
 def _rises(coefficients: Array, low: float, high: float) -> bool:
-    """Say whether Σ c_k x^k rises from `low` to `high` throughout: the derivative has no zero there."""
+    """Return whether Σ c_k x^k rises from `low` to `high` throughout: the derivative has no zero there."""
     scale = max(abs(low), abs(high))  # roots of a polynomial in a variable of order one
     slope = np.arange(1, len(coefficients) + 1) * coefficients * scale ** np.arange(len(coefficients))
     at_ends = [float(np.polyval(slope[::-1], end / scale)) for end in (low, high)]

@@ -1,4 +1,4 @@
-"""Comparison of the shift laws that describe measured factors: all fits, the chosen law, and how sure the choice is."""
+"""Comparison of shift laws for measured factors: all fits, the chosen law, and the certainty of the choice."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.law_fitting import FactorTable
     from viscofric.rheology.shifts.laws import ParametricLaw
 
-#: A law within this of the lowest AIC has substantial support, and among such, fewer constants win …
+#: A law within this of the lowest AIC has substantial support; among such laws, that of fewest constants is chosen …
 SUPPORTED = 2.0
 #: … and from this on, considerably less (K. P. Burnham, D. R. Anderson, Model Selection and Multimodel Inference,
 #: 2nd ed. 2002, p. 70): laws that are nearer cannot be excluded.
 EXCLUDED = 4.0
-#: A polynomial explains nothing and says nothing beyond its data.  It is chosen only where the laws of physics miss
-#: the factors by more than this, a quarter of α; real factors known to 0.005 decades follow none to the last digit.
-#: Laws that part by less are alike.
+#: A polynomial has no physical basis and does not extrapolate.  It is chosen only where the laws of physics differ from
+#: the factors by more than this, a quarter of α; real factors known to 0.005 decades follow no law to the last digit.
+#: Laws that differ by less are equal.
 LARGEST_SCATTER = 0.1  # decades
-#: Laws are compared so far to either side of the factors.
+#: Laws are compared to this distance on either side of the factors.
 BEYOND = 10.0  # K
 #: AICs closer than this are equal.
 ROUNDING = 1e-3
@@ -212,7 +212,7 @@ def _polynomial_row(table: FactorTable) -> LawRow:
 
 
 def _vft(wlf: LawRow) -> LawRow:
-    """Return the row of the VFT law, which is the WLF curve and no candidate of its own."""
+    """Return the row of the VFT law, which is the same curve as the WLF law and no separate candidate."""
     refused = LawRow("vft", TITLES["vft"], None, wlf.constants, refusal=wlf.refusal, same_as="wlf")
     if not isinstance(wlf.law, WLF):
         return refused
@@ -235,7 +235,7 @@ def _chosen(fitted: list[LawRow]) -> LawRow:
 
 
 def _notes(chosen: LawRow, rows: list[LawRow], table: FactorTable) -> tuple[Note, ...]:
-    """Say why a law was chosen, how sure that is, and what it leaves."""
+    """Return the reason for the chosen law, the certainty of the choice, and the remaining misfit, in sentences."""
     fitted = [row for row in rows if row.law is not None]
     others = sorted((row for row in fitted if row is not chosen), key=lambda row: row.aic)
     reasons = [_no_reason(row, chosen) for row in others if row.aic < chosen.aic - ROUNDING]
@@ -272,7 +272,7 @@ def _notes(chosen: LawRow, rows: list[LawRow], table: FactorTable) -> tuple[Note
 
 
 def _rivalry(chosen: LawRow, rival: LawRow, table: FactorTable) -> Note:
-    """Say how far a law that cannot be excluded is from the chosen one."""
+    """Return a sentence on the difference of a law that cannot be excluded from the chosen one."""
     low, high = float(table.temperatures[0]), float(table.temperatures[-1])
     kelvin = np.linspace(low - BEYOND, high + BEYOND, 81)
     laws = [row.law.unbounded() for row in (chosen, rival) if row.law is not None]
@@ -291,7 +291,7 @@ def _rivalry(chosen: LawRow, rival: LawRow, table: FactorTable) -> Note:
 
 
 def _no_reason(row: LawRow, chosen: LawRow) -> str:
-    """Say why a law with a lower AIC was not taken."""
+    """Return the reason for not choosing a law with a lower AIC, in a sentence."""
     gap = f"{chosen.aic - row.aic:.2g}"
     if row.kind == "polynomial":
         return f"the AIC of a {row.title} is lower by {gap}, but describes without explaining"

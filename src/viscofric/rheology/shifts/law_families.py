@@ -42,7 +42,7 @@ class Family:
         raise NotImplementedError
 
     def start(self, values: Array) -> Array:
-        """Guess the constants from log10 α, (n,)."""
+        """Return starting values of the constants from log10 α, (n,)."""
         raise NotImplementedError
 
     def values(self, parameters: Array) -> Array:
@@ -154,7 +154,7 @@ def family_of(kind: str, temperatures: Array, reference: float, degree: int | No
 
 
 def _scaled(shape: Array, values: Array) -> tuple[float, float]:
-    """Return the factor of `shape` that meets `values` best up to a constant, and the squared misfit."""
+    """Return the factor of `shape` that fits `values` best up to a constant, and the squared misfit."""
     shape, values = shape - shape.mean(), values - values.mean()
     factor = float(shape @ values / (shape @ shape))
     return factor, float(np.sum((values - factor * shape) ** 2))

@@ -1,4 +1,4 @@
-"""Fitting of shift laws to measured shift factors by generalised least squares, with an honest misfit."""
+"""Fitting of shift laws to measured shift factors by generalised least squares, with an estimate of the misfit."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 #: Rounding of tabulated values; keeps exact tables from dividing by zero.
 SMALLEST_ERROR = 1e-7  # decades
 LARGEST_SCATTER = 10.0  # decades; explains anything
-#: No law is followed more closely than this: where α changes by a tenth of a decade a kelvin, it is an isotherm's
-#: temperature that is off by 0.03 K.
+#: Least misfit of any law: where α changes by a tenth of a decade per kelvin, it corresponds to an error of 0.03 K in
+#: an isotherm's temperature.
 SMALLEST_MISFIT = 0.003  # decades
-#: What a good law usually leaves beyond the errors of the factors; the scale of a half-Cauchy density, which rules out
-#: no size (A. Gelman, Bayesian Analysis 1 (2006) 515).
+#: Usual misfit of a good law beyond the errors of the factors; the scale of a half-Cauchy density, which excludes no
+#: size (A. Gelman, Bayesian Analysis 1 (2006) 515).
 USUAL_MISFIT = 0.01  # decades
-#: A constant that may as well be a hundred times itself is not one that the data know of.
+#: A constant that is uncertain by a factor of a hundred is not determined by the data.
 LARGEST_RELATIVE_ERROR = 100.0
 ITERATIONS = 50
 CONVERGED = 1e-7  # relative fall of the squared misfit
@@ -62,7 +62,7 @@ class FactorTable:
         return len(self.variance)
 
     def whitening(self, scatter: float) -> Array:
-        """Return the matrix that makes differences of variance one, with independent scatter² in every value."""
+        """Return the matrix from values to differences of variance one, with independent scatter² in every value."""
         return np.asarray(self.turn / np.sqrt(self.variance + scatter)[:, None])
 
 
@@ -154,11 +154,11 @@ def _not_described(table: FactorTable, kind: str) -> InputError:
 
 
 def _with_misfit(family: Family, table: FactorTable, bare: Solution) -> tuple[Solution, float]:
-    """Fit, adding just as much independent scatter per temperature (decades) as makes the misfit plausible.
+    """Fit with the least independent scatter per temperature (decades) that makes the misfit plausible.
 
     The scatter σ² solves χ²(σ²) = degrees of freedom (R. C. Paule, J. Mandel, J. Res. Natl. Bur. Stand. 87 (1982)
-    377); it is zero where the uncertainties explain the misfit of the fit without it, and where nothing is left over
-    to find it from.
+    377); it is zero where the uncertainties explain the misfit of the fit without it, and where no degree of freedom
+    is left to find it.
     """
     freedom = len(table) - family.size
     if freedom == 0 or bare.chi2 <= freedom:
@@ -201,7 +201,7 @@ def _positive(family: Family, whiten: Array, target: Array, start: Array) -> Sol
     def misfit(logarithm: Array) -> Array:
         try:
             return np.asarray(target - whiten @ family.values(np.exp(logarithm)))
-        except InputError:  # beyond the law's pole: no step leads there
+        except InputError:  # beyond the law's pole: the step is rejected
             return np.full(len(target), np.inf)
 
     point = np.log(start)
@@ -229,7 +229,7 @@ def _positive(family: Family, whiten: Array, target: Array, start: Array) -> Sol
 
 
 def _inverse(normal: Array) -> Array:
-    """Invert, or return infinities where the data say nothing of some combination of constants."""
+    """Invert, or return infinities where the data do not determine some combination of constants."""
     try:
         return np.asarray(np.linalg.inv(normal))
     except np.linalg.LinAlgError:

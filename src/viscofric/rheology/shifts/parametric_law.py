@@ -1,4 +1,4 @@
-"""Shift laws of a few constants: their uncertainty at any temperature, and how far they may be extrapolated."""
+"""Shift laws of a few constants: their uncertainty at any temperature, and the limits of extrapolation."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 
-#: A law is asked no farther than this beyond the hottest temperature that it was fitted on.  WLF and Arrhenius
-#: laws fitted to the same hundred kelvin (C2 of 90 to 130 K) part by 0.3 to 1.2 decades over the next fifty; and WLF
-#: is a law of the hundred kelvin above Tg (Williams, Landel & Ferry 1955), of which fifty are a half.
+#: A law is extrapolated no farther than this beyond the hottest temperature of its fit.  WLF and Arrhenius laws fitted
+#: to the same hundred kelvin (C2 of 90 to 130 K) differ by 0.3 to 1.2 decades over the next fifty; and WLF is a law of
+#: the hundred kelvin above Tg (Williams, Landel & Ferry 1955), of which fifty are a half.
 HOTTEST_EXTRAPOLATION = 50.0  # K
 #: Towards the glass α changes fastest, by up to a decade every three kelvin, and below Tg another law holds: the
-#: two laws above part as far over twenty kelvin as over fifty on the hot side.
+#: two laws above differ as much over twenty kelvin as over fifty on the hot side.
 COLDEST_EXTRAPOLATION = 20.0  # K
 #: No extrapolation towards a pole comes closer than this.  About Tg, C2 (the distance of the pole from Tg) is
 #: 30 to 100 K for most rubbers (J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. 1980, Table 11-II), so
@@ -50,7 +50,7 @@ class Constant(NamedTuple):
 
 
 class Reach(NamedTuple):
-    """How far a law may be asked on one side (K), and why no farther."""
+    """Limit of extrapolation of a law on one side (K), and the reason for it."""
 
     limit: float
     reason: str
@@ -89,14 +89,14 @@ class ParametricLaw(ShiftLaw):
     def _set(
         self, constants: tuple[Any, ...], reference: Any, covariance: Any, fitted_range: Any, bounded: bool
     ) -> None:
-        """Check and keep the constants, in the order of `_constants`, and the rest; for constructors of subclasses."""
+        """Validate and set the constants, in the order of `_constants`, and the rest; for subclasses."""
         for (name, constant), value in zip(self._constants.items(), constants, strict=True):
             object.__setattr__(self, name, positive(value, constant.unit, name))
         object.__setattr__(self, "reference", positive(reference, "K", "reference"))
         self._set_fit(covariance, fitted_range, bounded)
 
     def _set_fit(self, covariance: Any, fitted_range: Any, bounded: bool) -> None:
-        """Check and keep what is known of the fit; called by the constructors of subclasses."""
+        """Validate and set the fit's covariance and range; called by the constructors of subclasses."""
         if covariance is not None:
             covariance = checked_covariance(covariance, len(self.parameters), "a shift law")
             covariance.flags.writeable = False
@@ -191,7 +191,7 @@ class ParametricLaw(ShiftLaw):
         raise NotImplementedError
 
     def _standard_error(self, kelvin: Array) -> Array:
-        """Delta method: the gradient by the constants, through their covariance."""
+        """Return the standard error by the delta method, from the constants' covariance."""
         if self.covariance is None:
             raise InputError(
                 f"the uncertainty of this {self.title} law is not known, because its constants have no covariance; fit "
@@ -207,7 +207,7 @@ class ParametricLaw(ShiftLaw):
         return np.asarray(gradient @ self.covariance @ gradient.T)
 
     def _transformed(self, slope: list[list[float]]) -> Array | None:
-        """Return the covariance of constants whose derivatives by those of this law are given (rows: new constants)."""
+        """Return the covariance of new constants (rows) from their derivatives by those of this law (columns)."""
         return None if self.covariance is None else np.array(slope) @ self.covariance @ np.array(slope).T
 
     # --- extrapolation ---------------------------------------------------------------------------------------
@@ -243,7 +243,7 @@ class ParametricLaw(ShiftLaw):
         return self._known(self.fitted_range[1], HOTTEST_EXTRAPOLATION)
 
     def _known(self, end: float, farthest: float) -> Reach:
-        """Go from an end of the fit as far as the law is known to half a decade, and at most some kelvin."""
+        """Return the distance from an end of the fit over which the law is known to half a decade, within a limit."""
         reach = Reach(end + farthest, f"it is used no more than {abs(farthest):g} K beyond its data")
         if self.covariance is None:
             return reach
@@ -311,7 +311,7 @@ class ParametricLaw(ShiftLaw):
 
 
 def shown_constant(constant: Constant, value: float, error: float) -> str:
-    """Write a constant with its standard error to two digits: ``C2 = 126.6 ± 1.2 K``; zero stands for unknown."""
+    """Return a constant as text, its standard error to two digits: ``C2 = 126.6 ± 1.2 K``; an error of 0 is unknown."""
     symbol, unit = constant.symbol, f" {constant.shown}" if constant.shown else ""
     value, error = value * constant.factor + constant.offset, error * constant.factor
     if not 0.0 < error < math.inf:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 #: Two temperatures closer than this are the same one, to rounding of °C.
 _SAME_TEMPERATURE = 1e-9  # relative
-#: A measured temperature is named by the user as the instrument prints it.
+#: Users write a measured temperature as the instrument prints it.
 _NAMED_TEMPERATURE = 0.1  # K
 _CORRECTIONS = 500
 _MOST_DECADES = 300  # as floats go
@@ -156,13 +156,13 @@ class ShiftFactors(ShiftLaw):
         return np.asarray(curve(inverse) + curve(inverse, 1) * (1.0 / kelvin - inverse))
 
     def _standard_error(self, kelvin: Array) -> Array:
-        """Carry the covariance through linear interpolation in 1/T; what interpolation itself misses is not in it."""
+        """Return the standard error of linear interpolation in 1/T, without the error of the interpolation itself."""
         weights = _weights(self.temperatures, np.ravel(kelvin))
         variance = np.einsum("ij,jk,ik->i", weights, self.covariance, weights)
         return np.asarray(np.sqrt(np.maximum(variance, 0.0)).reshape(np.shape(kelvin)))
 
     def _covariance(self, kelvin: Array) -> Array:
-        """Carry the covariance through the same interpolation, less that of a reference between temperatures."""
+        """Return the covariance by the same interpolation, relative to a reference between temperatures."""
         weights = _weights(self.temperatures, kelvin)
         return np.asarray(
             weights @ referenced_covariance(self.temperatures, self.covariance, self.reference) @ weights.T

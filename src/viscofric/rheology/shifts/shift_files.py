@@ -1,4 +1,4 @@
-"""Shift factors in files: those that viscofric saves, tables of other programs, the shift list of an Eplexor workbook.
+"""Shift factors in files: viscofric's own, tables of other programs, the shift list of an Eplexor workbook.
 
 The sign is that of E(ω, T) = E(α(T) ω, T0): α falls as the temperature rises, log10 α is above zero below T0.
 """
@@ -155,7 +155,7 @@ def _from_text(source: Source) -> ShiftTable:
 
 
 def _falling(path: str, kelvin: Array, values: Array, inverse: bool) -> Array:
-    """Return log10 α that falls as the temperature rises, or refuse."""
+    """Return log10 α with the sign that falls as the temperature rises, or raise an error."""
     values = -values if inverse else values
     if np.polyfit(kelvin - kelvin.mean(), values, 1)[0] > 0.0:
         if inverse:
@@ -174,7 +174,7 @@ def _falling(path: str, kelvin: Array, values: Array, inverse: bool) -> Array:
 
 
 def _zero(path: str, kelvin: Array, values: Array, wanted: float | None) -> float:
-    """Return the temperature where the table is zero; without one, the wanted reference."""
+    """Return the temperature where the table is zero; without one, the requested reference."""
     exact = np.flatnonzero(values == 0.0)
     if exact.size == 1:
         return float(kelvin[exact[0]])
@@ -194,7 +194,7 @@ def _zero(path: str, kelvin: Array, values: Array, wanted: float | None) -> floa
 def _crossing(kelvin: Array, values: Array, place: int) -> float:
     from scipy.optimize import brentq
 
-    # The table's own interpolation, so that its values stay where they are.
+    # The table's own interpolation, so that its values do not change.
     about_first = ShiftFactors(kelvin, values, float(kelvin[0]))
     root = brentq(lambda T: about_first.log10(T) + values[0], kelvin[place], kelvin[place + 1], xtol=1e-12)
     return float(root)

@@ -40,10 +40,10 @@ class ShiftLaw(ABC):
 
     @abstractmethod
     def _log10(self, kelvin: Array) -> Array:
-        """Return log10 α at temperatures that `_refuse` let pass."""
+        """Return log10 α at temperatures that `_refuse` accepts."""
 
     def _refuse(self, kelvin: Array) -> None:  # noqa: B027 (some laws hold everywhere)
-        """Raise `InputError` where the law has no meaning, or may not be asked."""
+        """Raise `InputError` where the law has no meaning, or must not be extrapolated."""
 
     @abstractmethod
     def at_reference(self, reference: Quantity) -> Self:
@@ -51,7 +51,7 @@ class ShiftLaw(ABC):
 
     @abstractmethod
     def _standard_error(self, kelvin: Array) -> Array:
-        """Return the standard error of log10 α at temperatures that `_refuse` let pass."""
+        """Return the standard error of log10 α at temperatures that `_refuse` accepts."""
 
     @property
     def has_standard_error(self) -> bool:
@@ -187,7 +187,7 @@ class ShiftLaw(ABC):
         return bool(valid) if np.ndim(valid) == 0 else valid
 
     def _valid(self, kelvin: Array) -> Mask:
-        """Say which temperatures (n,) `_refuse` lets pass; laws that know their limits need not try."""
+        """Return which temperatures (n,) `_refuse` accepts; laws with known limits override the trial."""
         return np.array([self._accepts(kelvin[place : place + 1]) for place in range(kelvin.size)], dtype=bool)
 
     def _accepts(self, kelvin: Array) -> bool:

@@ -1,4 +1,4 @@
-"""Text tables of shift factors, ours and those of other programs: temperatures beside log10 aT or aT."""
+"""Text tables of shift factors, viscofric's own and other programs': temperatures with log10 aT or aT."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: Heading without blanks and marks -> what one unit of the column is in log10 α; None for α itself.
+#: Heading without blanks and marks -> log10 α per unit of the column; None for α itself.
 _SHIFTS: dict[str, float | None] = {
     **{log + name: 1.0 for log in ("log", "log10", "lg") for name in ("at", "alpha", "alphat", "shiftfactor", "shift")},
     **{"ln" + name: 1.0 / math.log(10.0) for name in ("at", "alpha", "alphat", "shiftfactor")},
@@ -30,7 +30,7 @@ _SHIFTS: dict[str, float | None] = {
 _LOGARITHMS = ("log", "log10", "lg", "ln")
 _TEMPERATURES = ("t", "temp", "temperature")
 _UNITS = {"c": (1.0, CELSIUS_ZERO), "k": (1.0, 0.0), "f": (5.0 / 9.0, CELSIUS_ZERO - 160.0 / 9.0)}
-#: Beyond this neither α nor 1/α is a number that a computer holds.
+#: Beyond this, α or 1/α over- or underflows.
 _LARGEST_LOGARITHM = 300.0
 
 _TITLE = "viscofric shift factors"
@@ -124,7 +124,7 @@ def _lines(text: str, path: str) -> _Lines:
 
 
 def _comment(lines: _Lines, line: str, path: str, number: int) -> None:
-    """Take what saved files say in comments; those of other programs are passed over."""
+    """Read a comment of a saved file; those of other programs are ignored."""
     if (note := _NOTE.fullmatch(line.strip())) is not None:
         lines.notes.append(note["text"])
     elif (stated := _REFERENCE.search(line)) is not None:
@@ -219,5 +219,5 @@ def write_shift_table(table: ShiftTable, path: str | PathLike[str]) -> None:
 
 
 def _in_celsius(kelvin: float) -> str:
-    # The difference and its way back are exact between half and double of 273.15 (Sterbenz).
+    # The difference and its inverse are exact between half and double of 273.15 (Sterbenz).
     return repr(float(kelvin) - CELSIUS_ZERO)

@@ -1,4 +1,4 @@
-"""Vertical shifts b(T): how temperature changes the modulus itself, beside the time scale."""
+"""Vertical shifts b(T): the effect of temperature on the modulus itself, besides the time scale."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class VerticalShift(ABC):
 
     @abstractmethod
     def _log10(self, kelvin: Array) -> Array:
-        """Return log10 b at temperatures that `_refuse` let pass."""
+        """Return log10 b at temperatures that `_refuse` accepts."""
 
     def _refuse(self, kelvin: Array) -> None:  # noqa: B027 (the density law holds everywhere)
         """Raise `InputError` where the shift is not known."""
@@ -79,7 +79,7 @@ class VerticalShift(ABC):
         return 10.0 ** self.log10(temperature)
 
     def _standard_error(self, kelvin: Array) -> Array | None:
-        """Return the standard error of log10 b at temperatures that `_refuse` let pass; None where it is not known."""
+        """Return the standard error of log10 b at temperatures that `_refuse` accepts; None where it is not known."""
         return None
 
     def to_dataset(self, temperatures: Any) -> xarray.Dataset:
@@ -246,7 +246,7 @@ class VerticalShiftFactors(VerticalShift):
         return np.asarray(np.interp(kelvin, self.temperatures, self.log10_values))
 
     def _weights(self, kelvin: Array) -> Array:
-        """Return the weights (m, n) of the values in those at (m,) temperatures."""
+        """Return the weights (m, n) of the table's values in values at (m,) temperatures."""
         return np.stack([np.interp(kelvin, self.temperatures, unit) for unit in np.eye(self.temperatures.size)], -1)
 
     def _standard_error(self, kelvin: Array) -> Array:
