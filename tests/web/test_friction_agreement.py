@@ -93,12 +93,12 @@ def test_friction_alone_shows_the_planted_shift_factors(context: Context) -> Non
     expected = np.asarray(
         planted_law().at_reference(found["found"]["reference"]).log10(np.array(factors["temperature"]))
     )
-    away = np.array(factors["log10"]) - expected
+    away = np.array(factors["log10_shift_factor"]) - expected
     # Four independent factors: one in a thousand is more than 3.3 standard errors off.
-    assert np.all(np.abs(away) <= 3.5 * np.maximum(factors["error"], 1e-6))
-    assert max(factors["error"]) < 0.1
+    assert np.all(np.abs(away) <= 3.5 * np.maximum(factors["standard_error"], 1e-6))
+    assert max(factors["standard_error"]) < 0.1
     fetched = vf.read_shift_factors(context.downloads / found["found"]["download"])
-    np.testing.assert_allclose(fetched.log10_values, factors["log10"], atol=1e-5)
+    np.testing.assert_allclose(fetched.log10_values, factors["log10_shift_factor"], atol=1e-5)
 
 
 def test_friction_and_rubber_shift_alike(context: Context) -> None:

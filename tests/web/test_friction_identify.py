@@ -41,7 +41,7 @@ def test_the_planted_modulus_lies_in_the_band(identified: dict[str, Any]) -> Non
     omega = np.array(modulus["angular_frequency"])
     reported = (omega >= band["low"]) & (omega <= band["high"])
     assert band["decades"] > 2.0
-    for part in ("storage", "loss"):
+    for part in ("storage_modulus", "loss_modulus"):
         planted, low, high = (np.array(values)[reported] for values in (
             identified["known"][part], modulus[f"{part}_lower"], modulus[f"{part}_upper"]
         ))  # fmt: skip
@@ -77,7 +77,7 @@ def test_the_rubber_can_be_fetched(context: Context, identified: dict[str, Any])
     rubber = vf.read_card(context.downloads / identified["download"])
     modulus = identified["modulus"]
     found = np.asarray(rubber.complex_modulus(np.array(modulus["angular_frequency"])))
-    np.testing.assert_allclose(found.real, modulus["storage"], rtol=1e-4)
+    np.testing.assert_allclose(found.real, modulus["storage_modulus"], rtol=1e-4)
 
 
 def test_a_rubber_from_friction_is_no_witness_of_friction(context: Context, identified: dict[str, Any]) -> None:

@@ -36,7 +36,7 @@ def fit() -> vf.Superposition:
 
 def test_shift_factors_and_their_bars_are_those_of_superposition(rubber: Any, fit: vf.Superposition) -> None:
     factors = rubber["shift"]["factors"]
-    np.testing.assert_allclose(factors["log10"], fit.shift_factors.log10_values, rtol=5e-6)
+    np.testing.assert_allclose(factors["log10_shift_factor"], fit.shift_factors.log10_values, rtol=5e-6)
     np.testing.assert_allclose(factors["error95"], 1.959964 * fit.shift_factors.standard_errors, rtol=5e-6, atol=1e-12)
     assert not any(factors["held"])
     assert rubber["shift"]["misfit"]["joint"] == pytest.approx(fit.quality.joint, rel=5e-6)
@@ -62,7 +62,7 @@ def test_laws_are_compared_and_the_one_used_is_marked(rubber: Any, fit: vf.Super
     assert low < fitted[0] < fitted[1] < high
     assert laws["wlf"]["line"]["temperature"][0] == pytest.approx(low, abs=0.1)
     # 1 % noise leaves log10 α uncertain by hundredths of a decade
-    assert np.max(np.abs(laws["wlf"]["residual"]["log10"])) < 0.05
+    assert np.max(np.abs(laws["wlf"]["residual"]["log10_residual"])) < 0.05
 
 
 def test_verdict_is_that_of_the_check(rubber: Any, fit: vf.Superposition) -> None:
@@ -121,10 +121,10 @@ def test_answer_without_bands_comes_first(workspace: Context) -> None:
 
 def test_dragged_isotherm_stays_where_it_is_put(workspace: Context, rubber: Any) -> None:
     at = rubber["shift"]["factors"]["temperature"].index(313.15)
-    wanted = rubber["shift"]["factors"]["log10"][at] + 0.5
+    wanted = rubber["shift"]["factors"]["log10_shift_factor"][at] + 0.5
     moved = done("rubber", workspace, {**SWEEPS, "fixed_shift_factors": {"40 degC": wanted}}, options={"bands": False})
     assert moved["shift"]["origin"] == "held"
-    assert moved["shift"]["factors"]["log10"][at] == pytest.approx(wanted, rel=5e-6)
+    assert moved["shift"]["factors"]["log10_shift_factor"][at] == pytest.approx(wanted, rel=5e-6)
     assert [
         T for T, held in zip(*(moved["shift"]["factors"][k] for k in ("temperature", "held")), strict=True) if held
     ] == [313.15]
@@ -194,10 +194,9 @@ def test_other_kinds_of_spectrum(workspace: Context, more: dict[str, Any], spars
 def test_vertical_shift_is_reported(workspace: Context) -> None:
     free = done("rubber", workspace, {**SWEEPS, "vertical_shift": "free"}, options={"bands": False})
     vertical = free["shift"]["vertical"]
-    assert vertical["fitted"] is True
-    assert np.all(np.array(vertical["lower"]) <= vertical["b"])
+    assert np.all(np.array(vertical["upper"]) >= vertical["b"])
     density = done("rubber", workspace, {**SWEEPS, "vertical_shift": "density"}, options={"bands": False})
-    assert density["shift"]["vertical"]["fitted"] is False
+    assert density["shift"]["vertical"]["upper"] is None
 
 
 def test_rubber_of_a_real_instrument(real_data: Path, tmp_path: Path) -> None:
@@ -223,7 +222,7 @@ def test_a_liquid_has_shift_factors_and_moduli_and_no_modes(tmp_path: Path) -> N
     context = workspace_with(tmp_path / "tab", tmp_path / "melt.csv")
     asked = {"dma": "melt.csv", "deformation": "tension", "reference_temperature": "30 degC"}
     answer = done("rubber", context, asked, uncertainty=DRAWS)
-    assert len(answer["shift"]["factors"]["log10"]) == 4
+    assert len(answer["shift"]["factors"]["log10_shift_factor"]) == 4
     assert answer["shift"]["laws"]
     assert answer["spectrum"]["modes"] is None
     assert answer["spectrum"]["measured"] is not None

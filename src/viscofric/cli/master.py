@@ -77,14 +77,14 @@ def command(
     settings = settings_of(parameters)
     with reported_errors():
         from viscofric.cli.friction_sources import friction_curves, shifts
-        from viscofric.report.texts.inverse import law_of, shift_record
+        from viscofric.friction.shifting.shift import chosen_law
+        from viscofric.report.texts.inverse import shift_record
 
         curves = friction_curves(sources, settings)
         known, vertical = (None, None) if parameters["known"] is None else shifts(parameters["known"])
         master = _shifted(curves, known, vertical, parameters)
-        law, why, refused = law_of(master, parameters["law"])
-        if refused:
-            click.echo(f"Note: {refused}", err=True)
+        law, why, refused = chosen_law(master, parameters["law"])
+        print_notes([] if refused is None else [refused])
         agreement = _agreement(master, known)
         if out is not None and not master.found:
             raise click.ClickException(f"{out} is not written: friction determines no shift factors.")

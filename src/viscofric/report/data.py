@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     ReducedFriction: TypeAlias = FrictionMasterCurve | xr.Dataset
 
 _POINTS_OF_A_LINE = 200
+#: Laws are not drawn this near to a pole, K.
+_NEAR_POLE = 1.0
 _SIDES = ("lower", "upper")
 
 
@@ -166,6 +168,24 @@ def law_of(source: xr.Dataset | None) -> ShiftLaw | None:
     text = None if source is None else source.attrs.get("constants")
     law: ShiftLaw | None = shift_of(json.loads(text)) if text else None
     return law
+
+
+def law_line(law: ShiftLaw, low: float, high: float, points: int = _POINTS_OF_A_LINE) -> xr.Dataset:
+    """Return a law between two temperatures (K) as a data set along `temperature`, where it is valid."""
+    line = np.linspace(low, high, points)
+    return law.to_dataset(line[law.valid_at(line, above_pole=_NEAR_POLE)])
+
+
+def law_residuals(law: ShiftLaw, table: ShiftTable) -> xr.Dataset:
+    """Return log10 of measured over the law's α along `temperature` (K), where the law is valid."""
+    valid = law.valid_at(table.temperature, above_pole=_NEAR_POLE)
+    kelvin = table.temperature[valid]
+    left = table.log10[valid] - np.asarray(law.log10(kelvin))
+    return dataset(
+        "temperature",
+        {"log10_residual": (left, "1", "decadic logarithm of the measured over the law's shift factor")},
+        coordinates={"temperature": (kelvin, "K", "temperature")},
+    )
 
 
 class Predicted(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 
 
 def shift_friction(
@@ -227,3 +227,25 @@ def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: An
 def _frozen(column: Array) -> Array:
     column.flags.writeable = False
     return column
+
+
+class ChosenLaw(NamedTuple):
+    """A law fitted to shift factors from friction, why it was chosen, or why there is none."""
+
+    law: ParametricLaw | None
+    why: str = ""
+    refused: Note | None = None
+
+
+def chosen_law(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
+    """Fit a law to shift factors that were found from friction; "best" chooses one, "none" fits none."""
+    if kind == "none" or not master.found:
+        return ChosenLaw(None)
+    factors = master.shift_factors
+    if kind != "best":
+        return ChosenLaw(factors.law(kind))
+    try:
+        compared = factors.compare_laws()
+    except InputError as error:
+        return ChosenLaw(None, refused=Note("no-law", f"No law is fitted: {error}"))
+    return ChosenLaw(compared.best, compared.explanation)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.report.data import as_dataset, shift_table
+from viscofric.report.data import as_dataset, law_line, law_residuals, shift_table
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -41,8 +41,6 @@ if TYPE_CHECKING:
 
 #: 10 to this power is still a float, and beyond any axis.
 _LARGEST = 100.0
-#: Laws are not drawn this near to a pole, K.
-_NEAR_POLE = 1.0
 #: Shift factors of the modulus are drawn so far beyond those of friction, K.
 FARTHER = 20.0
 
@@ -143,10 +141,10 @@ def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLa
     axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
     every = []
     for law, look in zip(laws, looks(len(laws)), strict=True):
-        valid = law.valid_at(table.temperature, above_pole=_NEAR_POLE)
-        left = table.log10[valid] - np.asarray(law.log10(table.temperature[valid]))
+        residuals = law_residuals(law, table)
+        left = values(residuals, "log10_residual")
         handles += axes.plot(
-            warm[valid],
+            values(residuals, "temperature") - CELSIUS_ZERO,
             left,
             color=look.colour,
             marker=look.marker,
@@ -256,16 +254,15 @@ def bars(log10: Array, error: Array) -> Array:
 
 def draw_law(axes: Axes, law: ShiftLaw, temperatures: Array, whose: str = "") -> list[Any]:
     """Draw a law with its 95 % band over a range of temperatures (K), and return what the legend shows of them."""
-    line = np.linspace(temperatures.min(), temperatures.max(), 400)
-    line = line[law.valid_at(line, above_pole=_NEAR_POLE)]
-    if not line.size:
+    line = law_line(law, float(temperatures.min()), float(temperatures.max()), 400)
+    if not line.sizes["temperature"]:
         return []
-    warm, log10 = line - CELSIUS_ZERO, np.asarray(law.log10(line))
+    warm, log10 = values(line, "temperature") - CELSIUS_ZERO, values(line, "log10_shift_factor")
     handles: list[Any] = axes.plot(
         warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=VERMILION, label=f"{whose}{_described(law)}"
     )
-    if law.has_standard_error:
-        doubt = LEVEL_95 * np.asarray(law.standard_error(line))
+    if "standard_error" in line:
+        doubt = LEVEL_95 * values(line, "standard_error")
         lower, upper = (10.0 ** np.clip(log10 + side * doubt, -_LARGEST, _LARGEST) for side in (-1.0, 1.0))
         handles.append(
             axes.fill_between(warm, lower, upper, color=VERMILION, alpha=0.25, linewidth=0, label="its 95 % band")

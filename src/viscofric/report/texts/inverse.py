@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.datasets import plain, record
-from viscofric.errors import InputError
 from viscofric.report.results import values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
 from viscofric.report.texts.tables import aligned
@@ -38,28 +37,6 @@ _SHIFT_UNITS = {
 
 #: Errors are printed with three decimals, and not as zero.
 _SMALLEST = 1e-3
-
-
-class ChosenLaw(NamedTuple):
-    """A law fitted to shift factors from friction, why it was chosen, or why there is none."""
-
-    law: ParametricLaw | None
-    why: str = ""
-    refused: str = ""
-
-
-def law_of(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
-    """Fit a law to shift factors that were found from friction, the best one only where one describes them."""
-    if kind == "none" or not master.found:
-        return ChosenLaw(None)
-    factors = master.shift_factors
-    if kind != "best":
-        return ChosenLaw(factors.law(kind))
-    try:
-        compared = factors.compare_laws()
-    except InputError as error:
-        return ChosenLaw(None, refused=f"No law is fitted: {error}")
-    return ChosenLaw(compared.best, compared.explanation)
 
 
 def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str]:

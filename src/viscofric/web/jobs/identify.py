@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from viscofric.datasets import plain
+from viscofric.datasets import plain, record
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 
 _DOWNLOAD = "rubber_from_friction.json"
+_DIGITS = 6
 #: Steps that settle it as a rule, before the family of levels.
 _STEPS = 4
 
@@ -57,13 +58,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``reference``; ``modulus``: ``angular_frequency``, ``storage``, ``loss`` and the limits of their 95 % bands;
+        ``reference``; ``modulus``, as of `IdentifiedMaterial.to_dataset`;
         ``identified``, ``identified_storage``, ``identified_loss``: ``low``, ``high``, ``limit``, ``relative`` and
         ``decades``; ``frequency_range`` of the contacts, ``middle`` of it; ``anchored``; ``anchor`` (its modulus,
-        angular frequency and temperature, or null); ``factors`` (temperature, log10, error; null where there is one
-        temperature only); ``known``: ``name``, ``storage``, ``loss``, ``factors`` of the page's rubber, or null;
-        ``fit``: by temperature ``measured``, ``fitted``, ``lower``, ``upper`` and ``residual``; ``family``; ``rms``;
-        ``sentences``; ``download``.
+        angular frequency and temperature, or null); ``factors``, as of `IdentifiedMaterial.shift_dataset` (null where
+        there is one temperature only); ``known``: ``name``, ``storage_modulus`` and ``loss_modulus`` of the page's
+        rubber, or null; ``fit``: by temperature ``measured``, ``fitted``, ``lower``, ``upper`` and ``residual``;
+        ``family``; ``rms``; ``sentences``; ``download``.
 
     Raises
     ------
@@ -136,7 +137,7 @@ def _reply(
     from viscofric.web.jobs.friction_data import texts
 
     write_card(found.material, context.downloads / _DOWNLOAD, format="json")
-    modulus = _modulus(found)
+    modulus, factors = record(found.to_dataset(), _DIGITS), found.shift_dataset()
     at = None
     if anchor is not None and hasattr(anchor, "modulus"):
         at = {name: getattr(anchor, name) for name in ("modulus", "angular_frequency", "temperature", "error")}
@@ -150,8 +151,8 @@ def _reply(
         "middle": found.middle,
         "anchored": found.anchored,
         "anchor": at,
-        "factors": _factors(found),
-        "known": None if rubber is None else _known(rubber, found, modulus["angular_frequency"]),
+        "factors": None if factors is None or factors.sizes["temperature"] < 2 else record(factors, _DIGITS),
+        "known": None if rubber is None else _known(rubber, found),
         "fit": _fit(found, curves),
         "family": [
             {name: getattr(fit, name) for name in ("factor", "modulus", "rms", "penalty")} for fit in found.family
@@ -163,54 +164,17 @@ def _reply(
     }
 
 
-def _modulus(found: IdentifiedMaterial) -> dict[str, Any]:
-    """Return E(ω) with its 95 % band over the frequencies that the report draws."""
-    import numpy as np
-
-    from viscofric.report.data import modulus_band
-
-    frequency = found.frequencies
-    modulus, band = np.asarray(found.material.complex_modulus(frequency)), modulus_band(found.samples, frequency)
-    return {
-        "angular_frequency": frequency,
-        "storage": modulus.real,
-        "loss": modulus.imag,
-        "storage_lower": band.storage[0],
-        "storage_upper": band.storage[1],
-        "loss_lower": band.loss[0],
-        "loss_upper": band.loss[1],
-    }
-
-
 def _band(band: IdentifiedBand) -> dict[str, Any]:
     names = ("low", "high", "limit", "relative", "decades")
     return {name: getattr(band, name) for name in names}
 
 
-def _factors(found: IdentifiedMaterial) -> dict[str, Any] | None:
-    """Return α(T) of the identified rubber at the temperatures of the friction; None where there is one only."""
-    temperatures = found.friction.temperatures
-    if found.shift_factors is None or len(temperatures) < 2:
-        return None
-    known = getattr(found.shift_factors, "temperatures", temperatures)
-    log10, error = found.shift_factors.values_at(known)
-    return {"temperature": known, "log10": log10, "error": error, "found": found.shift_found}
-
-
-def _known(rubber: Material, found: IdentifiedMaterial, frequency: Any) -> dict[str, Any]:
+def _known(rubber: Material, found: IdentifiedMaterial) -> dict[str, Any]:
     """Return the page's rubber at the temperature at which the identified one is described."""
-    import numpy as np
-
     reference = found.material.reference
     if rubber.shift is not None and reference is not None:
         rubber = rubber.at_reference(reference)
-    modulus = np.asarray(rubber.complex_modulus(frequency))
-    numbers: dict[str, Any] = {"name": rubber.name, "storage": modulus.real, "loss": modulus.imag, "factors": None}
-    if rubber.shift is not None:
-        warm = found.friction.temperatures
-        kelvin = np.linspace(warm.min(), warm.max(), 100)
-        numbers["factors"] = {"temperature": kelvin, "log10": rubber.shift.values_at(kelvin)[0]}
-    return numbers
+    return {"name": rubber.name, **record(rubber.spectrum.modulus_dataset(found.frequencies), _DIGITS)}
 
 
 def _fit(found: IdentifiedMaterial, curves: FrictionCurves) -> list[dict[str, Any]]:

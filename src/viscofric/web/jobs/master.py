@@ -53,8 +53,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     dict
         ``by_rubber`` and ``found``, each a master curve or null: ``reference``, ``load``, ``load_unit``, ``points``
         (by temperature over the reduced speed), ``line`` (smoothed, with its band), ``overlap`` (a sentence) and
-        ``words`` (name and value).  ``found`` has ``factors`` (temperature, log10, error), ``law`` (temperature,
-        log10, lower, upper; or null), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
+        ``words`` (name and value).  ``found`` has ``factors`` and ``law`` (or null) as their data sets name
+        them (`shift_numbers.with_bars`), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
         friction determines no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
         (or null) and ``line``; null without a rubber, and at one
         temperature.  ``notes``.
@@ -146,10 +146,12 @@ def _found(
 ) -> tuple[dict[str, Any], list[str]]:
     """Return the master curve and shift factors found from friction alone, and their notes."""
     from viscofric.errors import InputError
+    from viscofric.friction.shifting.shift import chosen_law
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors
-    from viscofric.report.texts.inverse import law_of
+    from viscofric.report.data import law_line
+    from viscofric.web.jobs.shift_numbers import with_bars
 
-    law, why, refused = law_of(master, options.law)
+    law, why, refused = chosen_law(master, options.law)
     notes, agreement = [*master.notes, *([refused] if refused else [])], None
     if known is not None:
         try:
@@ -160,28 +162,12 @@ def _found(
     factors.save(context.downloads / _DOWNLOAD)
     more = {
         "words": _words(master, law, agreement, why),
-        "factors": {
-            "temperature": factors.temperatures,
-            "log10": factors.log10_values,
-            "error": factors.standard_errors,
-        },
-        "law": None if law is None else _line(law, factors.temperatures),
+        "factors": with_bars(factors.to_dataset()),
+        "law": None if law is None else with_bars(law_line(law, *factors.temperatures[[0, -1]].tolist())),
         "agreement": None if agreement is None else agreement.sentence,
         "download": _DOWNLOAD,
     }
     return _curve(master) | more, notes
-
-
-def _line(law: ShiftLaw, temperatures: Any) -> dict[str, Any]:
-    """Return a law between temperatures, with its 95 % band where it has one."""
-    import numpy as np
-
-    from viscofric.rheology.shifts.parametric_law import LEVEL_95
-
-    kelvin = np.linspace(temperatures.min(), temperatures.max(), 100)
-    log10, error = law.values_at(kelvin)
-    doubt = LEVEL_95 * np.where(error > 0.0, error, np.nan)
-    return {"temperature": kelvin, "log10": log10, "lower": log10 - doubt, "upper": log10 + doubt}
 
 
 def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
@@ -191,8 +177,10 @@ def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
     """
     import numpy as np
 
+    from viscofric.report.data import law_line
     from viscofric.report.figures.shift_factors import FARTHER
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.web.jobs.shift_numbers import with_bars
 
     law = known.at_reference(beside["reference"])
     warm = np.array([one["temperature"] for one in beside["points"]])
@@ -201,6 +189,5 @@ def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
     points = None
     if isinstance(law, ShiftFactors):
         near = (law.temperatures >= warm.min() - FARTHER) & (law.temperatures <= warm.max() + FARTHER)
-        columns = (law.temperatures, law.log10_values, law.standard_errors)
-        points = dict(zip(("temperature", "log10", "error"), (column[near] for column in columns), strict=True))
-    return {"points": points, "line": _line(law, warm)}
+        points = with_bars(law.to_dataset().isel(temperature=near))
+    return {"points": points, "line": with_bars(law_line(law, float(warm.min()), float(warm.max())))}

@@ -1,4 +1,4 @@
-"""What temperature does to a rubber, as numbers that the page draws: factors, laws, isotherms on one another."""
+"""Shift factors, laws and shifted isotherms of a rubber, as the page draws them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.datasets import plain
+from viscofric.datasets import plain, record
+from viscofric.report.data import law_line, law_residuals, shift_table
 from viscofric.rheology.shifts.parametric_law import LEVEL_95, ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    import xarray
 
     from viscofric.arrays import Array
     from viscofric.rheology.shifts.law_comparison import LawRow
@@ -22,12 +25,11 @@ if TYPE_CHECKING:
     from viscofric.study.rubber import Rubber
 
 
+_DIGITS = 6
 #: Points of a line that a law is drawn with.
 _LINE = 101
 #: Laws that were not fitted are drawn so far to either side of their reference, K.
 _ABOUT = 80.0
-#: Laws are not drawn this near to a pole, K.
-_NEAR_POLE = 1.0
 #: A factor is held for an isotherm that lies within this of the temperature named, K; the nearest one counts.
 _NEAR = 5.0
 
@@ -43,34 +45,48 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
     Returns
     -------
     dict or None
-        In SI units, temperatures in K, logarithms to base 10; None where the rubber has no shift.
+        In SI units; shift factors, lines of laws and vertical shift as their data sets name them, see `with_bars`. None
+        where the rubber has no shift.
     """
     law = rubber.material.shift
     if law is None:
         return None
-    factors = _factors(rubber)
+    fit, factors = rubber.fit, _factors(rubber)
     measured = None if factors is None else factors.temperatures
-    reply: dict[str, Any] = {
+    laws = () if rubber.laws is None else rubber.laws.rows
+    return {
         "reference": plain(float(law.reference)),
         "used": rubber.shift_used,
         "origin": rubber.shift_origin,
         "factors": None if factors is None else _table(factors, held),
-        "laws": _laws(rubber, factors),
+        "laws": [] if factors is None else [_law(row, rubber, factors) for row in laws],
         "explanation": "" if rubber.laws is None else rubber.laws.explanation,
-        "material": _of_material(law, measured),
+        "material": {
+            "words": str(law) if isinstance(law, ParametricLaw) else "as measured, interpolated between the isotherms",
+            **_drawn(law, measured),
+        },
         "vertical": _vertical(rubber.material.vertical_shift, measured),
-        "isotherms": [],
-        "misfit": None,
+        "isotherms": [] if fit is None else _shifted(fit, held),
+        "misfit": None if fit is None else plain({"joint": fit.quality.joint, "points": fit.quality.points}),
     }
-    if rubber.fit is not None:
-        reply |= {"isotherms": _shifted(rubber.fit, held), "misfit": _misfit(rubber.fit)}
-    return reply
+
+
+def with_bars(factors: xarray.Dataset) -> dict[str, Any]:
+    """Return a data set of shift factors as JSON, with ``error95``, half of each 95 % interval, where it is known."""
+    found = record(factors, _DIGITS)
+    if "standard_error" in found:
+        found["error95"] = plain(LEVEL_95 * factors["standard_error"].values)
+    return found
 
 
 def _factors(rubber: Rubber) -> ShiftFactors | None:
     if rubber.fit is not None:
         return rubber.fit.shift_factors
     return rubber.material.shift if isinstance(rubber.material.shift, ShiftFactors) else None
+
+
+def _table(factors: ShiftFactors, held: Mapping[float, float]) -> dict[str, Any]:
+    return with_bars(factors.to_dataset()) | {"held": places_held(factors.temperatures, held)}
 
 
 def places_held(temperatures: Array, held: Mapping[float, float]) -> list[bool]:
@@ -83,59 +99,30 @@ def places_held(temperatures: Array, held: Mapping[float, float]) -> list[bool]:
     return [place in nearest for place in range(len(temperatures))]
 
 
-def _table(factors: ShiftFactors, held: Mapping[float, float]) -> dict[str, Any]:
-    return {
-        "temperature": plain(factors.temperatures),
-        "log10": plain(factors.log10_values),
-        "error95": plain(LEVEL_95 * factors.standard_errors),
-        "held": places_held(factors.temperatures, held),
-    }
+_OF_A_LAW = ("kind", "title", "constants", "chi2", "freedom", "scatter", "aic", "weight", "exact", "refusal", "same_as")
 
 
-def _laws(rubber: Rubber, factors: ShiftFactors | None) -> list[dict[str, Any]]:
-    if rubber.laws is None or factors is None:
-        return []
-    return [_law_row(row, rubber, factors) for row in rubber.laws.rows]
-
-
-def _law_row(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
-    laws = rubber.laws
-    numbers = {
-        "kind": row.kind,
-        "title": row.title,
-        "chosen": laws is not None and row is laws.chosen,
-        "used": rubber.shift_used == row.kind
-        or (laws is not None and rubber.shift_used == "best" and row is laws.chosen),
-        "words": "" if row.law is None else row.law.described,
-        "constants": row.constants,
-        "chi2": plain(row.chi2),
-        "freedom": row.freedom,
-        "scatter": plain(row.scatter),
-        "aic": plain(row.aic),
-        "weight": plain(row.weight),
-        "exact": row.exact,
-        "refusal": row.refusal,
-        "same_as": row.same_as,
-    }
+def _law(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
+    chosen = rubber.laws is not None and row is rubber.laws.chosen
+    found: dict[str, Any] = plain({name: getattr(row, name) for name in _OF_A_LAW})
+    found |= {"chosen": chosen, "used": rubber.shift_used == row.kind or (rubber.shift_used == "best" and chosen)}
     if row.law is None:
-        return numbers
-    valid = row.law.valid_at(factors.temperatures, above_pole=_NEAR_POLE)
-    at = factors.temperatures[valid]
-    left = factors.log10_values[valid] - np.asarray(row.law.log10(at))
-    return numbers | {
-        "limits": _limits(row.law),
-        "line": line_of(row.law, factors.temperatures),
-        "residual": {"temperature": plain(at), "log10": plain(left)},
-    }
+        return found | {"words": ""}
+    residual = record(law_residuals(row.law, shift_table(factors)), _DIGITS)
+    return found | {"words": row.law.described, **_drawn(row.law, factors.temperatures), "residual": residual}
 
 
-def _of_material(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
-    """Return α(T) that contacts are solved with: a table between its temperatures, or a law within its limits."""
-    return {
-        "words": str(law) if isinstance(law, ParametricLaw) else "as measured, interpolated between the isotherms",
-        "limits": _limits(law),
-        "line": line_of(law, measured),
-    }
+def _drawn(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
+    """Return the limits of a law, and its line over those that it has, or about the measured temperatures."""
+    if measured is not None:
+        low, high = float(measured[0]), float(measured[-1])
+    else:
+        low, high = law.reference - _ABOUT, law.reference + _ABOUT
+    limits = _limits(law)
+    if limits is not None:
+        ends = [usual if end is None else end for end, usual in zip(limits["valid"], (low, high), strict=True)]
+        low, high = (ends[0], ends[1]) if limits["fitted"] is not None else (max(low, ends[0]), min(high, ends[1]))
+    return {"limits": limits, "line": with_bars(law_line(law, max(low, 1.0), high, _LINE))}
 
 
 def _limits(law: ShiftLaw) -> dict[str, Any] | None:
@@ -150,42 +137,19 @@ def _limits(law: ShiftLaw) -> dict[str, Any] | None:
     return {"valid": plain(list(limits)), "fitted": None if fitted is None else plain(list(fitted))}
 
 
-def line_of(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
-    """Return log10 α of a law, with 1.96 standard errors where they are known, within its limits."""
-    if measured is not None:
-        low, high = float(measured[0]), float(measured[-1])
-    else:
-        low, high = law.reference - _ABOUT, law.reference + _ABOUT
-    limits = _limits(law)
-    if limits is not None:
-        ends = [usual if end is None else end for end, usual in zip(limits["valid"], (low, high), strict=True)]
-        low, high = (ends[0], ends[1]) if limits["fitted"] is not None else (max(low, ends[0]), min(high, ends[1]))
-    line = np.linspace(max(low, 1.0), high, _LINE)
-    line = line[law.valid_at(line, above_pole=_NEAR_POLE)]
-    error = LEVEL_95 * np.asarray(law.standard_error(line)) if law.has_standard_error else None
-    return {
-        "temperature": plain(line),
-        "log10": plain(np.asarray(law.log10(line))),
-        "error95": None if error is None else plain(error),
-    }
-
-
 def _vertical(shift: VerticalShift | None, measured: Array | None) -> dict[str, Any] | None:
+    """Return b itself, with the upper end of its 95 % interval where it was fitted."""
     if shift is None:
         return None
-    if isinstance(shift, VerticalShiftFactors):
-        at, error = shift.temperatures, LEVEL_95 * shift.standard_errors
-    else:
+    at = None
+    if not isinstance(shift, VerticalShiftFactors):
         at = np.linspace(shift.reference - _ABOUT, shift.reference + _ABOUT, _LINE) if measured is None else measured
-        error = None
-    b = np.asarray(shift(at))
-    return {
-        "fitted": error is not None,
-        "temperature": plain(at),
-        "b": plain(b),
-        "lower": None if error is None else plain(b * 10.0**-error),
-        "upper": None if error is None else plain(b * 10.0**error),
-    }
+    data = shift.to_dataset(at)
+    b = 10.0 ** data["log10_vertical_shift"]
+    upper = None
+    if "vertical_standard_error" in data:
+        upper = plain((b * 10.0 ** (LEVEL_95 * data["vertical_standard_error"])).values)
+    return {"temperature": plain(data["temperature"].values), "b": plain(b.values), "upper": upper}
 
 
 def _shifted(fit: Superposition, held: Mapping[float, float]) -> list[dict[str, Any]]:
@@ -209,15 +173,3 @@ def _shifted(fit: Superposition, held: Mapping[float, float]) -> list[dict[str, 
             fit.isotherms, fit.shift_factors.log10_values, log10_b, places_held(temperatures, held), strict=True
         )
     ]
-
-
-def _misfit(fit: Superposition) -> dict[str, Any]:
-    quality, temperatures = fit.quality, fit.shift_factors.temperatures
-    return {
-        "storage": plain(quality.storage),
-        "loss": plain(quality.loss),
-        "joint": plain(quality.joint),
-        "points": quality.points,
-        "neighbours": quality.neighbours,
-        "gaps": [plain(temperatures[place : place + 2]) for place in quality.gaps],
-    }

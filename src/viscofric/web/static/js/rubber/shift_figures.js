@@ -19,7 +19,7 @@ export function alphaFigure(answer, app) {
           symbol,
           colour: held ? "orange" : "blue",
           x: some.map((at) => factors.temperature[at]),
-          y: some.map((at) => factors.log10[at]),
+          y: some.map((at) => factors.log10_shift_factor[at]),
           error: some.map((at) => factors.error95[at]),
         });
     }
@@ -54,7 +54,7 @@ export function alphaFigure(answer, app) {
 /** A law as a solid line where it was fitted, dotted on either side. */
 function lineTraces({ line, limits }, look) {
   const [low, high] = limits?.fitted ?? [-Infinity, Infinity];
-  const { temperature, log10, error95 } = line;
+  const { temperature, log10_shift_factor: log10, error95 } = line;
   const last = temperature.length - 1;
   const first = temperature.findIndex((kelvin) => kelvin >= low);
   const end = temperature.findLastIndex((kelvin) => kelvin <= high);
@@ -133,18 +133,18 @@ export function residualTraces({ laws, factors }) {
   const band = factors
     ? [
         {
-          name: "95 % of measured",
+          name: "95 % of the factors",
           colour: "sky",
           width: 0,
           x: factors.temperature,
-          y: factors.log10.map(() => 0),
+          y: factors.temperature.map(() => 0),
           lower: factors.error95.map((one) => -one),
           upper: factors.error95,
         },
       ]
     : [];
   const rows = laws.filter((row) => row.residual && row.same_as === "");
-  const best = Math.min(...rows.map((row) => Math.max(...row.residual.log10.map(Math.abs))));
+  const best = Math.min(...rows.map((row) => Math.max(...row.residual.log10_residual.map(Math.abs))));
   return [
     ...band,
     ...rows.map((row) => ({
@@ -153,21 +153,21 @@ export function residualTraces({ laws, factors }) {
       size: 5,
       width: 1.2,
       x: row.residual.temperature,
-      y: row.residual.log10,
-      hidden: Math.max(...row.residual.log10.map(Math.abs)) > 20 * Math.max(best, 0.005),
+      y: row.residual.log10_residual,
+      hidden: Math.max(...row.residual.log10_residual.map(Math.abs)) > 20 * Math.max(best, 0.005),
     })),
   ];
 }
 
-export function verticalFigure({ temperature, b, lower, upper, fitted }, answer, app) {
-  const trace = fitted
+export function verticalFigure({ temperature, b, upper }, answer, app) {
+  const trace = upper
     ? { mode: "markers", x: temperature, y: b, error: upper.map((one, at) => one - b[at]) }
     : { mode: "lines+markers", x: temperature, y: b };
   return {
     traces: [{ name: "b", legend: false, ...trace }],
     marks: [{ y: 1 }],
     synthetic: synthetic(answer, app),
-    caption: fitted
+    caption: upper
       ? "Fitted with the shift factors; bars are 95 %."
       : "ρT/(ρ₀T₀), from rubber elasticity.",
   };

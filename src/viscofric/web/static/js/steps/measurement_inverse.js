@@ -70,13 +70,17 @@ export function factorsFigure(result, synthetic) {
   };
 }
 
-const factorPoints = (factors) => ({ mode: "markers", x: factors.temperature, y: factors.log10, error: factors.error });
-const factorLine = (line) => ({
+const factorPoints = ({ temperature: x, log10_shift_factor: y, standard_error: error }) => ({
+  mode: "markers",
+  x,
+  y,
+  error,
+});
+const factorLine = ({ temperature: x, log10_shift_factor: y, error95 }) => ({
   mode: "lines",
-  x: line.temperature,
-  y: line.log10,
-  lower: known(line.lower) ? line.lower : undefined,
-  upper: known(line.lower) ? line.upper : undefined,
+  x,
+  y,
+  ...(known(error95) ? { lower: y.map((one, at) => one - error95[at]), upper: y.map((one, at) => one + error95[at]) } : {}),
 });
 
 /** Modulus that friction identifies, strong where it does, with the page's rubber beside it. */
@@ -86,8 +90,8 @@ export function modulusFigure(found, synthetic) {
   const omega = modulus.angular_frequency;
   const inside = (at) => omega[at] >= identified.low && omega[at] <= identified.high;
   const traces = [
-    ["E′", "storage", "blue"],
-    ["E″", "loss", "vermilion"],
+    ["E′", "storage_modulus", "blue"],
+    ["E″", "loss_modulus", "vermilion"],
   ].flatMap(([symbol, part, colour]) => {
     const line = { x: omega, mode: "lines", colour, group: part };
     return [
