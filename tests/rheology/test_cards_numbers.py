@@ -201,7 +201,7 @@ def test_a_bulk_modulus_changed_in_comsol_parameters_is_reported(tmp_path):
 def test_ls_dyna_leaves_its_second_card_blank_and_its_numbers_are_those_of_the_material(tmp_path):
     text = written(tmp_path, rubber(WLF(8.86, 101.6, 298.0)), "ls-dyna", density=1100.0)
     title, head, second, *terms, end = lines_after(
-        "\n".join(line for line in text.splitlines() if not line.startswith("$")), "*MAT_GENERAL_VISCOELASTIC_TITLE +"
+        "\n".join(line for line in text.splitlines() if not line.startswith("$")), "*MAT_GENERAL_VISCOELASTIC_TITLE+"
     )
     assert (title, second, end) == ("Tread", "", "*END")  # GI count only if the second card is blank
     fields = [float(head[start : start + 20]) for start in range(0, len(head), 20)]

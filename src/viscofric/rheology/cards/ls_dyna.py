@@ -6,8 +6,8 @@ with decay constants β = 1/τ (0 for the long-term modulus), at most 18 terms; 
 law has A = Ea/R, a WLF law A = −C1 ln 10 and B = C2.  With the same sign of A the two formulae shift in opposite
 directions, so that one of them may be wrong in the manual: check a WLF card on one element, which has to relax faster
 when warm; else change the sign of A.  The second card, for fits of load curves, is left blank, since terms are used
-only then.  Fields are 20 characters wide (long format, marked by the '+' after the keyword): the 10 characters of the
-standard format would cut numbers to 5 or 6 digits.
+only then.  Fields are 20 characters wide (long format, marked by a '+' directly after the keyword; after a blank,
+ansys-dyna-core does not know the keyword): the 10 characters of the standard format would cut numbers to 5 or 6 digits.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def write(material: Material, writing: Writing) -> str:
             f"TREF = {reference:g}: {NAME} needs it above zero; leave temperature_unit out, for K.", code="not-positive"
         )
     content = stored(material, writing, ratio, relaxation, law is not None)
-    lines = ["*KEYWORD", *comment_lines("$", sentences, content), "*MAT_GENERAL_VISCOELASTIC_TITLE +"]
+    lines = ["*KEYWORD", *comment_lines("$", sentences, content), "*MAT_GENERAL_VISCOELASTIC_TITLE+"]
     title = material.name.encode("ascii", "replace").decode() or "rubber"
     lines.append(title[:80])
     lines += ["$ MID, RO, BULK, PCF, EF, TREF, A, B"]
