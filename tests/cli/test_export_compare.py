@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 from click.testing import CliRunner, Result
 
+from cli.refusals import refusal
 from study.sweeps import made_results, made_sweep
 from viscofric.cli import main
 
@@ -53,51 +54,23 @@ def test_table_goes_into_a_pipe(pair: tuple[Path, Path], tmp_path: Path) -> None
     assert len([line for line in printed.splitlines() if not line.startswith("#")]) == 19
 
 
-@pytest.mark.parametrize(
-    ("words", "status", "reported"),
-    [
-        (["--to", "xml"], 2, "Invalid value"),
-        (["--to", "excel", "-o", "a.csv"], 2, "must end in .xlsx"),
-        (["--to", "excel", "-o", "-"], 2, "cannot be printed"),
-        (["--to", "csv", "--to", "excel", "-o", "a.csv"], 2, "several formats"),
-        ([], 2, "Missing option '--to'"),
-    ],
-)
-def test_mistakes_of_exporting_are_one_sentence(
-    pair: tuple[Path, Path], words: list[str], status: int, reported: str
-) -> None:
-    done = call("export", pair[0], *words)
-    assert (done.exit_code, reported in done.output) == (status, True), done.output
-
-
 def test_damaged_results_are_reported(tmp_path: Path) -> None:
     (tmp_path / "results.nc").touch()
     for words in (["export", tmp_path, "--to", "csv"], ["report", tmp_path]):
-        done = call(*words)
-        assert done.exit_code == 1
-        assert "is damaged: it is empty" in done.stderr
-        assert "Traceback" not in done.output
+        assert refusal(*words)[:2] == (1, "damaged")
 
 
 @pytest.mark.slow
 def test_the_same_results_compare_as_the_same(pair: tuple[Path, Path]) -> None:
-    done = call("compare", pair[0], pair[0] / "results.nc", "--tolerance", 0)
-    assert done.exit_code == 0
-    assert "18 cases in common" in done.stdout
-    assert done.stdout.splitlines()[-1] == "The same within a relative difference of 0."
+    same = (*pair[:1], pair[0] / "results.nc", "--tolerance", 0)
+    assert call("compare", *same).exit_code == 0
+    found = json.loads(call("compare", *same, "--json").stdout)
+    assert (found["equal"], found["cases"]) == (True, 18)
 
 
 @pytest.mark.slow
 def test_different_results_are_reported_with_their_provenance(pair: tuple[Path, Path]) -> None:
-    done = call("compare", *pair)
-    assert done.exit_code == 1
-    for words in (
-        "9 cases in common, 9 only in A, 9 only in B",
-        "1 of them solved in one only",
-        "The load has other values",
-        "Another accuracy: 0.001 and 0.01.",
-    ):
-        assert words in done.stdout
+    assert call("compare", *pair).exit_code == 1
     found = json.loads(call("compare", *pair, "--json").stdout)
     assert (found["format"], found["equal"], found["cases"]) == ("viscofric comparison 1", False, 9)
     assert {one["name"] for one in found["differences"]} >= {"friction_coefficient", "indentation", "max_pressure"}

@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 import viscofric as vf
+from cli.refusals import refusal
 from viscofric.cli import main
 
 EXAMPLE = Path(vf.__file__).parent / "example" / "dma.csv"
@@ -33,9 +34,9 @@ def fitted(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 def test_read_says_what_the_file_holds(tmp_path: Path) -> None:
     done = call("read", EXAMPLE, "--csv", tmp_path / "again.csv")
     assert done.exit_code == 0, done.output
-    assert "26 isotherms" in done.output
-    assert "moduli in tension" in done.output
     before, after = vf.read_dma(EXAMPLE), vf.read_dma(tmp_path / "again.csv")
+    assert len(after.isotherms) == len(before.isotherms) == 26
+    assert f"{len(before.isotherms)} isotherms" in done.stdout
     # ten printed digits
     for one, other in zip(before.isotherms, after.isotherms, strict=True):
         np.testing.assert_allclose(other.storage_modulus, one.storage_modulus, rtol=1e-9)
@@ -119,9 +120,7 @@ def test_sparse_spectrum_has_no_more_modes_than_asked(tmp_path: Path) -> None:
 def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
     raw = tmp_path / "raw.csv"
     raw.write_bytes(EXAMPLE.read_bytes())
-    done = call("read", raw, "--csv", raw)
-    assert done.exit_code == 1
-    assert "would be overwritten" in done.output
+    assert refusal("material", "read", raw, "--csv", raw)[:2] == (1, "is-input")
     assert raw.read_bytes() == EXAMPLE.read_bytes()
 
 
@@ -132,9 +131,8 @@ def test_a_card_that_cannot_be_written_keeps_no_other_from_it(tmp_path: Path) ->
         "--card", "ansys", "--card", "abaqus",
     )  # fmt: skip
     assert done.exit_code == 1  # ANSYS takes no Poisson ratio of 0.5
-    assert "no card for ansys" in done.output
-    assert (tmp_path / "out" / "cards" / "rubber_abaqus.inp").exists()
-    assert "card for abaqus holds at 30.0 °C only" in done.output  # no law was asked for
+    assert [path.name for path in (tmp_path / "out" / "cards").iterdir()] == ["rubber_abaqus.inp"]
+    assert "Note: " in done.stderr  # without a law, the card holds at the reference temperature only
     law = call(
         "convert", tmp_path / "out" / "rubber.json", tmp_path / "law.inp", "--format", "abaqus", "--card-law", "wlf"
     )
@@ -173,28 +171,23 @@ def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "reported"),
+    ("words", "code"),
     [
-        (["fit", "nothing.csv", "--reference", "30 degC"], "nothing.csv: no such file"),
-        (["fit", EXAMPLE, "--reference", "30"], "reference_temperature"),
-        (["fit", EXAMPLE, "--reference", "500 degC"], "outside the joined isotherms"),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--modes", "3"], 'modes needs spectrum = "sparse"'),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "cold"], "--fix"),
-        (["show", "no such rubber"], "no such rubber"),
-        (["show", "rubber.json"], "rubber.json: no such file"),
-        (["read", "nothing.csv"], "nothing.csv: no such file"),
-        (["show", "synthetic fluoroelastomer", "--frequency", "10"], "Hz or rad/s"),
-        (["fitt"], "Did you mean 'fit'?"),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--shift-factors", "no.csv"], "no.csv: no such file"),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "0 degC=1", "--fix", "273.15 K=2"], "given twice"),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--master-curve", "--vertical-shift", "free"], "only for sweeps"),
+        (["fit", "nothing.csv", "--reference", "30 degC"], "no-such-file"),
+        (["fit", EXAMPLE, "--reference", "30"], "no-unit"),
+        (["fit", EXAMPLE, "--reference", "500 degC"], "reference-outside"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--modes", "3"], "contradiction"),
+        (["show", "no such rubber"], "unknown-material"),
+        (["show", "rubber.json"], "no-such-file"),
+        (["read", "nothing.csv"], "no-such-file"),
+        (["show", "synthetic fluoroelastomer", "--frequency", "10"], "wrong-unit"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--shift-factors", "no.csv"], "no-such-file"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "0 degC=1", "--fix", "273.15 K=2"], "value"),
+        (["fit", EXAMPLE, "--reference", "30 degC", "--master-curve", "--vertical-shift", "free"], "contradiction"),
     ],
+    ids=lambda value: str(value)[:40],
 )
-def test_mistakes_are_one_sentence(
-    words: list[object], reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    done = call(*words)
-    assert done.exit_code in (1, 2)
-    assert reported in done.output
-    assert "Traceback" not in done.output
+    found = refusal("material", *words)
+    assert (found.status, found.code) == (1, code), found

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from cli.refusals import refusal
 from viscofric.cli import main
 from viscofric.cli.overview import COMMANDS
 
@@ -79,6 +80,6 @@ def test_runs_are_read_from_a_pipe_and_curves_go_into_one() -> None:
 
 
 def test_what_is_wrong_with_piped_data_names_standard_input() -> None:
-    done = CliRunner().invoke(main, ["material", "read", "-"], input="temperature,frequency\n1,2\n")
-    assert done.exit_code == 1
-    assert done.stderr.startswith("Error: standard input")
+    found = refusal("material", "read", "-", given="temperature,frequency\n1,2\n")
+    assert found[:2] == (1, "missing-columns")
+    assert found.sentence.startswith("standard input: ")

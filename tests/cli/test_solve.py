@@ -16,6 +16,7 @@ import xarray
 from click.testing import CliRunner, Result
 
 import viscofric as vf
+from cli.refusals import refusal
 from viscofric.cli import main
 from viscofric.contact import steady
 from viscofric.report.figures.contact import contact_figure
@@ -52,10 +53,8 @@ def test_a_contact_beyond_the_frequencies_of_the_rubber_is_reported(tmp_path: Pa
     vf.write_card(vf.Material(replace(solid, fit=fit)), tmp_path / "rubber.json", format="json")
     contact = ("--material", tmp_path / "rubber.json", "--ball", "10 mm", "--load", "1 N", "--accuracy", "0.1")
     # Contacts of about 1 mm.
-    beyond = call(*contact, "--speed", "10 m/s")
-    assert beyond.exit_code == 0, beyond.output
-    assert "beyond those at which the rubber was identified from friction, 100 to 2e+03 rad/s" in beyond.stderr
-    assert "beyond" not in call(*contact, "--speed", "1 m/s").stderr
+    assert [len(record(*contact, "--speed", speed)["warnings"]) for speed in ("10 m/s", "1 m/s")] == [1, 0]
+    assert "Warning: " in call(*contact, "--speed", "10 m/s").stderr
 
 
 def test_json_holds_what_python_gives() -> None:
@@ -115,8 +114,6 @@ def test_words_show_the_numbers_and_their_errors() -> None:
 def test_a_contact_that_dissipates_nothing_has_no_friction() -> None:
     done = call(*RUBBER, "--cone", "5 deg", "--speed", "inf", "--indentation", "50 um")
     assert done.exit_code == 0, done.output
-    assert "0 (elastic: no dissipation)" in done.stdout
-    assert "on the axis" in done.stdout
     found = record(*RUBBER, "--cone", "5 deg", "--speed", "-inf", "--indentation", "50 um")
     assert found["inputs"]["speed"] == "infinite"
     assert found["inputs"]["held"] == "indentation"
@@ -138,14 +135,11 @@ def test_the_catalogues_rubber_is_shifted_and_called_synthetic() -> None:
     )
     done = call(*arguments, "--temperature", "60 degC", "--accuracy", "0.01", "--tolerance", "1e-6")
     assert done.exit_code == 0, done.output
-    assert "SYNTHETIC" in done.stdout
-    assert "60 °C" in done.stdout
     # An independent solution goes from 0.0251 at 20 mm/s to 0.0158 at 200 mm/s.
     friction = float(done.stdout.split("friction coefficient")[1].split("±")[0])
     assert 0.0158 < friction < 0.0251
-    wide = call(*arguments[:-1], "60 N", "--accuracy", "0.01", "--tolerance", "1e-6")
-    assert wide.exit_code == 0
-    assert "Warning: The contact reaches" in wide.stderr
+    wide = record(*arguments[:-1], "60 N", "--accuracy", "0.01", "--tolerance", "1e-6")
+    assert len(wide["warnings"]) == 1
 
 
 def test_rubbers_come_from_files_too(tmp_path: Path) -> None:
@@ -188,14 +182,14 @@ def test_a_direction_is_an_angle_or_two_numbers() -> None:
 def test_the_force_across_the_motion_is_reported_with_its_side() -> None:
     found = record(*OBLIQUE, "--direction", "30 deg")
     assert found["results"]["lateral_friction_coefficient"] < 0.0
-    assert "(a force to the right is needed to keep the direction)" in call(*OBLIQUE, "--direction", "30 deg").stdout
     # The other way along the same line: the same force at the other side, since the motion has turned round.
-    back = call(*OBLIQUE[:-3], "-0.5 m/s", *OBLIQUE[-2:], "--direction", "30 deg")
-    assert "towards 30° from its x axis" in back.stdout
-    assert "force to the right" in back.stdout
-    assert "force to the left" in call(*OBLIQUE, "--direction", "-30 deg").stdout
-    assert "lateral friction      0 (no lateral force)" in call(*RUBBER, *BALL, "--direction", "1,1").stdout
-    assert "lateral" not in call(*RUBBER, *BALL).stdout
+    back = record(*OBLIQUE[:-3], "-0.5 m/s", *OBLIQUE[-2:], "--direction", "30 deg")
+    assert back["inputs"]["direction"] == found["inputs"]["direction"]
+    mirrored = record(*OBLIQUE, "--direction", "-30 deg")
+    straight = record(*RUBBER, *BALL, "--direction", "1,1")
+    lateral, *others = (one["results"]["lateral_friction_coefficient"] for one in (found, back, mirrored, straight))
+    # Two solutions of one problem differ by what the solver leaves, 1e-8 of the indentation.
+    assert others == pytest.approx([-lateral, -lateral, 0.0], rel=1e-6, abs=1e-9)
 
 
 @pytest.mark.slow
@@ -351,73 +345,54 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "status", "reported"),
+    ("arguments", "code"),
     [
-        ((*RUBBER, "--ball", "10 mm", "--speed", "1", "--load", "1 N"), 1, "speed = '1': has no unit"),
-        ((*RUBBER, "--ball", "10", "--speed", "1 m/s", "--load", "1 N"), 1, "radius = '10'"),
-        ((*RUBBER, *BALL, "--indentation", "1 mm"), 2, "either --load or --indentation"),
-        ((*RUBBER, *BALL[:-2]), 2, "either --load or --indentation"),
-        ((*RUBBER, *BALL, "--indenter-poisson-ratio", "0.4"), 2, "is for --indenter-modulus only"),
-        ((*RUBBER, *BALL, "--height-unit", "um"), 2, "--height-unit is for"),
-        ((*RUBBER, *BALL, "--temperature", "60 degC"), 1, "this material has no shift"),
-        ((*RUBBER, *BALL, "--accuracy", "2"), 1, "accuracy = 2.0"),
-        ((*RUBBER, *BALL, "--accuracy", "1e-6", "--tolerance", "1e-10", "--finest", "128"), 1, "finest grid allowed"),
-        ((*RUBBER, "--ball", "10 mm", "--speed", "1 m/s", "--load", "1 MN"), 1, "wider than the ball"),
-        ((*RUBBER, *BALL, "--cone", "5 deg"), 2, "--ball and --cone are both given"),
-        ((*RUBBER, "--speed", "1 m/s", "--load", "1 N"), 2, "nothing says what the indenter is"),
-        (BALL, 2, "nothing says what the rubber is"),
-        ((*RUBBER[:4], *BALL), 2, "--E0, --E-inf and --tau"),
-        ((*RUBBER, "--material", "VHB 4910", *BALL), 2, "--material and --E0 are both given"),
-        (("--material", "VHB 491", *BALL), 1, "did you mean 'VHB 4910'"),
-        (("--material", "none.json", *BALL), 1, "none.json: no such file"),
-        ((*RUBBER, "--ellipsoid", "10 mm", *BALL[2:]), 2, "two radii"),
-        ((*RUBBER, *BALL, "--spacing", "1 um"), 2, "--spacing is for"),
-        ((*RUBBER, *BALL, "--sliding-base"), 2, "--sliding-base is for"),
-        ((*RUBBER, *BALL, "--layer", "1"), 1, "thickness of the layer = '1': has no unit"),
-        (("--material", DMA, *BALL), 1, "`viscofric material fit` makes one from"),
-        ((*RUBBER, "--cone", "0.1", *BALL[2:]), 1, "write, for example, '5 deg'"),
-        ((*RUBBER, *BALL, "--window", "1 mm,1 mm"), 1, "must be 3 lengths (rear, front, side)"),
-        ((*RUBBER, *BALL, "--direction", "north"), 1, "direction = 'north'"),
-        ((*RUBBER, *BALL, "--direction", "30"), 1, "direction = '30': has no unit"),
-        ((*RUBBER, *BALL, "--direction", "1,2,3"), 2, "give an angle, '30 deg', or two numbers, '0,1'"),
-        ((*RUBBER, *BALL, "--direction", "0,0"), 1, "must be two numbers, not both zero"),
+        ((*RUBBER, "--ball", "10 mm", "--speed", "1", "--load", "1 N"), "no-unit"),
+        ((*RUBBER, "--ball", "10", "--speed", "1 m/s", "--load", "1 N"), "no-unit"),
+        ((*RUBBER, *BALL, "--temperature", "60 degC"), "no-shift"),
+        ((*RUBBER, *BALL, "--accuracy", "2"), "out-of-range"),
+        ((*RUBBER, *BALL, "--accuracy", "1e-6", "--tolerance", "1e-10", "--finest", "128"), "accuracy-not-reached"),
+        ((*RUBBER, "--ball", "10 mm", "--speed", "1 m/s", "--load", "1 MN"), "beyond-indenter"),
+        (("--material", "VHB 491", *BALL), "unknown-material"),
+        (("--material", "none.json", *BALL), "no-such-file"),
+        ((*RUBBER, *BALL, "--layer", "1"), "no-unit"),
+        (("--material", DMA, *BALL), "unknown-card"),
+        ((*RUBBER, "--cone", "0.1", *BALL[2:]), "no-unit"),
+        ((*RUBBER, *BALL, "--window", "1 mm,1 mm"), "not-a-window"),
+        ((*RUBBER, *BALL, "--direction", "north"), "no-number"),
+        ((*RUBBER, *BALL, "--direction", "30"), "no-unit"),
+        ((*RUBBER, *BALL, "--direction", "0,0"), "wrong-count"),
         (
             (*RUBBER, "--cylinder", "1 cm", "--speed", "1 m/s", "--load", "1 N/m", "--direction", "0,1"),
-            1,
-            "along x only",
+            "line-direction",
         ),
-        ((*RUBBER, "--ball", "1 cm", "--speed", "inf", "--load", "1 N", "--derivatives"), 1, "no friction to diff"),
-        ((*RUBBER, "--profile", "none.txt", *BALL[2:]), 2, "needs --spacing"),
-        ((*RUBBER, "--profile", "none.txt", "--spacing", "1 um", *BALL[2:]), 1, "none.txt: no such file"),
-        ((*RUBBER, *BALL, "--picture", "a.gif"), 2, "must end in .png, .svg, .pdf"),
-        ((*RUBBER, *BALL, "-o", "a.txt"), 2, "must end in .nc, .csv"),
+        ((*RUBBER, "--ball", "1 cm", "--speed", "inf", "--load", "1 N", "--derivatives"), "elastic-limit"),
+        ((*RUBBER, "--profile", "none.txt", "--spacing", "1 um", *BALL[2:]), "no-such-file"),
     ],
     ids=lambda value: str(value)[:40],
 )
-def test_mistakes_are_one_sentence(
-    arguments: tuple[str, ...], status: int, reported: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_mistakes_are_refused(
+    arguments: tuple[str, ...], code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    done = call(*arguments)
-    assert done.exit_code == status, done.output
-    assert reported in done.output
-    assert "Traceback" not in done.output
-    assert len([line for line in done.output.splitlines() if line.startswith("Error: ")]) == 1
+    found = refusal("solve", *arguments)
+    assert (found.status, found.code) == (1, code), found
 
 
 def test_too_small_a_map_is_reported_with_its_file(tmp_path: Path) -> None:
     np.savetxt(tmp_path / "one.csv", [[1.0, 2.0]], delimiter=",")
-    done = call(*RUBBER, *BALL[2:], "--height-map", tmp_path / "one.csv", "--spacing", "1 um")
-    assert done.exit_code == 1
-    assert "one.csv: z: " in done.output
+    found = refusal("solve", *RUBBER, *BALL[2:], "--height-map", tmp_path / "one.csv", "--spacing", "1 um")
+    assert found[:2] == (1, "not-heights")
+    assert found.sentence.startswith(f"{tmp_path / 'one.csv'}: ")
 
 
 def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
     path = tmp_path / "heights.csv"
     path.write_bytes((Path(str(files("viscofric"))) / "example" / "mtm.csv").read_bytes())
-    done = call(*RUBBER, *BALL[2:], "--height-map", path, "--spacing", "1 um", "-o", path)
-    assert done.exit_code == 1
-    assert "would be overwritten" in done.output
+    content = path.read_bytes()
+    found = refusal("solve", *RUBBER, *BALL[2:], "--height-map", path, "--spacing", "1 um", "-o", path)
+    assert found[:2] == (1, "is-input")
+    assert path.read_bytes() == content
 
 
 def test_ctrl_c_is_quiet(monkeypatch: pytest.MonkeyPatch) -> None:

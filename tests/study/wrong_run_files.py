@@ -73,14 +73,14 @@ WRONG = [
         BALL,
         'load = "25 N"',
         'load = "0 N"',
-        {"conditions.load": "value"},
+        {"conditions.load": "not-positive"},
         "conditions.load: '0 N': must be above zero; write, for example, '25 N'.",
     ),
     Wrong(
         BALL,
         'load = "25 N"',
         'load = "-3 N"',
-        {"conditions.load": "value"},
+        {"conditions.load": "not-positive"},
         "conditions.load: '-3 N': must be above zero; write, for example, '25 N'.",
     ),
     Wrong(
@@ -94,7 +94,7 @@ WRONG = [
         BALL,
         'load = "25 N"',
         'load = "25 mm"',
-        {"conditions.load": "value"},
+        {"conditions.load": "wrong-unit"},
         "conditions.load: '25 mm': has the wrong kind of unit (millimeter); write, for example, '25 N'.",
     ),
     Wrong(
@@ -111,14 +111,14 @@ WRONG = [
         BALL,
         'radius = "9.525 mm"',
         'radius = "big"',
-        {"indenter.radius": "value"},
+        {"indenter.radius": "no-number"},
         "indenter.radius: 'big': has no number; write, for example, '9.525 mm'.",
     ),
     Wrong(
         BALL,
         '"20 mm/s"',
         '"0 mm/s"',
-        {"conditions.speed.from": "value"},
+        {"conditions.speed.from": "not-positive"},
         "conditions.speed.from: '0 mm/s': must be above zero; write, for example, '100 mm/s'.",
     ),
     Wrong(
@@ -196,7 +196,7 @@ WRONG = [
         BALL,
         'dma = "dma.csv"',
         'dma = "dma.csv"\nfixed_shift_factors = { "cold" = 1.2 }',
-        {"material.fixed_shift_factors": "value"},
+        {"material.fixed_shift_factors": "no-number"},
         "material.fixed_shift_factors: 'cold': has no number; write, for example, '30 degC'.",
     ),
     Wrong(
@@ -217,7 +217,7 @@ WRONG = [
         BALL,
         'temperature = ["30 degC", "60 degC"]',
         'temperature = "30 degC"\nthickness = "0 mm"',
-        {"conditions.thickness": "value"},
+        {"conditions.thickness": "not-positive"},
         "conditions.thickness: '0 mm': must be above zero; write, for example, '9.525 mm'.",
     ),
     Wrong(
@@ -360,7 +360,7 @@ WRONG = [
         BALL,
         '"20 mm/s"',
         '"-20 mm/s"',
-        {"conditions.speed.from": "value"},
+        {"conditions.speed.from": "not-positive"},
         "conditions.speed.from: '-20 mm/s': must be above zero; write, for example, '100 mm/s'.",
     ),
     Wrong(
@@ -441,7 +441,7 @@ WRONG = [
         BALL,
         "[indenter]",
         '[cluster]\nmemory = "8 mm"\nwalltime = "2 h"\n[indenter]',
-        {"cluster.memory": "value"},
+        {"cluster.memory": "wrong-unit"},
         "cluster.memory: '8 mm': has the wrong kind of unit (millimeter); write, for example, '8 GB'.",
     ),
     Wrong(

@@ -29,10 +29,19 @@ def check_ending(path: Path | None, option: str, endings: tuple[str, ...]) -> No
         raise click.BadParameter(f"{path}: must end in {', '.join(endings)}.", param_hint=option)
 
 
+def refusal(code: str, sentence: str) -> click.ClickException:
+    """Return the error of a command that will not write, with a code as viscofric's errors have."""
+    from viscofric.errors import InputError
+
+    error = click.ClickException(sentence)
+    error.__cause__ = InputError(sentence, code=code)
+    return error
+
+
 def refuse_to_overwrite(target: Path, inputs: Iterable[Path]) -> None:
     """Stop where a file to be written is one that is read: measurements are not to be lost."""
     if any(target.resolve() == path.resolve() for path in inputs):
-        raise click.ClickException(f"{target} is an input and would be overwritten; choose another name.")
+        raise refusal("is-input", f"{target} is an input and would be overwritten; choose another name.")
 
 
 #: A file to be written, or `-` for standard output.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import CSV, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
+from viscofric.cli.files import CSV, PICTURES, Source, check_ending, plainly, refusal, refuse_to_overwrite
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def command(
         print_notes([] if refused is None else [refused])
         agreement = _agreement(master, known)
         if out is not None and not master.found:
-            raise click.ClickException(f"{out} is not written: friction determines no shift factors.")
+            raise refusal("no-factors", f"{out} is not written: friction determines no shift factors.")
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources]}
             inputs |= {"shift": parameters["known"]} | {

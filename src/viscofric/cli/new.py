@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from viscofric.cli.files import refusal
+
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
@@ -89,10 +91,10 @@ def _schema() -> str:
 def _write(folder: Path, contents: dict[str, bytes]) -> None:
     taken = [name for name in contents if (folder / name).exists()]
     if taken:
-        raise click.ClickException(f"{folder} already holds {', '.join(sorted(taken))}; choose another folder.")
+        raise refusal("not-empty", f"{folder} already holds {', '.join(sorted(taken))}; choose another folder.")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in contents.items():
             (folder / name).write_bytes(content)
     except OSError as error:
-        raise click.ClickException(f"{folder}: cannot be written ({error.strerror or error}).") from error
+        raise refusal("not-written", f"{folder}: cannot be written ({error.strerror or error}).") from error

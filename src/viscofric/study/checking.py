@@ -123,5 +123,5 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
         wrong.append(error.note.at("surface"))
         field = field or "surface"
     if wrong:
-        raise StudyError(f"{path}: its data cannot be used:", wrong, field=field, code="data-unusable")
+        raise StudyError(f"{path}: its data cannot be used:", wrong, field=field)
     return CheckedStudy(study, sweep, tuple(rubbers), measured)

@@ -113,7 +113,7 @@ def _problem(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]
     }
     if kind in words:
         return wrong(where, words[kind](), kind.replace("_", "-"))
-    code = "contradiction" if kind == "relation" else "value"
+    code = getattr(limit.get("error"), "code", "") or ("contradiction" if kind == "relation" else "value")
     return wrong(where, problem["msg"].removeprefix("Value error, ").removeprefix(f"{VALUE} = "), code)
 
 
