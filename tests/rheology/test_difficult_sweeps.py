@@ -59,7 +59,7 @@ def test_gaps_between_neighbours_are_reported():
     made = planted_sweeps(0, celsius=EXAMPLE_PROGRAMME)
     fit = vf.superpose(made.sweeps, "30 degC", shift=made.material.shift)
     assert 0 in fit.quality.gaps
-    assert f"{fit.quality.without_overlap} of 25 pairs of neighbouring sweeps do not overlap" in fit.notes[-1]
+    assert f"{fit.quality.without_overlap} of 25 pairs of neighbouring isotherms do not overlap" in fit.notes[-1]
     assert any("do not overlap once shifted" in sentence for sentence in fit.check.sentences)
     whole = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
     assert whole.quality.gaps == ()

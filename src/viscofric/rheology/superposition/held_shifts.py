@@ -70,7 +70,7 @@ def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: floa
 
 
 def fitted_shifts(
-    joined: JoinedIsotherms, reference: float, held: dict[int, float], free: bool, quantities: Quantities = BOTH
+    joined: JoinedIsotherms[Any], reference: float, held: dict[int, float], free: bool, quantities: Quantities = BOTH
 ) -> CommonShifts:
     """Fit all shifts except those `held` (log10 α by index); with `free`, vertical shifts too.  See `common_shifts`."""
     temperatures, sweeps = _temperatures(joined), quantities.of(joined.logs)
@@ -89,7 +89,7 @@ def fitted_shifts(
     return found
 
 
-def given_shifts(joined: JoinedIsotherms, reference: float, shift: ShiftLaw, free: bool) -> CommonShifts:
+def given_shifts(joined: JoinedIsotherms[Any], reference: float, shift: ShiftLaw, free: bool) -> CommonShifts:
     """Return the shifts of a law or table; with `free`, fit vertical ones.
 
     Raises InputError if a factor is beyond any frequency.
@@ -116,7 +116,7 @@ def given_shifts(joined: JoinedIsotherms, reference: float, shift: ShiftLaw, fre
     return CommonShifts(values, covariance, found.vertical, found.vertical_covariance, nothing)
 
 
-def _temperatures(joined: JoinedIsotherms) -> Array:
+def _temperatures(joined: JoinedIsotherms[Any]) -> Array:
     return np.array([isotherm.temperature for isotherm in joined.isotherms])
 
 

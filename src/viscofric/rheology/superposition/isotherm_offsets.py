@@ -66,7 +66,7 @@ class IsothermOffsets:
     sizes : OffsetSizes
         Which sizes offsets may have; `covariance` is the mean over them.
     onto_moduli : (2, m) array
-        What offsets of the quantities make of log E' and log E''.
+        What offsets of the quantities make of log E' and log E''; (1, 1) for step tests.
     """
 
     covariance: Array
@@ -75,8 +75,9 @@ class IsothermOffsets:
     onto_moduli: Array = field(default_factory=lambda: np.eye(2))
 
     def __repr__(self) -> str:
-        storage, loss = self.standard_deviations
-        return f"IsothermOffsets({storage:.2g} decades in E', {loss:.2g} in E'')"
+        storage, *loss = self.standard_deviations
+        others = f" in E', {loss[0]:.2g} in E''" if loss else ""
+        return f"IsothermOffsets({storage:.2g} decades{others})"
 
     @property
     def standard_deviations(self) -> Array:
@@ -104,6 +105,8 @@ class IsothermOffsets:
         `errors` (samples, s + m n), in decades, were drawn with the mean covariance: errors of log10 α, then of log10 b
         if fitted (s = 2n), then offsets of the first quantity and those of the second.
         """
+        if not np.any(self.covariance):
+            return errors
         moduli, count = len(self.covariance), self.with_shifts.shape[1]
         turn = TURNS[moduli]
         shifts, offsets = errors[:, :-count], errors[:, -count:]
@@ -136,6 +139,8 @@ def estimated(information: Array, score: Array, prior: Array, moduli: int = 2, *
     """
     free = len(prior)
     size = (len(score) - free) // moduli
+    if moduli == 1 and tied:  # part of the vertical shifts
+        return Offsets(np.zeros((1, 1)), np.zeros(size), OffsetSizes(np.zeros((1, 1)), np.ones(1)))
     turn = np.kron(TURNS[moduli], np.eye(size))
     gain = np.linalg.solve(information[:free, :free] + prior, information[:free, free:]).T
     left = turn @ (information[free:, free:] - gain @ information[:free, free:]) @ turn.T

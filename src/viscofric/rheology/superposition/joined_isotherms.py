@@ -4,39 +4,42 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
+from viscofric.data import Isotherm
 from viscofric.errors import SuperpositionError
 from viscofric.notes import Note
 from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, join, join_at
 from viscofric.rheology.superposition.quantity import BOTH
+from viscofric.step_tests import StepTest
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from viscofric.arrays import Array
-    from viscofric.data import Isotherm
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.superposition.quantity import Quantities
 
 
+#: What was measured at one temperature.
+Tested = TypeVar("Tested", Isotherm, StepTest)
 #: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
 LARGEST_MISFIT = 0.15
 
 
 @dataclass(frozen=True, eq=False)
-class JoinedIsotherms:
+class JoinedIsotherms(Generic[Tested]):
     """Isotherms that overlap, and how they join."""
 
-    isotherms: tuple[Isotherm, ...]  # ascending in temperature
+    isotherms: tuple[Tested, ...]  # ascending in temperature
     logs: list[LogSweep]  # their logarithms, without a given vertical shift
     joins: list[Join]  # of each with the next warmer one
     notes: tuple[str, ...]  # what was left out
 
-    def less(self, log10_b: Array) -> JoinedIsotherms:
+    def less(self, log10_b: Array) -> JoinedIsotherms[Tested]:
         """Return the same with vertical shifts taken off the logarithms."""
         logs = [LogSweep(sweep.frequency, sweep.moduli - one) for sweep, one in zip(self.logs, log10_b, strict=True)]
         return replace(self, logs=logs)
@@ -51,7 +54,7 @@ class JoinedIsotherms:
         return tuple(
             Note(
                 "sweeps-disagree",
-                f"The sweeps at {shown(self.isotherms[place].temperature)} and "
+                f"The isotherms at {shown(self.isotherms[place].temperature)} and "
                 f"{shown(self.isotherms[place + 1].temperature)} disagree by {self.joins[place].misfit:.2g} decades, "
                 f"{how}",
             )
@@ -75,7 +78,7 @@ def ranges(steps: Iterable[tuple[float, float]]) -> str:
     return ", ".join(f"{shown(colder)} to {shown(warmer)}" for colder, warmer in runs)
 
 
-def usable(isotherms: tuple[Isotherm, ...]) -> None:
+def usable(isotherms: Sequence[Isotherm | StepTest]) -> None:
     """Raise SuperpositionError unless there are at least two isotherms of at least two points."""
     if len(isotherms) < 2:
         raise SuperpositionError(
@@ -84,7 +87,7 @@ def usable(isotherms: tuple[Isotherm, ...]) -> None:
     for isotherm in isotherms:
         if len(isotherm) < 2:
             raise SuperpositionError(
-                f"the isotherm at {shown(isotherm.temperature)} has only one usable frequency; two or more are needed.",
+                f"the isotherm at {shown(isotherm.temperature)} has only one usable point; two or more are needed.",
                 code="too-few-frequencies",
             )
     for colder, warmer in pairwise(isotherms):
@@ -96,8 +99,8 @@ def usable(isotherms: tuple[Isotherm, ...]) -> None:
 
 
 def join_isotherms(
-    isotherms: tuple[Isotherm, ...], logs: list[LogSweep], quantities: Quantities = BOTH
-) -> JoinedIsotherms:
+    isotherms: tuple[Tested, ...], logs: list[LogSweep], quantities: Quantities = BOTH
+) -> JoinedIsotherms[Tested]:
     """Join neighbours by their quantities, and leave out single isotherms at the ends that overlap no other.
 
     Raises SuperpositionError if neighbours in the middle do not overlap.
@@ -118,7 +121,7 @@ def join_isotherms(
     return JoinedIsotherms(isotherms[inside], logs[inside], joins[first:last], notes)
 
 
-def as_given(isotherms: tuple[Isotherm, ...], logs: list[LogSweep], shift: ShiftLaw) -> JoinedIsotherms:
+def as_given(isotherms: tuple[Tested, ...], logs: list[LogSweep], shift: ShiftLaw) -> JoinedIsotherms[Tested]:
     """Compare all neighbours at given shift factors; InputError if the shift is invalid at one of the temperatures."""
     values = [shift.log10(isotherm.temperature) for isotherm in isotherms]
     steps = [colder - warmer for colder, warmer in pairwise(values)]
@@ -126,10 +129,10 @@ def as_given(isotherms: tuple[Isotherm, ...], logs: list[LogSweep], shift: Shift
     return JoinedIsotherms(isotherms, logs, joins, ())
 
 
-def _gap(isotherms: tuple[Isotherm, ...], place: int) -> str:
+def _gap(isotherms: Sequence[Isotherm | StepTest], place: int) -> str:
     colder, warmer = isotherms[place], isotherms[place + 1]
     return (
-        f"the sweeps at {shown(colder.temperature)} and {shown(warmer.temperature)} do not overlap "
+        f"the isotherms at {shown(colder.temperature)} and {shown(warmer.temperature)} do not overlap "
         f"(no shift brings their moduli within {LARGEST_MISFIT:g} decades of each other); "
-        "measure in between or over more frequencies."
+        "measure in between, or over more frequencies or times."
     )

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, Mask
     from viscofric.data import Isotherm
+    from viscofric.step_tests import StepKind, StepTest
 
 
 #: Sweeps are slid along each other in steps of this many decades …
@@ -51,6 +52,12 @@ class LogSweep:
     frequency: Array
     moduli: Array
     weights: Array | None = None
+
+    @classmethod
+    def of_step(cls, test: StepTest, kind: StepKind) -> LogSweep:
+        """Take base-10 logarithms of the rate 1/t, and of the relaxation modulus or 1/J(t); in 1/s and Pa."""
+        response = np.log10(test.response)[::-1, None]
+        return cls(-np.log10(test.time)[::-1], -response if kind == "creep" else response)
 
     @classmethod
     def of(cls, isotherm: Isotherm, log10_b: float = 0.0) -> LogSweep:
@@ -196,7 +203,8 @@ class OverlapQuality:
     Parameters
     ----------
     storage, loss : float
-        Root mean square of the difference of log10 E', and of log10 E'', over all neighbours; decades.
+        Root mean square of the difference of log10 E', and of log10 E'', over all neighbours; decades.  Of step tests,
+        which have one curve for each temperature, both are that of log10 J or log10 E.
     points : int
         Number of points compared.
     neighbours : int
@@ -224,7 +232,7 @@ class OverlapQuality:
 
 def overlap_quality(sweeps: list[LogSweep], log10_shifts: Array) -> OverlapQuality:
     """Compare every shifted isotherm with its warmer neighbour; see `OverlapQuality`."""
-    differences = [np.empty((0, 2))]
+    differences = [np.empty((0, sweeps[0].moduli.shape[1]))]
     gaps = []
     for place, (colder, warmer) in enumerate(pairwise(sweeps)):
         frequency = colder.frequency + log10_shifts[place] - log10_shifts[place + 1]
@@ -236,8 +244,8 @@ def overlap_quality(sweeps: list[LogSweep], log10_shifts: Array) -> OverlapQuali
     pairs = len(sweeps) - 1
     if not len(every):
         return OverlapQuality(0.0, 0.0, 0, pairs, tuple(gaps))
-    storage, loss = np.sqrt(np.mean(every**2, axis=0))
-    return OverlapQuality(float(storage), float(loss), len(every), pairs, tuple(gaps))
+    rms = np.sqrt(np.mean(every**2, axis=0))
+    return OverlapQuality(float(rms[0]), float(rms[-1]), len(every), pairs, tuple(gaps))
 
 
 #: Neighbours that miss each other by so many times what shifts of their own leave were not shifted by right factors.

@@ -35,7 +35,7 @@ class Quantities:
     by : {"both", "storage", "loss", "loss-tangent"}
         Their choice.
     seen : (m, 2) array
-        Each as a combination of log E' and log E''.
+        Each as a combination of log E' and log E''; (1, 1) for step tests, which have one quantity.
     weights : (m,) array
         Of their squared residuals; their mean is 1.
     """
@@ -112,7 +112,7 @@ class Quantities:
         """What to say of a choice other than the default, in a sentence."""
         if not self.joint:
             return (Note("shifted-by", f"α was found from {_SEEN[self.by][1]}, as requested."),)
-        if self.weights[0] != self.weights[1]:
+        if self.weights[0] != self.weights[-1]:
             storage, loss = self.weights
             return (
                 Note(
@@ -125,3 +125,5 @@ class Quantities:
 
 #: E' and E'' alike.
 BOTH = Quantities.chosen()
+#: What creep and relaxation tests have: log of a modulus, 1/J(t) or E(t), over the rate 1/t.
+STEP = Quantities("both", np.ones((1, 1)), np.ones(1))

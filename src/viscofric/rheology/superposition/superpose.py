@@ -3,61 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
-from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import ShiftLaw
-from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.shift_law import NOMINAL
-from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift, VerticalShiftFactors
-from viscofric.rheology.superposition.held_shifts import fitted_shifts, given_shifts, held_places
-from viscofric.rheology.superposition.joined_isotherms import (
-    JoinedIsotherms,
-    as_given,
-    join_isotherms,
-    ranges,
-    shown,
-    usable,
-)
-from viscofric.rheology.superposition.overlap import (
-    PAIR_UNCERTAINTY,
-    LogSweep,
-    OverlapQuality,
-    overlap_quality,
-    own_shifts,
-)
-from viscofric.rheology.superposition.quantity import Quantities
+from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
+from viscofric.rheology.superposition.overlap import LogSweep
+from viscofric.rheology.superposition.quantity import STEP, Quantities
 from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
+from viscofric.rheology.superposition.shifted_isotherms import shifted_isotherms
+from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition, flowing
+from viscofric.step_tests import StepMasterCurve, StepTests
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, kelvin_hint, positive, shown_celsius
+from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
-    from viscofric.arrays import Array
-    from viscofric.rheology.superposition.common_shifts import CommonShifts
+    from viscofric.data import Isotherm
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.rheology.superposition.joined_isotherms import JoinedIsotherms
     from viscofric.rheology.superposition.quantity import ShiftBy
+    from viscofric.step_tests import StepKind, StepTest
     from viscofric.units import Quantity
 
 
-#: Weight of the other model, with a free vertical shift or without one, where isotherms drift.
-OTHER_MODEL = 0.5
-#: Steps of log10 α with a larger standard error are not identified by the sweeps …
-UNIDENTIFIED = 0.3  # decades
-#: … nor are those with a larger one than this whose sign is not known …
-SIGN_UNKNOWN = 0.1  # decades
-#: … nor steps of log10 b with a larger one, which is mostly what was assumed of them.
-VERTICAL_UNIDENTIFIED = 0.02  # decades
-
-
-@one_blas_thread
+@overload
 def superpose(
     sweeps: IsothermalSweeps,
     reference: Quantity,
@@ -68,14 +43,39 @@ def superpose(
     fixed: Mapping[Any, float] | None = None,
     by: ShiftBy = "both",
     weights: Sequence[float] | None = None,
-) -> Superposition:
+) -> Superposition: ...
+@overload
+def superpose(
+    sweeps: StepTests,
+    reference: Quantity,
+    poisson_ratio: float = 0.5,
+    *,
+    vertical: Literal["free", "density"] | VerticalShift | None = None,
+    shift: ShiftLaw | None = None,
+    fixed: Mapping[Any, float] | None = None,
+    by: ShiftBy = "both",
+    weights: Sequence[float] | None = None,
+) -> StepSuperposition: ...
+@one_blas_thread
+def superpose(
+    sweeps: IsothermalSweeps | StepTests,
+    reference: Quantity,
+    poisson_ratio: float = 0.5,
+    *,
+    vertical: Literal["free", "density"] | VerticalShift | None = None,
+    shift: ShiftLaw | None = None,
+    fixed: Mapping[Any, float] | None = None,
+    by: ShiftBy = "both",
+    weights: Sequence[float] | None = None,
+) -> Superposition | StepSuperposition:
     """Shift isotherms onto one master curve, by E' and E'' jointly, all at once.
 
-    E(ω, T) = b(T) E(α(T) ω, reference).
+    E(ω, T) = b(T) E(α(T) ω, reference); of creep and relaxation tests J(t, T) = J(t/α(T), reference)/b(T) and
+    E(t, T) = b(T) E(t/α(T), reference).
 
     Parameters
     ----------
-    sweeps : IsothermalSweeps
+    sweeps : IsothermalSweeps or StepTests
         At least two isotherms that overlap.
     reference : float or quantity
         Temperature of the master curve, measured or in between (or at most half a kelvin outside); K, or
@@ -100,7 +100,7 @@ def superpose(
 
     Returns
     -------
-    Superposition
+    Superposition, or StepSuperposition of step tests
 
     Raises
     ------
@@ -141,6 +141,11 @@ def superpose(
     that is left out moves α by more than its errors: what follows ρT, from −30 to 90 °C, by up to 0.13 decades; what it
     costs is the difference to a second superposition, with ``vertical="density"``.
 
+    Of step tests log J(t), or log E(t), is brought onto one curve over log t, by the same fit.  Its points are averaged
+    over twentieths of a decade of time first: instruments record far more of them at long times, with errors that are
+    alike.  One curve for each temperature shows less than E' and E'': offsets of isotherms are found as far as the
+    curve bends, and where it is a power law, they pass for shifts.  With ``vertical="free"`` they are part of b.
+
     Given or fixed factors that join the isotherms clearly worse than shifts of their own would are mentioned in a note.
 
     Values given with `shift` carry no uncertainty here, unless they are `ShiftFactors` with a covariance.  Where the
@@ -157,7 +162,7 @@ def superpose(
     >>> f"{fit.shift_factors.log10('60 degC'):.1f} ± {fit.shift_factors.standard_error('60 degC'):.2f}"
     '-2.1 ± 0.02'
     """
-    if not isinstance(sweeps, IsothermalSweeps):
+    if not isinstance(sweeps, (IsothermalSweeps, StepTests)):
         raise InputError(
             f"sweeps must be IsothermalSweeps, not {type(sweeps).__name__}; read them with read_dma(…), as in "
             "superpose(read_dma('sweeps.csv'), '20 degC').",
@@ -171,92 +176,48 @@ def superpose(
         raise InputError(
             "shift and fixed: give one of them; with shift no factor is left to be fitted.", code="give-one"
         )
-    tensile = sweeps.in_tension(ratio)
-    usable(tensile.isotherms)
-    quantities = Quantities.chosen(by, weights)
     known = _known_vertical(vertical, kelvin)
-    quantities.insist_on_use(vertical, shift)
-    logs = [
-        LogSweep.of(isotherm, 0.0 if known is None else known.log10(isotherm.temperature))
-        for isotherm in tensile.isotherms
-    ]
-    if shift is None:
-        joined = join_isotherms(tensile.isotherms, logs, quantities)
-    else:
-        joined = as_given(tensile.isotherms, logs, shift.at_reference(kelvin))
-    temperatures = np.array([isotherm.temperature for isotherm in joined.isotherms])
-    if not temperatures[0] - NOMINAL <= kelvin <= temperatures[-1] + NOMINAL:
-        raise InputError(
-            f"reference = {shown_celsius(kelvin)} °C lies outside the joined isotherms, "
-            f"{shown(temperatures[0])} to {shown(temperatures[-1])}{kelvin_hint(kelvin)}. "
-            f"{' '.join(joined.notes)}".rstrip(),
-            code="reference-outside",
+    if isinstance(sweeps, StepTests):
+        if by != "both" or weights is not None:
+            raise InputError(
+                "by and weights choose between E' and E''; step tests have one curve for each temperature.",
+                field="by",
+                code="useless-weights",
+            )
+        tests = sweeps.in_tension(ratio).thinned(PER_DECADE)
+        logs = [LogSweep.of_step(one, tests.kind) for one in tests.tests]
+        steps = shifted_isotherms(tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP)
+        curve = _step_master_curve(steps.joined, steps.factors, tests.kind)
+        remarks = flowing(steps.joined.isotherms) if tests.kind == "creep" else []
+        notes = (*tests.notes, *steps.notes, *remarks)
+        return StepSuperposition(
+            steps.factors,
+            curve,
+            steps.quality,
+            notes,
+            steps.joined.isotherms,
+            steps.vertical,
+            steps.cross,
+            steps.offsets,
+            steps.unidentified,
         )
-    free = vertical == "free"
-    if shift is None:
-        held = held_places(fixed or {}, temperatures, kelvin)
-        found = fitted_shifts(joined, kelvin, held, free, quantities)
-        log10_b = found.vertical if known is None else np.asarray(known.log10(temperatures))
-        if by != "loss-tangent" and drift(neighbour_distances(joined.isotherms, log10_b)) is not None:
-            found = _between_models(found, fitted_shifts(joined, kelvin, held, not free, quantities), free)
-    else:
-        found = given_shifts(joined, kelvin, shift.at_reference(kelvin), free)
-    factors = ShiftFactors(temperatures, found.values, kelvin, found.covariance)
-    unidentified: tuple[tuple[float, float], ...] = ()
-    notes = [*tensile.notes, *quantities.notes, *joined.notes, *joined.disagreements(given=shift is not None)]
-    if shift is None:
-        notes += _joined_by_pairs(temperatures, found.parted)
-        places = _unidentified(found.values, found.covariance)
-        unidentified = _steps(temperatures, places)
-        notes += _unidentified_steps(unidentified, max(_errors_of_steps(found.covariance)[places], default=0.0))
-    if free:
-        known = VerticalShiftFactors(temperatures, found.vertical, kelvin, found.vertical_covariance)
-        joined = joined.less(known.log10_values)
-        notes += _unidentified_vertical(temperatures, found.vertical_covariance)
-    if shift is not None or fixed:
-        notes += _badly_given(joined.logs, factors.log10_values)
-    quality = overlap_quality(joined.logs, factors.log10_values)
-    notes += _without_overlap(temperatures, quality)
+    tensile = sweeps.in_tension(ratio)
+    quantities = Quantities.chosen(by, weights)
+    quantities.insist_on_use(vertical, shift)
+    logs = [LogSweep.of(isotherm) for isotherm in tensile.isotherms]
+    found = shifted_isotherms(tensile.isotherms, logs, kelvin, known, vertical == "free", shift, fixed, quantities)
     return Superposition(
-        factors,
-        _master_curve(joined, factors),
-        quality,
-        tuple(notes),
-        joined.isotherms,
-        known,
-        found.cross_covariance if free else None,
+        found.factors,
+        _master_curve(found.joined, found.factors),
+        found.quality,
+        (*tensile.notes, *quantities.notes, *found.notes),
+        found.joined.isotherms,
+        found.vertical,
+        found.cross,
         found.offsets,
-        unidentified,
+        found.unidentified,
         quantities.by,
         None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1])),
-    )
-
-
-def _between_models(found: CommonShifts, other: CommonShifts, free: bool) -> CommonShifts:
-    """Add to the errors what the other model would change: a free vertical shift, or none if `free`.
-
-    Isotherms that drift contradict the model that was asked for; each of the two models is given half of the weight, so
-    that about one the other is off by their difference with a variance of half its square (S. T. Buckland et al.,
-    Biometrics 53 (1997) 603).  Differences count step by step, as far as they exceed what is not known of the free one.
-    """
-    loose = found if free else other
-    nearest = int(np.argmin(np.abs(found.values) + np.diag(found.covariance)))
-
-    def away(difference: Array, covariance: Array) -> Array:
-        steps = np.diff(difference)
-        steps = np.sign(steps) * np.sqrt(np.maximum(steps**2 - _errors_of_steps(covariance) ** 2, 0.0))
-        total = np.concatenate([[0.0], np.cumsum(steps)])
-        return np.asarray(total - total[nearest])
-
-    horizontal = away(other.values - found.values, loose.covariance)
-    changed = replace(found, covariance=found.covariance + OTHER_MODEL * np.outer(horizontal, horizontal))
-    if not free:
-        return changed
-    vertical = away(other.vertical - found.vertical, loose.vertical_covariance)
-    return replace(
-        changed,
-        vertical_covariance=found.vertical_covariance + OTHER_MODEL * np.outer(vertical, vertical),
-        cross_covariance=found.cross_covariance + OTHER_MODEL * np.outer(horizontal, vertical),
     )
 
 
@@ -273,81 +234,7 @@ def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None,
     return None
 
 
-def _badly_given(logs: list[LogSweep], log10_shifts: Array) -> list[str]:
-    """Say in a sentence that the shift factors that were given join the isotherms badly on the whole."""
-    found = own_shifts(logs, log10_shifts)
-    text = f"The given shift factors do not join the isotherms: {found.clause}."
-    return [Note("given-factors-wrong", text)] if found.wrong else []
-
-
-def _joined_by_pairs(temperatures: Array, places: tuple[int, ...]) -> list[str]:
-    """Name the temperatures where a common curve moved neighbours past each other, in one sentence."""
-    if not places:
-        return []
-    sentence = (
-        f"The sweeps from {ranges(_steps(temperatures, places))} were joined pair by pair: one common curve would "
-        "move them past each other although their storage moduli overlap, because E' and E'' do not agree on the "
-        f"shift; each step there is uncertain by {PAIR_UNCERTAINTY:g} decades or more. Look for loss moduli that "
-        "the instrument itself makes, as a resonance does at its highest frequencies."
-    )
-    return [Note("joined-by-pairs", sentence)]
-
-
-def _without_overlap(temperatures: Array, quality: OverlapQuality) -> list[str]:
-    """Name the neighbours that do not overlap once shifted, in one sentence."""
-    if not quality.gaps:
-        return []
-    sentence = (
-        f"{quality.without_overlap} of {quality.neighbours} pairs of neighbouring sweeps do not overlap once shifted, "
-        f"from {ranges(_steps(temperatures, quality.gaps))}: nothing measured tests the shift there."
-    )
-    return [Note("no-overlap", sentence)]
-
-
-def _unidentified(values: Array, covariance: Array) -> list[int]:
-    """Return the places of steps of log10 α that the sweeps do not fix."""
-    errors = _errors_of_steps(covariance)
-    either_sign = (errors > SIGN_UNKNOWN) & (np.abs(np.diff(values)) < 2.0 * errors)
-    return [int(place) for place in np.flatnonzero((errors > UNIDENTIFIED) | either_sign)]
-
-
-def _unidentified_steps(steps: tuple[tuple[float, float], ...], error: float) -> list[str]:
-    """Name the temperatures between which the sweeps do not fix α, in one sentence."""
-    if not steps:
-        return []
-    sentence = (
-        f"α is not identified from {ranges(steps)}: the sweeps there join about as well over a wide range of shifts, "
-        "as where moduli change too little with frequency for their scatter (standard error of a step up to "
-        f"{error:.1g} decades)."
-    )
-    return [Note("alpha-not-identified", sentence)]
-
-
-def _unidentified_vertical(temperatures: Array, covariance: Array) -> list[str]:
-    """Name the temperatures between which the sweeps do not fix b, in one sentence."""
-    errors = _errors_of_steps(covariance)
-    places = np.flatnonzero(errors > VERTICAL_UNIDENTIFIED)
-    if not places.size:
-        return []
-    sentence = (
-        f"b is not identified from {ranges(_steps(temperatures, places))}: there the sweeps do not separate it from α "
-        f"(standard error of a step up to {100.0 * (10.0 ** errors[places].max() - 1.0):.0f} %)."
-    )
-    return [Note("vertical-not-identified", sentence)]
-
-
-def _steps(temperatures: Array, places: Iterable[int]) -> tuple[tuple[float, float], ...]:
-    """Return the two temperatures of each step."""
-    return tuple((float(temperatures[place]), float(temperatures[place + 1])) for place in places)
-
-
-def _errors_of_steps(covariance: Array) -> Array:
-    """Return the standard errors of differences between neighbours."""
-    variance = np.diag(covariance)
-    return np.sqrt(np.maximum(variance[1:] + variance[:-1] - 2.0 * np.diag(covariance, 1), 0.0))
-
-
-def _master_curve(joined: JoinedIsotherms, shift_factors: ShiftFactors) -> MasterCurve:
+def _master_curve(joined: JoinedIsotherms[Isotherm], shift_factors: ShiftFactors) -> MasterCurve:
     """Collect all points, moved along both axes."""
     shifts = zip(joined.logs, shift_factors.log10_values, strict=True)
     frequency = np.concatenate([sweep.frequency + shift for sweep, shift in shifts])
@@ -357,3 +244,16 @@ def _master_curve(joined: JoinedIsotherms, shift_factors: ShiftFactors) -> Maste
     return MasterCurve(
         10.0 ** frequency[order], moduli[:, 0], moduli[:, 1], temperature[order], shift_factors.reference
     )
+
+
+def _step_master_curve(
+    joined: JoinedIsotherms[StepTest], shift_factors: ShiftFactors, kind: StepKind
+) -> StepMasterCurve:
+    """Collect all points, moved along both axes."""
+    shifts = zip(joined.logs, shift_factors.log10_values, strict=True)
+    rate = np.concatenate([one.frequency + shift for one, shift in shifts])
+    order = np.argsort(-rate, kind="stable")
+    modulus = np.concatenate([one.moduli[:, 0] for one in joined.logs])[order]
+    temperature = np.repeat([i.temperature for i in joined.isotherms], [len(i) for i in joined.isotherms])
+    response = 10.0 ** (-modulus if kind == "creep" else modulus)
+    return StepMasterCurve(10.0 ** -rate[order], response, temperature[order], shift_factors.reference, kind)

@@ -1,0 +1,243 @@
+"""The result of a superposition of creep or relaxation tests, and whether superposition holds."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.datasets import dataset
+from viscofric.notes import Note
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
+from viscofric.rheology.superposition.consistency import LARGEST_FIGURE, ONE_PAIR, REPRODUCIBILITY, ROUGH_FIGURE
+from viscofric.rheology.superposition.joined_isotherms import ranges, shown
+from viscofric.rheology.superposition.overlap import LogSweep, join, own_shifts
+from viscofric.threads import one_blas_thread
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray
+
+    from viscofric.arrays import Array
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.rheology.superposition.consistency import Verdict
+    from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
+    from viscofric.rheology.superposition.overlap import OverlapQuality
+    from viscofric.step_tests import StepMasterCurve, StepTest
+
+
+#: Points of a test are averaged over so many equal parts of each decade of time.
+PER_DECADE = 20
+#: J grows in proportion to time in flow; over the last half decade of a test as this power at least …
+FLOW = 0.9
+HALF_DECADE = 0.5
+#: … by a straight line through so many points or more.
+LEAST_POINTS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class StepCheck:
+    """Whether creep or relaxation tests are one material at shifted times.
+
+    Parameters
+    ----------
+    distances : (n − 1,) array
+        How far neighbouring tests miss each other where they overlap best, each pair with a shift of its own, beyond
+        the noise of their points: rms of log10 of the response, decades.
+    figure_of_merit : float
+        Root mean square over neighbours of their distance over what noise (95 %) and the reproducibility of such
+        measurements (0.02 decades, 5 %) explain together; or a third of the largest of these ratios, if that is more.
+        Superposition holds up to 1.
+    overlap_misfit : float
+        The rms misfit of the shifted tests where they overlap, decades.
+    verdict : str
+        ``"holds"``; ``"other factors"``: it does, but the shift factors do not join the tests; ``"not identified"``:
+        the tests do not fix every step of α; ``"roughly"`` or ``"fails"``: they lie farther apart.
+    sentences : tuple of str
+        The verdict in plain words; the first is a `Note` whose code is ``"superposition-"`` and the verdict.
+
+    Notes
+    -----
+    Sweeps are compared in tan δ against abs(E), which no shift changes.  A step test has one curve; a pair is compared
+    at the shift that suits it best, so that only a difference in shape shows.
+    """
+
+    distances: Array
+    figure_of_merit: float
+    overlap_misfit: float
+    verdict: Verdict
+    sentences: tuple[str, ...]
+    temperatures: Array
+
+    def __repr__(self) -> str:
+        return f"StepCheck({self.verdict}, figure of merit {self.figure_of_merit:.2g})"
+
+    @property
+    def roughly(self) -> bool:
+        """Whether superposition holds only roughly: the figure of merit is above 1, and not above 2."""
+        return self.verdict == "roughly"
+
+    @property
+    def holds(self) -> bool:
+        """Whether superposition holds within noise and the reproducibility of measurements."""
+        return self.verdict in ("holds", "other factors")
+
+    @property
+    def consistent(self) -> bool:
+        """True: one curve has no second one to contradict it."""
+        return True
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the temperatures (K) of the tests as a labelled data set, with the verdict as attributes."""
+        return dataset(
+            "isotherm",
+            {"temperature": (self.temperatures, "K", "temperature")},
+            attributes={
+                "verdict": self.verdict,
+                "holds": int(self.holds),
+                "roughly": int(self.roughly),
+                "figure_of_merit": self.figure_of_merit,
+                "sentences": json.dumps(list(self.sentences), ensure_ascii=False),
+                "consistent": 1,
+                "causality": "Step tests have one curve for each temperature; there is no second one to test it by.",
+            },
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class StepSuperposition:
+    """The result of `superpose` of creep or relaxation tests.
+
+    Parameters
+    ----------
+    shift_factors : ShiftFactors
+        α at the temperatures that were joined, with standard errors.
+    master_curve : StepMasterCurve
+        Tensile, at the reference, free of vertical shift: b(T) J(t, T) or E(t, T)/b(T) against t/α(T).
+    quality : OverlapQuality
+        How well neighbours overlap: `joint` is the rms of log10 of the response.
+    notes : tuple of str
+        What the reader noted, and what was converted, left out or not identified here: one sentence each.
+    isotherms : tuple of StepTest
+        Those that were joined, tensile, averaged over twentieths of a decade of time, in ascending temperature: one for
+        each entry of `shift_factors.temperatures`.
+    vertical_shift : VerticalShift or None
+        b(T), where one was requested.
+    cross_covariance : (n, n) array or None
+        Of log10 α (rows) with log10 b (columns), where b was fitted.
+    offsets : IsothermOffsets or None
+        How far whole tests are off, found from their overlaps where shifts were fitted.
+    unidentified : tuple of (float, float)
+        Colder and warmer temperature (K) of the steps of α that the tests do not fix.
+    """
+
+    shift_factors: ShiftFactors
+    master_curve: StepMasterCurve
+    quality: OverlapQuality
+    notes: tuple[str, ...] = ()
+    isotherms: tuple[StepTest, ...] = ()
+    vertical_shift: VerticalShift | None = None
+    cross_covariance: Array | None = None
+    offsets: IsothermOffsets | None = None
+    unidentified: tuple[tuple[float, float], ...] = ()
+
+    def __repr__(self) -> str:
+        shifts = self.shift_factors
+        return (
+            f"StepSuperposition({len(shifts.temperatures)} {self.master_curve.kind} tests, "
+            f"{shown(float(shifts.temperatures[0]))} to {shown(float(shifts.temperatures[-1]))}, reference "
+            f"{shown(shifts.reference)}, overlap misfit {self.quality.joint:.4f} decades)"
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return shift factors, vertical shift and overlap of the tests as a labelled data set.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_shift_factor`` and ``standard_error`` along ``temperature`` (K), and ``log10_vertical_shift`` and
+            ``vertical_standard_error`` where there is a vertical shift; the rms misfit of the overlaps (decades) among
+            the attributes.
+        """
+        found = self.shift_factors.to_dataset()
+        quality = self.quality
+        found.attrs |= {
+            "isotherms_used": len(self.shift_factors.temperatures),
+            "kind": self.master_curve.kind,
+            "overlap_rms_log10": quality.joint,
+            "neighbours": quality.neighbours,
+            "neighbours_without_overlap": quality.without_overlap,
+        }
+        if self.vertical_shift is None:
+            return found
+        vertical = self.vertical_shift.to_dataset(self.shift_factors.temperatures)
+        return found.assign(vertical.data_vars).assign_attrs(vertical_shift=vertical.attrs["vertical_shift"])
+
+    @cached_property
+    @one_blas_thread
+    def check(self) -> StepCheck:
+        """Whether superposition holds, evaluated at first use."""
+        factors, vertical = self.shift_factors, self.vertical_shift
+        temperatures = factors.temperatures
+        levels = np.zeros(len(temperatures)) if vertical is None else np.asarray(vertical.log10(temperatures))
+        logs = [LogSweep.of_step(one, self.master_curve.kind) for one in self.isotherms]
+        logs = [LogSweep(one.frequency, one.moduli - by) for one, by in zip(logs, levels, strict=True)]
+        noise = np.array([_noise(one.moduli[:, 0]) for one in logs])
+        both = np.hypot(noise[1:], noise[:-1])
+        misfits = np.array([join(colder, warmer).misfit for colder, warmer in pairwise(logs)])
+        distances = np.sqrt(np.maximum(misfits**2 - both**2, 0.0))
+        ratio = distances / np.hypot(REPRODUCIBILITY, LEVEL_95 * both / np.sqrt(LEAST_POINTS))
+        figure = max(float(np.sqrt(np.mean(ratio**2))), float(np.max(ratio)) / ONE_PAIR)
+        own = own_shifts(logs, factors.log10_values)
+        verdict: Verdict = "other factors" if own.wrong else "holds"
+        if figure > LARGEST_FIGURE:
+            verdict = "fails" if figure > ROUGH_FIGURE else "roughly"
+        elif self.unidentified:
+            verdict = "not identified"
+        apart = (
+            f"neighbouring tests, each pair with its own shift, miss each other by "
+            f"{float(np.sqrt(np.mean(distances**2))):.2g} decades (rms) beyond their noise (figure of merit "
+            f"{figure:.2g}, good if ≤ {LARGEST_FIGURE:g})"
+        )
+        said = {
+            "holds": f"Superposition holds: {apart}.",
+            "other factors": f"Superposition holds, but not with these shift factors: {own.clause}; {apart}.",
+            "not identified": f"Superposition is tested only in part: α is not identified from "
+            f"{ranges(self.unidentified)}; elsewhere {apart}.",
+            "roughly": f"Superposition holds only roughly: {apart}.",
+            "fails": f"Superposition does not hold: {apart}.",
+        }[verdict]
+        note = Note(f"superposition-{verdict.replace(' ', '-')}", said)
+        return StepCheck(distances, figure, self.quality.joint, verdict, (note,), temperatures)
+
+
+def _noise(values: Array) -> float:
+    """Return the standard deviation of points about a smooth curve, from their second differences."""
+    return float(np.sqrt(np.mean(np.diff(values, 2) ** 2) / 6.0)) if len(values) > LEAST_POINTS else 0.0
+
+
+def flowing(tests: Sequence[StepTest]) -> list[str]:
+    """Name the temperatures where creep tests end in flow, in one sentence."""
+    powers = {one.temperature: _last_power(one) for one in tests}
+    found = {kelvin: power for kelvin, power in powers.items() if power > FLOW}
+    if not found:
+        return []
+    warmest = max(found)
+    where = ", ".join(shown(kelvin) for kelvin in found)
+    said = f"The sample flows at {where}: at the longest times J grows as t^{found[warmest]:.2f} ({shown(warmest)})"
+    return [Note("flow", f"{said}. A liquid has no E0; contacts need a material with one.")]
+
+
+def _last_power(test: StepTest) -> float:
+    """Return d log J/d log t over the last half decade; 0 where too few points show it."""
+    time = np.log10(test.time)
+    last = time >= time[-1] - HALF_DECADE
+    if np.count_nonzero(last) < LEAST_POINTS:
+        return 0.0
+    return float(np.polyfit(time[last], np.log10(test.response[last]), 1)[0])

@@ -1,0 +1,278 @@
+"""Creep and relaxation tests as readers return them: responses over time after a step, in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from viscofric.arguments import insist_on, sentences, text
+from viscofric.data import Deformation, read_only
+from viscofric.datasets import dataset
+from viscofric.errors import InputError, check_choice
+from viscofric.units import checked_poisson_ratio, positive
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.arrays import Array
+
+#: What was held: the stress (creep) or the strain (relaxation).
+StepKind: TypeAlias = Literal["creep", "relaxation"]
+#: Name, unit and long name of the response in data sets.
+_RESPONSE = {
+    "creep": ("creep_compliance", "1/Pa", "creep compliance"),
+    "relaxation": ("relaxation_modulus", "Pa", "relaxation modulus"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class StepTest:
+    """The response to one step of stress (creep) or of strain (relaxation) at one temperature.
+
+    Parameters
+    ----------
+    temperature : float
+        Mean measured temperature, K.
+    time : (n,) array
+        Since the step, ascending, without repeats, above zero, s.
+    response : (n,) array
+        Creep compliance J(t), 1/Pa, or relaxation modulus, Pa; positive, tensile or shear
+        (`StepTests.kind`, `StepTests.deformation`).
+
+    Raises
+    ------
+    InputError
+        If the arrays differ in length, or a value is not above zero and finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> warm = vf.StepTest(298.15, np.array([0.1, 1.0, 10.0]), np.array([1.0e-7, 1.5e-7, 2.2e-7]))
+    """
+
+    temperature: float
+    time: Array
+    response: Array
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of a step test"))
+        times = np.atleast_1d(read_only(self.time, "time of a step test"))
+        for name in ("time", "response"):
+            column = np.atleast_1d(read_only(getattr(self, name), f"{name} of a step test"))
+            if column.shape != times.shape or column.ndim != 1 or not np.all((column > 0) & np.isfinite(column)):
+                raise InputError(
+                    f"{name} of a step test must be one row of positive numbers, one per time.", code="wrong-column"
+                )
+            column.flags.writeable = False
+            object.__setattr__(self, name, column)
+        if np.any(np.diff(self.time) <= 0):
+            raise InputError("the times of a step test must ascend without repeats.", code="not-ascending")
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def thinned(self, per_decade: int) -> StepTest:
+        """Return the test with the points in each of so many equal parts of a decade of time averaged.
+
+        Times and responses are averaged geometrically.  Instruments record at equal intervals, which puts nine tenths
+        of the points into the last decade, with errors that are alike from one to the next.
+        """
+        part = np.floor(np.log10(self.time) * per_decade + 1e-9).astype(np.int64)
+        number = np.unique(part, return_inverse=True)[1]
+        count = np.bincount(number)
+        columns = (np.exp(np.bincount(number, weights=np.log(one)) / count) for one in (self.time, self.response))
+        return StepTest(self.temperature, *columns)
+
+
+@dataclass(frozen=True, eq=False)
+class StepTests:
+    """Creep tests, or relaxation tests, of one material at several temperatures.
+
+    Parameters
+    ----------
+    tests : tuple of StepTest
+        In ascending temperature.
+    kind : {"creep", "relaxation"}
+        Whether the responses are compliances after a step of stress, or moduli after a step of strain.
+    deformation : {"tension", "shear"}
+        Of the sample.
+    source : str
+        Origin, such as a file's name.
+    notes : tuple of str
+        What the reader found doubtful, left out, sorted or averaged: one sentence each.
+    format : str
+        The recognised format in words; empty for tests from no file.
+
+    Raises
+    ------
+    InputError
+        If a value is not of these.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> warm = vf.StepTest(298.15, np.array([0.1, 1.0, 10.0]), np.array([3.0e-7, 4.5e-7, 6.0e-7]))
+    >>> creep = vf.StepTests((warm,), kind="creep", deformation="shear")
+    >>> creep.in_tension(0.5).tests[0].response  # D = J/(2(1+ν))
+    array([1.0e-07, 1.5e-07, 2.0e-07])
+    """
+
+    tests: tuple[StepTest, ...]
+    kind: StepKind
+    deformation: Deformation = "tension"
+    source: str = ""
+    notes: tuple[str, ...] = ()
+    format: str = ""
+
+    def __post_init__(self) -> None:
+        check_choice(self.kind, "kind", "creep", "relaxation")
+        check_choice(self.deformation, "deformation", "tension", "shear")
+        insist_on(self.tests, "tests", tuple, list, right="a tuple of StepTest")
+        for one in self.tests:
+            insist_on(one, "one of the tests", StepTest)
+        for name in ("source", "format"):
+            text(getattr(self, name), f"{name} of the step tests")
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of the step tests"))
+        object.__setattr__(self, "tests", tuple(sorted(self.tests, key=lambda one: one.temperature)))
+
+    def __len__(self) -> int:
+        return len(self.tests)
+
+    @property
+    def temperatures(self) -> Array:
+        """Temperatures of the tests, K, ascending."""
+        return np.array([one.temperature for one in self.tests])
+
+    def in_tension(self, poisson_ratio: float) -> StepTests:
+        """Return the tests in tension: E = 2(1+ν)G, D = J/(2(1+ν)) if they were measured in shear.
+
+        ν is taken as constant.
+        """
+        if self.deformation == "tension":
+            return self
+        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
+        factor = 1.0 / factor if self.kind == "creep" else factor
+        tests = tuple(replace(one, response=factor * one.response) for one in self.tests)
+        note = f"Shear responses converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
+        return replace(self, tests=tests, deformation="tension", notes=(*self.notes, note))
+
+    def thinned(self, per_decade: int) -> StepTests:
+        """Return the tests with the points in each of so many equal parts of a decade averaged; see `StepTest`."""
+        return replace(self, tests=tuple(one.thinned(per_decade) for one in self.tests))
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points along the dimension ``reading``, test by test.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``temperature`` (K), ``time`` (s) and ``creep_compliance`` (1/Pa) or ``relaxation_modulus`` (Pa); the
+            attributes are ``kind``, ``deformation``, ``source`` and ``format``.
+        """
+        return dataset(
+            "reading",
+            step_columns(
+                self.kind,
+                np.repeat(self.temperatures, [len(one) for one in self.tests]),
+                np.concatenate([np.empty(0), *(one.time for one in self.tests)]),
+                np.concatenate([np.empty(0), *(one.response for one in self.tests)]),
+            ),
+            attributes={
+                "kind": self.kind,
+                "deformation": self.deformation,
+                "source": self.source,
+                "format": self.format,
+            },
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class StepMasterCurve:
+    """Tensile creep compliance or relaxation modulus over reduced time, at one reference temperature.
+
+    Parameters
+    ----------
+    time : (n,) array
+        Reduced, t/α(T), ascending, s.
+    response : (n,) array
+        Creep compliance, 1/Pa, or relaxation modulus, Pa.
+    temperature : (n,) array
+        Of the test that each point comes from, K.
+    reference : float
+        K.
+    kind : {"creep", "relaxation"}
+        Which of the two.
+
+    Raises
+    ------
+    InputError
+        If the arrays differ in length, a value is not above zero and finite, or the times do not ascend.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> curve = vf.StepMasterCurve(np.array([0.1, 10.0]), np.array([1e-7, 4e-7]), np.full(2, 303.15), 303.15, "creep")
+    """
+
+    time: Array
+    response: Array
+    temperature: Array
+    reference: float
+    kind: StepKind
+
+    def __post_init__(self) -> None:
+        check_choice(self.kind, "kind", "creep", "relaxation")
+        shape = np.shape(self.time)
+        for name in ("time", "response", "temperature"):
+            column = read_only(getattr(self, name), f"{name} of a master curve")
+            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
+                raise InputError(
+                    f"{name} of a master curve must be one row of positive numbers, one per point.",
+                    code="wrong-column",
+                )
+            object.__setattr__(self, name, column)
+        object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
+        if np.any(np.diff(self.time) < 0):
+            raise InputError("the times of a master curve must ascend.", code="not-ascending")
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def modulus(self) -> Array:
+        """The relaxation modulus, or 1/J(t) of creep; Pa."""
+        return np.asarray(1.0 / self.response if self.kind == "creep" else self.response)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points along the dimension ``reading``.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``temperature`` (K), ``time`` (s) and ``creep_compliance`` (1/Pa) or ``relaxation_modulus`` (Pa); the
+            attributes ``kind`` and ``reference_temperature`` (K).
+        """
+        return dataset(
+            "reading",
+            step_columns(self.kind, self.temperature, self.time, self.response),
+            attributes={"kind": self.kind, "reference_temperature": self.reference},
+        )
+
+
+def step_columns(
+    kind: StepKind, temperature: Array, time: Array, response: Array, *, fitted: bool = False
+) -> dict[str, tuple[Array, str, str] | None]:
+    """Return columns of a data set of step responses; of a `fitted` spectrum only the response."""
+    name, unit, long_name = _RESPONSE[kind]
+    if fitted:
+        return {f"fitted_{name}": (response, unit, f"{long_name} of the fitted spectrum")}
+    return {
+        "temperature": (temperature, "K", "temperature"),
+        "time": (time, "s", "time after the step"),
+        name: (response, unit, long_name),
+    }
