@@ -36,6 +36,7 @@ ROOMS = {
         "notes",
         "files",
         "data",
+        "step_tests",
         "traction",
         "nominal",
         "thermal",
