@@ -28,8 +28,8 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         lambda: solve(load="1 MN", speed=0.0),
         "beyond-indenter",
         (
-            "under 1e+06 N the contact would be 367 mm wide, wider than the ball (20 mm): the material is too soft for "
-            "this; press less."
+            "under 1e+06 N the contact would be 367 mm wide, wider than the ball (20 mm): the material is too soft; "
+            "reduce the load."
         ),
     ),
     (
@@ -37,7 +37,7 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         "beyond-indenter",
         (
             "under 1 N the contact reaches the edge of the height map; give a map of a larger piece of the surface, or "
-            "press less."
+            "reduce the load."
         ),
     ),
     (
@@ -65,7 +65,7 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         lambda: solve(vf.FlatPunch("1 mm")),
         "sharp-edge",
         (
-            "indenter: a punch has a sharp edge, whose friction in motion is decided by how round it really is, at any "
+            "indenter: a punch has a sharp edge; in motion its friction depends on the actual edge radius, at any "
             "speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the solid is "
             "elastic."
         ),
@@ -88,7 +88,7 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         "",
         (
             "tolerance = 0.001: must be a number from 1e-13 to 0.001 times the accuracy, which is 1e-06 for accuracy = "
-            "0.001, so that it does not spoil the friction."
+            "0.001."
         ),
     ),
     (

@@ -58,8 +58,8 @@ SAID: list[tuple[Callable[[], object], Reader, str]] = [
         lambda: vf.shift_friction(synthetic_curves(30.0, 60.0)),
         "python",
         (
-            "friction curves at 30.0 and 60.0 °C do not overlap: no shift brings 2 or more points of one over "
-            "another (friction coefficients: 0.00491 to 0.00781, 0.0159 to 0.0252); measure at temperatures in "
+            "friction curves at 30.0 and 60.0 °C do not overlap: no shift makes 2 or more of their points "
+            "coincide (friction coefficients: 0.00491 to 0.00781, 0.0159 to 0.0252); measure at temperatures in "
             "between, or at more speeds."
         ),
     ),

@@ -65,7 +65,7 @@ SAID = [
         "polynomial-without-range",
         (
             "a polynomial law is valid only between the temperatures that it was fitted on: it needs their range "
-            "(fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to go beyond."
+            "(fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to extrapolate."
         ),
     ),
     (
@@ -81,7 +81,7 @@ SAID = [
         "outside-measured",
         (
             "temperature = 130.0 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
-            "Arrhenius) to go beyond."
+            "Arrhenius) to extrapolate."
         ),
     ),
     (
@@ -89,7 +89,7 @@ SAID = [
         "outside-measured",
         (
             "temperature = −213.1 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
-            "Arrhenius) to go beyond; plain numbers are kelvin: for 60 °C write '60 degC'."
+            "Arrhenius) to extrapolate; plain numbers are kelvin: for 60 °C write '60 degC'."
         ),
     ),
     (
@@ -128,8 +128,8 @@ SAID = [
         lambda: vf.VerticalShiftFactors(["0 degC", "60 degC"], [0.0, 0.04], "0 degC")("61 degC"),
         "outside-measured",
         (
-            "temperature = 61.0 °C lies outside 0.0 to 60.0 °C, where the vertical shift was measured; the "
-            "density's, ρT/(ρ0 T0), goes beyond."
+            "temperature = 61.0 °C lies outside 0.0 to 60.0 °C, where the vertical shift was measured; a "
+            "density shift, ρT/(ρ0 T0), is valid beyond."
         ),
     ),
     (
@@ -217,7 +217,7 @@ SAID = [
         lambda: vf.write_card(vf.Material(TABLE), "card", "abaqus"),
         "no-modes",
         (
-            "Abaqus holds a Prony series, and this material is a table of moduli without one; fit a spectrum "
+            "Abaqus cards contain a Prony series, but this material is a table of moduli; fit a spectrum "
             'first, or write format="csv" or "json".'
         ),
     ),

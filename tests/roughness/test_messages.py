@@ -51,7 +51,7 @@ SENTENCES = [
     (
         lambda: vf.PowerSpectrum([1e3, 1e4], [1.0, 1.0]).limited(longest=1e-6),
         "no-wave",
-        "the power spectrum reaches from wavelength 0.0006283 to 0.006283 m; nothing of it lies between the cut-offs.",
+        "the power spectrum reaches from wavelength 0.0006283 to 0.006283 m; no part of it lies between the cut-offs.",
     ),
 ]
 

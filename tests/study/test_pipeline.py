@@ -145,7 +145,7 @@ def test_results_are_labelled_with_units_and_provenance(results: StudyResults) -
             assert variable.attrs["long_name"]
             if variable.dtype.kind in "OU":  # names of laws, and their constants
                 assert all(variable.values.astype(str))
-            elif variable.attrs["long_name"] == "what is judged":
+            elif variable.attrs["long_name"] == "value compared with the limit":
                 # How thick the rubber is was not said, so that its half-space cannot be judged.
                 judged = group["holds"].values >= 0
                 np.testing.assert_array_equal(np.isfinite(variable.values), judged)

@@ -82,14 +82,14 @@ def _check_results(folder: Path, as_json: bool) -> None:
     else:
         files = found.cases + found.finished
         click.echo(f"contacts   {found.cases} stored")
-        click.echo(f"results    {'results.nc' if found.finished else 'not put together yet'}")
+        click.echo(f"results    {'results.nc' if found.finished else 'not written yet'}")
         click.echo(f"checksums  {files - len(found.damaged) - len(found.unverified)} of {files} files match")
         for path, reason in found.damaged.items():
             click.echo(f"Damaged: {path}: {reason}", err=True)
         if found.unverified:
             click.echo(
-                f"Note: {len(found.unverified)} files have no checksum, as an older viscofric wrote them; they are "
-                "not verified.",
+                f"Note: {len(found.unverified)} files have no checksum, because an older viscofric wrote them; they "
+                "are not verified.",
                 err=True,
             )
     if found.damaged:
@@ -140,7 +140,7 @@ def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
 
 def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tuple[str, str]]:
     """Return what was found, for people: a word and a line each."""
-    lines = [("run file", f"{path}: nothing is wrong with it or its data")]
+    lines = [("run file", f"{path}: no errors in run file and data")]
     lines += [("material", _material_line(made)) for made in record["materials"]]
     if record["measured_points"] is not None:
         lines.append(("measured", f"{record['measured_points']} points of friction"))
@@ -158,7 +158,7 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     if record["measured_points"] is not None:
         more.append(f"{record['measured_points']} at the measured points")
     if more:
-        lines.append(("besides", ", ".join(more)))
+        lines.append(("also", ", ".join(more)))
     expected = record["expected"]
     effort = f"{duration(expected['seconds'])} on one core, {_bytes(expected['memory_per_process'])} for each process"
     lines.append(("to solve", f"about {_rounded(expected['solves'])} contacts: {effort}"))

@@ -126,7 +126,9 @@ def _shifted(
     except SuperpositionError as error:
         if known is None:
             raise
-        click.echo(f"Note: No shift factors from friction: {error.words('shell')} The modulus's are taken.", err=True)
+        click.echo(
+            f"Note: No shift factors from friction: {error.words('shell')} Those of the modulus are used.", err=True
+        )
         return shift_friction(curves, shift=known, reference=reference, **options)
 
 

@@ -62,8 +62,7 @@ class ContactSettings:
         if not TIGHTEST <= number(self.tolerance, "tolerance") <= loosest:
             raise InputError(
                 f"tolerance = {brief(self.tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the "
-                f"accuracy, which is {loosest:g} for accuracy = {self.accuracy:g}, so that it does not spoil the "
-                "friction.",
+                f"accuracy, which is {loosest:g} for accuracy = {self.accuracy:g}.",
                 code="out-of-range",
             )
         if self.finest is not None:

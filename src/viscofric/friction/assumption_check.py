@@ -64,14 +64,18 @@ def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "pyt
         "assumption",
         {
             "assumption_name": ([check.name for check in checks], "1", "assumption"),
-            "value": ([math.nan if check.value is None else check.value for check in checks], "1", "what is judged"),
+            "value": (
+                [math.nan if check.value is None else check.value for check in checks],
+                "1",
+                "value compared with the limit",
+            ),
             "limit": ([check.limit for check in checks], "1", "largest value at which the assumption holds well"),
             "holds": (
                 [-1 if check.holds is None else int(check.holds) for check in checks],
                 "1",
-                "whether it does (1), does not (0), or is unknown (-1)",
+                "1: the assumption holds; 0: it does not; -1: unknown",
             ),
-            "sentence": ([note_of(check.sentence).words(reader) for check in checks], "1", "the same in words"),
+            "sentence": ([note_of(check.sentence).words(reader) for check in checks], "1", "the check in words"),
         },
     )
 

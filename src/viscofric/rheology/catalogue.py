@@ -209,8 +209,8 @@ _ENTRIES = (
         "Acrylic elastomer. Shear moduli and relaxation times of a finite-strain model, here at small strain and "
         "incompressible, E = 3G. The equilibrium shear modulus is 15.36 kPa times 1.0191, the small-strain factor of "
         "its chain law (locking stretch 5.99; inverse Langevin function as approximated in the code, 1.0172 without "
-        "approximation). Times of 0.6 to 61 s: loss faster than about 5 rad/s or slower than 0.01 rad/s, and the glass "
-        "transition, are not in it. The temperature is that of the tests; there is no shift.",
+        "approximation). Times of 0.6 to 61 s: the loss above about 5 rad/s and below 0.01 rad/s, and the glass "
+        "transition, are not included. Valid at the temperature of the tests only.",
         _vhb_4910,
     ),
     CatalogueEntry(
@@ -221,15 +221,15 @@ _ENTRIES = (
         "pressure, J. Eng. Mech. 125 (1999) 435; relative moduli, times and WLF constants as quoted in public "
         "finite-element scripts for laminated glass.",
         "Plasticised polyvinyl butyral of laminated glass, shear relaxation with G0 = 471 MPa. Taken as "
-        "incompressible, E = 3G, which makes the glass some 8 % stiffer than with the bulk modulus of 2 GPa given with "
-        "it. Its long-term modulus, 0.19 MPa, is reached after a year at 20 °C.",
+        "incompressible, E = 3G, which makes the glass some 8 % stiffer than with the published bulk modulus of 2 GPa. "
+        "Its long-term modulus, 0.19 MPa, is reached after a year at 20 °C.",
         _pvb,
     ),
     CatalogueEntry(
         "synthetic fluoroelastomer",
         "SYNTHETIC",
         "Retardation spectrum, 37 modes; WLF above and Arrhenius below the glass transition.",
-        "Made up for tests and examples; not a measurement.",
+        "Assumed for tests and examples; not a measurement.",
         "A glass transition and a slow relaxation below the rubber plateau, at 30 °C; see synthetic_fluoroelastomer.",
         synthetic_fluoroelastomer,
     ),

@@ -98,8 +98,8 @@ class PerssonTheory:
             "friction_coefficient": ("1", "friction coefficient"),
             "contact_area_fraction": ("1", "real over nominal contact area"),
             "flash_temperature": ("K", "largest rise of temperature"),
-            "area_by_scale": ("1", "contact area over nominal as seen without shorter waves"),
-            "friction_by_scale": ("1", "friction coefficient of all longer waves"),
+            "area_by_scale": ("1", "contact area fraction without shorter waves"),
+            "friction_by_scale": ("1", "friction coefficient due to all longer waves"),
             "temperature_rise_by_scale": ("K", "rise of temperature that waves of this length meet"),
         }
         return dataset(

@@ -312,7 +312,7 @@ def _cut_out(q: Array, density: Array, first: float, last: float) -> tuple[Array
     if not first < last:
         raise InputError(
             f"the power spectrum reaches from wavelength {2.0 * np.pi / q[-1]:.4g} to {2.0 * np.pi / q[0]:.4g} m; "
-            "nothing of it lies between the cut-offs.",
+            "no part of it lies between the cut-offs.",
             code="no-wave",
         )
     within = q[(q > first) & (q < last)]

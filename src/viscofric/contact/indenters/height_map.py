@@ -92,7 +92,7 @@ class HeightMap(Indenter):
         if contact.rear > rear or contact.front > front or contact.side > side:
             raise InputError(
                 f"{held} the contact reaches the edge of the height map; give a map of a larger piece of the surface, "
-                "or press less.",
+                "or reduce the load.",
                 code="beyond-indenter",
             )
 
@@ -197,7 +197,7 @@ class Profile(Indenter):
         x, step = self._points, float(self.spacing)
         if contact.rear > -x[0] - step or contact.front > x[-1] - step:
             raise InputError(
-                f"{held} the contact reaches the end of the profile; give a longer one, or press less.",
+                f"{held} the contact reaches the end of the profile; give a longer one, or reduce the load.",
                 code="beyond-indenter",
             )
 

@@ -82,7 +82,7 @@ class Indenter(ABC):
         if contact.longest > 2.0 * self.reach:
             raise InputError(
                 f"{held} the contact would be {1e3 * contact.longest:.3g} mm wide, wider than the {self.noun} "
-                f"({2e3 * self.reach:.3g} mm): the material is too soft for this; press less.",
+                f"({2e3 * self.reach:.3g} mm): the material is too soft; reduce the load.",
                 code="beyond-indenter",
             )
 
@@ -99,9 +99,9 @@ def insist_on_round_edges(indenter: Indenter) -> None:
     """Raise `InputError` where an indenter that is to slide has a sharp edge."""
     if indenter.has_walls:
         raise InputError(
-            f"indenter: a {indenter.noun} has a sharp edge, whose friction in motion is decided by how round it really "
-            "is, at any speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the "
-            "solid is elastic.",
+            f"indenter: a {indenter.noun} has a sharp edge; in motion its friction depends on the actual edge radius, "
+            "at any speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the solid "
+            "is elastic.",
             field="indenter",
             code="sharp-edge",
         )

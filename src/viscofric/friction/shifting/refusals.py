@@ -71,7 +71,7 @@ class Doubts:
         doubt = " significantly" if fitted else ""
         return Note(
             "no-overlap",
-            f"{curves} do not overlap{doubt}: no shift brings {FEWEST_POINTS} or more points of one over another "
+            f"{curves} do not overlap{doubt}: no shift makes {FEWEST_POINTS} or more of their points coincide "
             f"(friction coefficients: {spans}); measure at temperatures in between, or at more speeds.",
         )
 

@@ -157,14 +157,14 @@ def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:
     spectrum: Any = material.spectrum
     if not isinstance(spectrum, RetardationSpectrum):
         raise InputError(
-            f"{program} holds a Prony series, and this material is a table of moduli without one; fit a spectrum "
+            f"{program} cards contain a Prony series, but this material is a table of moduli; fit a spectrum "
             'first, or write format="csv" or "json".',
             code="no-modes",
         )
     relaxation = spectrum.to_relaxation()
     if not len(relaxation):
         raise InputError(
-            f"{program} holds a Prony series, and this material is elastic: it has no mode.", code="no-modes"
+            f"{program} cards contain a Prony series, but this material is elastic: it has no mode.", code="no-modes"
         )
     return relaxation
 

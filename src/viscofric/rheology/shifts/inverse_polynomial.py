@@ -120,7 +120,7 @@ class InversePolynomial(ParametricLaw):
     def _refuse_to_extrapolate() -> NoReturn:
         raise InputError(
             "a polynomial law is valid only between the temperatures that it was fitted on: it needs their range "
-            "(fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to go beyond.",
+            "(fitted_range) and cannot be without bounds; take a WLF or an Arrhenius law to extrapolate.",
             code="polynomial-without-range",
         )
 
@@ -144,7 +144,7 @@ class InversePolynomial(ParametricLaw):
         return Reach(self.fitted_range[1] + NOMINAL, "a polynomial is not valid beyond its data")
 
     def _remedy(self) -> str:
-        return "measure isotherms there, or take a WLF or an Arrhenius law to go beyond"
+        return "measure isotherms there, or take a WLF or an Arrhenius law to extrapolate"
 
 
 def _moved(degree: int, step: float) -> Array:

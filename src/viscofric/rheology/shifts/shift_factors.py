@@ -139,8 +139,8 @@ class ShiftFactors(ShiftLaw):
                 f"{shown_celsius(low)} to {shown_celsius(high)} °C",
                 code="outside-measured",
                 remedy=Remedy(
-                    "; fit a law (such as WLF or Arrhenius) to go beyond",
-                    page="; leave it out, or use a law under “Shift” to go beyond",
+                    "; fit a law (such as WLF or Arrhenius) to extrapolate",
+                    page="; leave it out, or use a law under “Shift” to extrapolate",
                     field="conditions.temperature",
                 )
                 + f"{kelvin_hint(wanted)}.",

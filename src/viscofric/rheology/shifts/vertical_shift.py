@@ -233,8 +233,8 @@ class VerticalShiftFactors(VerticalShift):
             wanted = float(kelvin[outside][0])
             raise InputError(
                 f"temperature = {shown_celsius(wanted)} °C lies outside {shown_celsius(low)} to {shown_celsius(high)} "
-                f"°C, where the vertical shift was measured; the density's, ρT/(ρ0 T0), goes "
-                f"beyond{kelvin_hint(wanted)}.",
+                f"°C, where the vertical shift was measured; a density shift, ρT/(ρ0 T0), is "
+                f"valid beyond{kelvin_hint(wanted)}.",
                 code="outside-measured",
             )
 

@@ -68,11 +68,11 @@ _SHARED: dict[str, Meaning] = {
     "friction_coefficient": ("1", "viscoelastic friction coefficient"),
     "friction_error": ("1", "numerical error estimate of the friction coefficient"),
     "max_pressure": ("Pa", "largest contact pressure"),
-    "energy_balance": ("1", "friction from the pressure less friction from dissipation, relative"),
+    "energy_balance": ("1", "friction from the pressure minus friction from the dissipation, relative"),
     "complementarity": ("1", "largest violation of the contact conditions over the indentation"),
     "cells": ("1", "cells along the longer edge of the finest window"),
     "products": ("1", "products with the influence matrix"),
-    "interpolation_error": ("1", "what interpolating between solved contacts adds to the error of friction"),
+    "interpolation_error": ("1", "part of the friction error due to interpolation between solved contacts"),
 }
 #: Those of an indenter's contact.
 NUMBERS: dict[str, Meaning] = _SHARED | {

@@ -57,31 +57,37 @@ _FLAGS = {"interpolated": 0, _WITHIN: -1}
 _PLACES = ("speed", "temperature", "load", "pressure")
 # Meaning of values that are no numbers of a record: bands and flags, and coordinates.
 _OTHER: dict[str, Meaning] = {
-    "friction_material_error": ("1", "standard error of the friction coefficient that the rubber's uncertainty leaves"),
+    "friction_material_error": (
+        "1",
+        "standard error of the friction coefficient due to material uncertainty",
+    ),
     "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
     "friction_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
-    _WITHIN: ("1", "whether v/a, reduced, lies within the measured frequencies (1), not (0); -1: failed"),
-    "interpolated": ("1", "whether it lies between solved contacts (1) or was solved itself (0)"),
-    "failed": ("1", "whether the case could not be solved (1); its other variables are missing then"),
-    "material": ("1", "name of the rubber"),
-    "sample": ("1", "member of the rubber's posterior; 0 is the best estimate"),
+    _WITHIN: ("1", "1: reduced frequency αv/a within the measured range; 0: beyond it; -1: case failed"),
+    "interpolated": ("1", "1: interpolated between solved contacts; 0: solved"),
+    "failed": ("1", "1: the case could not be solved, and its other variables are missing; 0: solved"),
+    "material": ("1", "name of the material"),
+    "sample": ("1", "number of the bootstrap sample of the material; 0 is the best estimate"),
     "radius": ("m", "radius of the indenter"),
     "radius_x": ("m", "radius of curvature of the indenter along the motion"),
     "radius_y": ("m", "radius of curvature of the indenter across the motion"),
     "angle": ("rad", "angle between the cone's flank and the surface"),
     "thickness": ("m", "thickness of the rubber"),
-    "seed": ("1", "seed of the rough surface, one of many of the same statistics"),
+    "seed": ("1", "seed of the generated rough surface"),
     "direction": ("rad", "direction of the motion, from x towards y"),
 }
 _ROUGH_WITHIN = (
     "1",
-    "whether 2πv/λ, reduced, lies within the measured frequencies for all waves of the surface (1), not (0)",
+    "1: reduced frequencies 2παv/λ of all waves of the surface within the measured range; 0: not",
 )
 _PREDICTED: dict[str, Meaning] = {
     "reduced_speed": ("m/s", "speed times shift factor"),
     "predicted": ("1", "predicted viscoelastic friction coefficient"),
     "predicted_error": ("1", "numerical error estimate of the predicted friction coefficient"),
-    "predicted_material_error": ("1", "standard error of predicted friction that the rubber's uncertainty leaves"),
+    "predicted_material_error": (
+        "1",
+        "standard error of the predicted friction due to material uncertainty",
+    ),
     "predicted_lower": ("1", "lower end of the 95 % band of the predicted friction coefficient"),
     "predicted_upper": ("1", "upper end of the 95 % band of the predicted friction coefficient"),
     _WITHIN: _OTHER[_WITHIN],

@@ -33,7 +33,7 @@ async function openFiles(app, files, wrong) {
     const { study, missing } = await app.api.runJob("open-run-file", { options });
     app.state.replace(study);
     app.announce(
-      `${runFile.name} is opened.${missing.length ? ` It names files that are not here: ${missing.join(", ")}.` : ""}`,
+      `${runFile.name} is opened.${missing.length ? ` Missing data files: ${missing.join(", ")}.` : ""}`,
     );
   } catch (error) {
     wrong.set([error.message]);
