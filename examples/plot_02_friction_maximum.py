@@ -26,8 +26,8 @@ area = np.array([solution.contact_area for solution in solutions])
 
 # %%
 # A contact of radius :math:`a` is crossed in the time :math:`a/v`, so that the rubber is deformed mostly at angular
-# frequencies around :math:`\omega = v/a`. The loss tangent :math:`\tan\delta = E''/E'` at this frequency is the
-# dissipated share of the work.
+# frequencies around :math:`\omega = v/a`. The loss tangent :math:`\tan\delta = E''/E'` at this frequency measures
+# the dissipated share of the work.
 
 frequency = speeds / np.sqrt(area / np.pi)
 modulus = rubber.complex_modulus(frequency)

@@ -28,10 +28,10 @@ layers = [vf.solve_steady(rubber, ball, layer=vf.Layer(one, bonded=True), **cont
 # %%
 # The friction of this material depends on the base much less than the indentation does: its memory length is 1 mm, no
 # more than the contact's width, and energy is dissipated near the contact, but the rubber deforms far below it. On a
-# layer of four half-widths (dashed) friction is 2.5 % low and the indentation 24 %, on one of eight 0.4 % and 13 %. If
-# the memory length exceeds the layer thickness, the effect extends to thicker layers, and so it does for many modes:
-# the synthetic fluoroelastomer has up to 8 % less friction on four. ``vf.check_assumptions(…, thickness=…)`` estimates
-# the effect.
+# layer of four half-widths (dashed) friction is 2.5 % lower and the indentation 24 % smaller, on one of eight 0.4 % and
+# 13 %. The effect extends to thicker layers if the memory length exceeds the layer thickness, and if the material has
+# many modes: the friction of the synthetic fluoroelastomer is up to 8 % lower on a layer of four half-widths.
+# ``vf.check_assumptions(…, thickness=…)`` estimates the effect.
 
 figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")
 for name, colour, marker, values, limit in (

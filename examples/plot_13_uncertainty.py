@@ -3,7 +3,7 @@ Uncertainty of a prediction
 ===========================
 
 Sweeps have noise and shift factors have errors. Bootstrap samples of the material within these errors give the
-uncertainty of the friction. They say nothing about frequencies that were never measured: there the spectrum is
+uncertainty of the friction. They do not cover frequencies that were not measured: there the spectrum is
 extrapolated, and so is its band.
 """
 
@@ -37,7 +37,7 @@ friction = vf.predict_friction(rubber, ball, speeds=np.geomspace(1e-7, 10.0, 17)
 truth = vf.predict_friction(vf.synthetic_fluoroelastomer(), ball, speeds=friction.speeds, **contact)
 
 # %%
-# Contacts of radius a deform the rubber at frequencies around v/a. These were measured in the grey range.
+# Contacts of radius a deform the rubber at frequencies around v/a. The sweeps cover the grey range.
 
 middle = vf.solve_steady(rubber, ball, speed="1 mm/s", load="5 N", temperature="30 degC")
 measured = middle.half_width * fit.master_curve.angular_frequency[[0, -1]]  # m/s

@@ -40,8 +40,8 @@ figure, axes = plt.subplots(figsize=(7.5, 4.3), layout="constrained")
 plot_friction_by_wavelength(axes, {name: vf.friction_by_wavelength(one) for name, one in solutions.items()})
 
 # %%
-# At high speed the rubber is stiff, and the contact area is smaller. The errors are discretisation errors, to an order
-# of magnitude.
+# At high speed the rubber is stiff, and the contact area is smaller. The errors are estimated discretisation
+# errors, to an order of magnitude.
 
 for name, one in solutions.items():
     print(f"{name:>8s}: μ = {one.friction_coefficient:.4f} ± {one.diagnostics.friction_error:.4f}", end="")

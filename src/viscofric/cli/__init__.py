@@ -105,7 +105,7 @@ def _keep_matplotlib_here() -> None:
 @click.version_option(package_name="viscofric", prog_name="viscofric")
 @click.pass_context
 def main(ctx: click.Context) -> None:
-    """Viscoelastic friction of rubber, at any speed and temperature, from laboratory data."""
+    """Hysteresis friction (rolling resistance) of rubber, from laboratory data."""
     _keep_matplotlib_here()
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

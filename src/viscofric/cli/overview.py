@@ -46,7 +46,7 @@ GROUPS = {
 #: All commands in their order.
 COMMANDS = {name: words for group in GROUPS.values() for name, words in group.items()}
 
-_ABOUT = "Viscoelastic friction of rubber, at any speed and temperature, from lab data."
+_ABOUT = "Hysteresis friction (rolling resistance) of rubber, from laboratory data."
 _AFTERWARDS = (
     "viscofric COMMAND --help describes a command, --version prints the version.",
     "Exit status: 0 success, 1 bad input or not solved, 2 wrong usage, 3 some cases",

@@ -181,7 +181,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
         : [],
     );
     notes.set(result.notes);
-    const marks = { true: "✓ ", false: "Look at this: ", null: "Unknown: " };
+    const marks = { true: "✓ ", false: "Warning: ", null: "Unknown: " };
     checks.set(result.checks.map((one) => `${marks[one.holds]}${one.sentence}`));
     checked.hidden = result.checks.length + result.notes.length === 0;
     state.setResult("curve", result);

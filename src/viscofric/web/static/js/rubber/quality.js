@@ -50,7 +50,7 @@ export function qualityCards(app) {
   const distances = figures.figure(second, {
     id: "neighbour-distances",
     title: "Distance of neighbouring isotherms",
-    caption: "In tan δ against |E*|, which no shift changes; bars are 95 % of noise.",
+    caption: "In tan δ against |E*|, which no shift changes; bars: 95 % range of the noise.",
     x: { label: "temperature between them", kind: "temperature" },
     y: { label: "distance (decades)" },
     traces: [],
@@ -60,7 +60,7 @@ export function qualityCards(app) {
   const causal = figures.figure(third, {
     id: "kramers-kronig",
     title: "Kramers–Kronig",
-    caption: "log₁₀ of each modulus computed from the other, over the measured one; open points at the ends are not judged.",
+    caption: "log₁₀ of each modulus computed from the other, over the measured one; open points at the ends are not evaluated.",
     x: { label: "reduced frequency α ω", kind: "angular_frequency", log: true },
     y: { label: "log₁₀ demanded/measured" },
     traces: [],
@@ -115,7 +115,7 @@ export function qualityCards(app) {
     const part = (key, name, symbol, colour, judged) => {
       const some = found.judged.map((one, at) => (one === judged ? at : -1)).filter((at) => at >= 0);
       return {
-        name: judged ? name : `${name}, not judged`,
+        name: judged ? name : `${name}, not evaluated`,
         legend: judged,
         group: name,
         mode: "markers",

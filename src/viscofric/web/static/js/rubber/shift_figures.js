@@ -125,7 +125,7 @@ export function lawTable({ laws }, app) {
   return fields.table(
     ["law", "constants", "AIC", "weight", "scatter (decades)", "valid", "", ""],
     rows,
-    "Laws compared: the lower the AIC, the better supported",
+    "Comparison of laws: a lower AIC is better",
   );
 }
 

@@ -91,7 +91,7 @@ export function shiftedCard(app) {
       words.push(
         `distance from its neighbours ${decades(misfit, 3)} (rms)${by && now !== null ? `, before ${now.toFixed(3)}` : ""}`,
       );
-    else if (table) words.push("it overlaps no neighbour");
+    else if (table) words.push("no overlap with its neighbours");
     live.textContent = `${words.join("; ")}.`;
   };
   const choose = async (kelvin) => {
@@ -217,7 +217,7 @@ export function shiftedCard(app) {
           h(
             "option",
             { value: String(one.temperature) },
-            `${named(one.temperature, app)}${one.is_reference ? " (reference)" : one.held ? " (held)" : ""}`,
+            `${named(one.temperature, app)}${one.is_reference ? " (reference)" : one.held ? " (fixed)" : ""}`,
           ),
         ),
       );

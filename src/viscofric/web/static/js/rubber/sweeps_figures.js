@@ -90,7 +90,7 @@ export function flaggedTable(answer, app) {
       units.show(one.loss, "modulus"),
     ]);
   const table = fields.table(
-    ["where", "why", "temperature", "frequency", "storage modulus", "loss modulus"],
+    ["location", "reason", "temperature", "frequency", "storage modulus", "loss modulus"],
     rows,
     "Flagged readings",
   );

@@ -98,7 +98,7 @@ export function cardCard(app) {
     system: viewField(app, "card.system", "Units of the model", system),
     temperature: viewField(app, "card.temperature", "Temperatures of the model", temperature),
     domain: viewField(app, "card.domain", "Analysis", domain),
-    law: viewField(app, "card.law", "Shift law", law, "programs take no table; fits a law to it"),
+    law: viewField(app, "card.law", "Shift law", law, "fits a law, since the programs accept no table of factors"),
     poisson: viewField(app, "card.poisson", "Poisson's ratio", poisson, "ANSYS and LS-DYNA do not accept 0.5"),
     density: viewField(app, "card.density", "Density", density, "e.g. 1800 kg/m^3; required for LS-DYNA"),
   };

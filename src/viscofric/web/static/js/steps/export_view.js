@@ -211,7 +211,7 @@ function studyCard(app) {
       numberField({ path: "uncertainty.draws", label: "Bootstrap samples", min: 0, step: 1, placeholder: "200" }),
       choiceField({
         path: "outputs.fields",
-        label: "Pressure maps kept",
+        label: "Stored pressure maps",
         otherwise: "few",
         options: [
           ["few", "of a few cases"],

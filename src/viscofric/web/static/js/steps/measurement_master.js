@@ -78,7 +78,7 @@ export function masterCurve(app, step, { changed }) {
 
   function show(result) {
     state.setResult("friction_master", result);
-    const refused = result?.refusal ? [`Friction alone determines no shift factors: ${result.refusal}`] : [];
+    const refused = result?.refusal ? [`Shift factors cannot be determined from friction alone: ${result.refusal}`] : [];
     notes.set([...refused, ...(result?.notes ?? [])]);
     shiftedBy.hidden = !(result?.found && result.by_rubber);
     for (const one of [law, file]) one.hidden = !result?.found;
