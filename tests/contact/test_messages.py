@@ -85,7 +85,7 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
     ),
     (
         lambda: solve(accuracy=1e-3, tolerance=1e-3),
-        "",
+        "out-of-range",
         (
             "tolerance = 0.001: must be a number from 1e-13 to 0.001 times the accuracy, which is 1e-06 for accuracy = "
             "0.001."
