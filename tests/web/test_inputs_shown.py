@@ -161,7 +161,8 @@ def test_a_file_with_other_contents_under_the_same_name_is_read_again(tab: Tab) 
     def highest() -> float:
         figures_of(tab, "sweeps")
         return tab.value(
-            "Math.max(...document.querySelector('#figure-isotherms-storage .plot').data.flatMap((one) => [...one.y]))"
+            "Math.max(...document.querySelector('#figure-isotherms-storage-modulus .plot')"
+            ".data.flatMap((one) => [...one.y]))"
         )
 
     tab.value(upload, sweeps(1.0))

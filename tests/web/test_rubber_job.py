@@ -47,7 +47,7 @@ def test_isotherms_are_moved_by_their_factors(rubber: Any, fit: vf.Superposition
         rubber["shift"]["isotherms"], fit.isotherms, fit.shift_factors.log10_values, strict=True
     ):
         np.testing.assert_allclose(reported["reduced_frequency"], one.angular_frequency * 10.0**shift, rtol=1e-5)
-        np.testing.assert_allclose(reported["storage"], one.storage_modulus, rtol=5e-6)
+        np.testing.assert_allclose(reported["storage_modulus"], one.storage_modulus, rtol=5e-6)
     assert [one["temperature"] for one in rubber["shift"]["isotherms"] if one["is_reference"]] == [303.15]
 
 
@@ -69,7 +69,7 @@ def test_verdict_is_that_of_the_check(rubber: Any, fit: vf.Superposition) -> Non
     check = rubber["check"]
     assert check["verdict"] == "holds"
     assert check["sentences"] == list(fit.check.sentences)
-    assert check["kramers_kronig"]["holds"] is True
+    assert check["kramers_kronig"]["holds"] == 1
     points = sum(len(one["x"]) for one in check["diagrams"]["van_gurp_palmen"])
     assert points == sum(len(one) for one in fit.isotherms)
     assert [one["temperature"] for one in check["diagrams"]["wicket"]] == rubber["shift"]["factors"]["temperature"]
@@ -78,18 +78,18 @@ def test_verdict_is_that_of_the_check(rubber: Any, fit: vf.Superposition) -> Non
 def test_spectrum_and_its_moduli_belong_together(rubber: Any) -> None:
     spectrum = rubber["spectrum"]
     modes = vf.RetardationSpectrum(
-        1.0 / (1.0 / spectrum["E_inf"] + sum(spectrum["modes"]["C"])),
-        spectrum["E_inf"],
-        spectrum["modes"]["C"],
-        spectrum["modes"]["tau"],
+        1.0 / (1.0 / spectrum["modes"]["E_inf"] + sum(spectrum["modes"]["creep_coefficient"])),
+        spectrum["modes"]["E_inf"],
+        spectrum["modes"]["creep_coefficient"],
+        spectrum["modes"]["retardation_time"],
     )
     line = spectrum["modulus"]
     expected = modes.complex_modulus(line["angular_frequency"])
-    np.testing.assert_allclose(line["storage"], expected.real, rtol=1e-4)  # sums of numbers of six digits
+    np.testing.assert_allclose(line["storage_modulus"], expected.real, rtol=1e-4)  # sums of numbers of six digits
     np.testing.assert_allclose(line["loss_tangent"], expected.imag / expected.real, rtol=1e-4)
     series = spectrum["relaxation"]
-    assert spectrum["E0"] + sum(series["E"]) == pytest.approx(spectrum["E_inf"], rel=1e-4)
-    residual = np.array(spectrum["residual"]["storage"])
+    assert series["E0"] + sum(series["modulus"]) == pytest.approx(series["E_inf"], rel=1e-4)
+    residual = np.array(spectrum["residual"]["storage_modulus"])
     assert np.sqrt(np.mean(residual**2)) == pytest.approx(spectrum["fit"]["rms_storage"], rel=1e-3)
 
 
@@ -99,8 +99,8 @@ def test_band_holds_the_planted_rubber(rubber: Any) -> None:
     omega = np.array(band["angular_frequency"])
     measured = (omega > low_high[0]) & (omega < low_high[1])
     expected = planted.complex_modulus(omega, "30 degC")
-    for name, values in (("storage", expected.real), ("loss", expected.imag)):
-        lower, upper = np.array(band[name]["lower"]), np.array(band[name]["upper"])
+    for name, values in (("storage_modulus", expected.real), ("loss_modulus", expected.imag)):
+        lower, upper = np.array(band[f"{name}_lower"]), np.array(band[f"{name}_upper"])
         held = np.mean(((values >= lower) & (values <= upper))[measured])
         # 95 % pointwise, neighbours alike: of one draw of the noise some 80 to 100 %
         assert held > 0.75
@@ -149,12 +149,12 @@ def test_modulus_at_another_temperature(workspace: Context, rubber: Any) -> None
     found = done("moduli", workspace, {**SWEEPS, "shift": "wlf"}, uncertainty=DRAWS, options={"temperature": "60 degC"})
     line, reference = found["modulus"], rubber["spectrum"]["modulus"]
     # E(ω, T) = E(α ω, T0): the same moduli at other frequencies
-    np.testing.assert_allclose(line["storage"], reference["storage"], rtol=2e-5)
+    np.testing.assert_allclose(line["storage_modulus"], reference["storage_modulus"], rtol=2e-5)
     alpha = 10.0 ** found["log10_shift"]
     np.testing.assert_allclose(line["angular_frequency"], np.array(reference["angular_frequency"]) / alpha, rtol=2e-5)
     assert found["isotherm"]["temperature"] == 333.15
     assert found["extrapolated"] is False
-    inside = np.array(found["band"]["storage"]["lower"]) <= np.array(line["storage"])
+    inside = np.array(found["band"]["storage_modulus_lower"]) <= np.array(line["storage_modulus"])
     assert np.mean(inside) > 0.9
     assert done("moduli", workspace, {**SWEEPS, "shift": "wlf"}, options={"temperature": "235 degC", "bands": False})[
         "extrapolated"
@@ -176,7 +176,7 @@ def test_rubbers_of_the_catalogue_have_moduli_and_modes(workspace: Context, name
     assert found["check"] is None
     assert found["band"] is None
     assert "sweeps" in found["no_band"]
-    assert len(found["spectrum"]["modes"]["tau"]) == {"VHB 4910": 3, "PVB interlayer": 11}.get(name, 37)
+    assert len(found["spectrum"]["modes"]["retardation_time"]) == {"VHB 4910": 3, "PVB interlayer": 11}.get(name, 37)
 
 
 @pytest.mark.parametrize(
@@ -188,7 +188,7 @@ def test_other_kinds_of_spectrum(workspace: Context, more: dict[str, Any], spars
     assert found["spectrum"]["fit"]["method"] == more["spectrum"]
     assert (found["spectrum"]["fit"]["regularisation"] is None) is sparse
     assert (found["band"]["modes"] is None) is sparse
-    assert not sparse or len(found["spectrum"]["modes"]["tau"]) <= 8
+    assert not sparse or len(found["spectrum"]["modes"]["retardation_time"]) <= 8
 
 
 def test_vertical_shift_is_reported(workspace: Context) -> None:

@@ -30,7 +30,7 @@ def example(opened: Tab) -> None:
     opened.step("sweeps")
     opened.page.check("input[name=material-source][value=dma]")
     opened.page.get_by_role("button", name="Use the synthetic example").click()
-    drawn(opened, "isotherms-storage", 26)
+    drawn(opened, "isotherms-storage-modulus", 26)
 
 
 def rubber_is_made(opened: Tab) -> None:
@@ -141,7 +141,7 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
     tab.until("document.querySelector('#step-sweeps').textContent.includes('or give it by “Unit of the moduli”')")
     unit.fill("Pa")
     unit.press("Tab")
-    drawn(tab, "isotherms-storage", 3)
+    drawn(tab, "isotherms-storage-modulus", 3)
     kind = tab.page.locator("#step-sweeps").get_by_label("Measured in")
     kind.wait_for()
     kind.select_option(label="shear: G′, G″")
@@ -169,7 +169,7 @@ def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     unit.fill("Pa")
     unit.press("Tab")
     tab.until("page.state.state.result('rubber')?.spectrum.measured?.storage.length === 11")
-    drawn(tab, "isotherms-storage", 1)
+    drawn(tab, "isotherms-storage-modulus", 1)
     tab.step("shift")
     tab.until("document.querySelector('#step-shift').textContent.includes('valid at one temperature only')")
 
@@ -181,7 +181,7 @@ def test_rubbers_of_the_catalogue_and_laws(tab: Tab) -> None:
     tab.page.check("input[name=material-source][value=catalogue]")
     tab.page.check("input[name=material-catalogue][value='PVB interlayer']")
     tab.until("document.querySelector('#step-sweeps .notes.note').textContent.includes('Van Duser')")
-    drawn(tab, "isotherms-storage", 1)
+    drawn(tab, "isotherms-storage-modulus", 1)
     assert tab.page.is_hidden("#synthetic")
     tab.step("shift")
     drawn(tab, "shift-factors", 1)
@@ -202,7 +202,7 @@ def test_workbook_of_an_instrument_on_a_phone(browser: Browser, server: Server, 
     ) as opened:
         opened.page.check("input[name=material-source][value=dma]")
         opened.page.set_input_files(_DROP, real_data / "instruments" / "eplexor" / "freq_Eplexor_raw.xls")
-        drawn(opened, "isotherms-storage", 21)
+        drawn(opened, "isotherms-storage-modulus", 21)
         assert "Eplexor" in opened.text("#step-sweeps .notes.note")
         for step in ("sweeps", "shift", "spectrum"):
             opened.step(step)

@@ -59,11 +59,11 @@ def test_left_out_readings_and_outliers_are_flagged_with_their_place(workspace: 
     left_out, outlier = found["flagged"]
     assert left_out["why"] == "left out"
     assert left_out["place"] == "line 5"
-    assert left_out["storage"] == -1e6
+    assert left_out["storage_modulus"] == -1e6
     assert found["left_out"] == 1
     assert outlier["why"] == "far off its neighbours (storage modulus), kept"
     assert outlier["place"] == "line 15"
-    assert outlier["storage"] == 60e6
+    assert outlier["storage_modulus"] == 60e6
 
 
 def test_tension_or_shear_is_asked_where_no_file_says_it(workspace: Context) -> None:

@@ -62,7 +62,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "temperature": plain(at),
         "log10_shift": plain(float(np.log10(alpha))),
         "extrapolated": bool(material.shift.extrapolates(at)),
-        "modulus": moduli(material.complex_modulus(omega, at), omega),
+        "modulus": moduli(omega, material.complex_modulus(omega, at)),
         "band": None if samples is None else band_numbers(samples, omega, at),
         "moved": _moved(rubber, at, alpha),
         "isotherm": _isotherm(rubber, at),
@@ -75,9 +75,7 @@ def _moved(rubber: Rubber, at: float, alpha: float) -> dict[str, Any] | None:
         return None
     vertical = rubber.material.vertical_shift
     b = 1.0 if vertical is None else float(vertical(at))
-    return moduli(b * curve.complex_modulus, curve.angular_frequency / alpha) | {
-        "temperature": plain(curve.temperature)
-    }
+    return moduli(curve.angular_frequency / alpha, b * curve.complex_modulus)
 
 
 def _isotherm(rubber: Rubber, at: float) -> dict[str, Any] | None:
@@ -87,4 +85,4 @@ def _isotherm(rubber: Rubber, at: float) -> dict[str, Any] | None:
     if abs(nearest.temperature - at) > _NEAR:
         return None
     measured = nearest.storage_modulus + 1j * nearest.loss_modulus
-    return moduli(measured, nearest.angular_frequency) | {"temperature": plain(nearest.temperature)}
+    return moduli(nearest.angular_frequency, measured) | {"temperature": plain(nearest.temperature)}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from viscofric.datasets import plain
+from viscofric.datasets import plain, record
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber, without_folder
@@ -15,7 +15,7 @@ from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
 
 if TYPE_CHECKING:
-    from viscofric.rheology.superposition.consistency import Diagram, SuperpositionCheck
+    from viscofric.rheology.superposition.consistency import Diagram
     from viscofric.rheology.superposition.result import Superposition
     from viscofric.study.rubber import Rubber
     from viscofric.web.jobs.context import Context
@@ -103,7 +103,7 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
         ``verdict`` (`SuperpositionCheck.verdict`), ``headline`` and ``sentences``;
         distances of ``neighbours`` in decades; ``diagrams`` in SI units and rad; ``kramers_kronig`` or None.
     """
-    check = fit.check
+    check, found = fit.check, fit.check.kramers_kronig
     return {
         "verdict": check.verdict,
         "short": _VERDICTS[check.verdict],
@@ -125,7 +125,7 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
             "cole_cole": _by_temperature(check.cole_cole),
             "wicket": _by_temperature(check.wicket),
         },
-        "kramers_kronig": _kramers_kronig(check),
+        "kramers_kronig": None if found is None else record(found.to_dataset(), 6) | {"allowed": LARGEST_RMS},
     }
 
 
@@ -138,20 +138,3 @@ def _by_temperature(diagram: Diagram) -> list[dict[str, Any]]:
         )
         if len(kelvin)
     ]
-
-
-def _kramers_kronig(check: SuperpositionCheck) -> dict[str, Any] | None:
-    found = check.kramers_kronig
-    if found is None:
-        return None
-    return {
-        "holds": found.holds,
-        "sentence": found.sentence,
-        "angular_frequency": plain(found.angular_frequency),
-        "storage": plain(found.storage_deviation),
-        "loss": plain(found.loss_deviation),
-        "judged": found.judged.tolist(),
-        "rms_storage": plain(found.rms_storage),
-        "rms_loss": plain(found.rms_loss),
-        "allowed": LARGEST_RMS,
-    }

@@ -165,8 +165,8 @@ def _shifted(fit: Superposition, held: Mapping[float, float]) -> list[dict[str, 
             "held": is_held,
             "is_reference": abs(one.temperature - fit.shift_factors.reference) < 1e-6 * one.temperature,
             "reduced_frequency": plain(10.0**shift * one.angular_frequency),
-            "storage": plain(one.storage_modulus / 10.0**by),
-            "loss": plain(one.loss_modulus / 10.0**by),
+            "storage_modulus": plain(one.storage_modulus / 10.0**by),
+            "loss_modulus": plain(one.loss_modulus / 10.0**by),
             "loss_tangent": plain(one.loss_modulus / one.storage_modulus),
         }
         for one, shift, by, is_held in zip(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.datasets import plain
+from viscofric.datasets import plain, record
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from viscofric.study.rubber import Rubber
 
 
+_DIGITS = 6
 #: Lines go so far beyond the measured frequencies, as a factor.
 _BEYOND = 10.0
 #: Points of a line over each decade, and in all.
@@ -33,26 +34,39 @@ def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
     Returns
     -------
     dict
-        In SI units.  ``modes`` and ``relaxation`` are None where the rubber is a table that no modes describe,
-        ``measured`` and ``residual`` where it comes from no master curve, ``fit`` where its spectrum was not fitted.
+        ``modes`` and ``relaxation``, as their data sets name them, are None where the rubber is a table that no modes
+        describe, ``measured`` and ``residual`` where it comes from no master curve, ``fit`` where its spectrum was not
+        fitted.
     """
     material = rubber.material
     modes, why = _modes(material)
+    fit = None if modes is None else modes.fit
     curve = _curve(rubber)
     at = frequencies(rubber)
     return {
         "reference": None if material.reference is None else plain(material.reference),
         "poisson_ratio": plain(material.poisson_ratio),
-        "E0": None if modes is None else plain(modes.E0),
-        "E_inf": None if modes is None else plain(modes.E_inf),
-        "modes": None if modes is None else {"tau": plain(modes.tau), "C": plain(modes.C)},
-        "relaxation": None if modes is None else _relaxation(modes),
-        "fit": None if modes is None else _fit(modes),
+        "modes": None if modes is None else record(modes.to_dataset(), _DIGITS),
+        "relaxation": None if modes is None else record(modes.to_relaxation().to_dataset(), _DIGITS),
+        "fit": None if fit is None else plain({name: getattr(fit, name) for name in _OF_A_FIT}),
         "notes": list(why),
-        "modulus": moduli(material.complex_modulus(at), at),
-        "measured": None if curve is None else _measured(curve),
+        "modulus": moduli(at, material.complex_modulus(at)),
+        "measured": None if curve is None else moduli(curve.angular_frequency, curve.complex_modulus),
         "residual": None if curve is None else _residual(curve, material),
     }
+
+
+_OF_A_FIT = (
+    "method",
+    "rms_storage",
+    "rms_loss",
+    "frequency_range",
+    "tau_ratio",
+    "regularisation",
+    "E0_remark",
+    "E_inf_remark",
+    "notes",
+)
 
 
 def _modes(material: Material) -> tuple[RetardationSpectrum | None, tuple[str, ...]]:
@@ -86,47 +100,21 @@ def frequencies(rubber: Rubber) -> Array:
     return np.concatenate([[low], np.geomspace(low, high, count)[1:-1], [high]])
 
 
-def moduli(complex_modulus: ComplexArray, angular_frequency: Array) -> dict[str, Any]:
-    """Return moduli and loss tangent over frequency."""
+def moduli(angular_frequency: Array, complex_modulus: ComplexArray) -> dict[str, Any]:
+    """Return moduli and loss tangent over frequency, named as in data sets."""
     return {
         "angular_frequency": plain(angular_frequency),
-        "storage": plain(complex_modulus.real),
-        "loss": plain(complex_modulus.imag),
+        "storage_modulus": plain(complex_modulus.real),
+        "loss_modulus": plain(complex_modulus.imag),
         "loss_tangent": plain(complex_modulus.imag / complex_modulus.real),
     }
-
-
-def _relaxation(modes: RetardationSpectrum) -> dict[str, Any]:
-    series = modes.to_relaxation()
-    return {"tau": plain(series.tau), "E": plain(series.E)}
-
-
-def _fit(modes: RetardationSpectrum) -> dict[str, Any] | None:
-    fit = modes.fit
-    if fit is None:
-        return None
-    return {
-        "method": fit.method,
-        "rms_storage": plain(fit.rms_storage),
-        "rms_loss": plain(fit.rms_loss),
-        "frequency_range": plain(list(fit.frequency_range)),
-        "tau_ratio": plain(fit.tau_ratio),
-        "regularisation": plain(fit.regularisation),
-        "E0_remark": fit.E0_remark,
-        "E_inf_remark": fit.E_inf_remark,
-        "notes": list(fit.notes),
-    }
-
-
-def _measured(curve: MasterCurve) -> dict[str, Any]:
-    return moduli(curve.complex_modulus, curve.angular_frequency) | {"temperature": plain(curve.temperature)}
 
 
 def _residual(curve: MasterCurve, material: Material) -> dict[str, Any] | None:
     """Return log10 of measured over fitted moduli at the points of the master curve."""
     fitted = material.complex_modulus(curve.angular_frequency)
     storage, loss = np.log10(curve.storage_modulus / fitted.real), np.log10(curve.loss_modulus / fitted.imag)
-    return {"storage": plain(storage), "loss": plain(loss)}
+    return {"storage_modulus": plain(storage), "loss_modulus": plain(loss)}
 
 
 def band_numbers(
@@ -141,7 +129,6 @@ def band_numbers(
     temperature : float, optional
         K; the reference if not given.
     """
-    band = samples.modulus_band(angular_frequency, temperature)
 
     def tangent(material: Material) -> Array:
         moduli_there = material.complex_modulus(angular_frequency, temperature)
@@ -151,13 +138,11 @@ def band_numbers(
     modes = samples.spectrum_band()
     alike = not np.any(np.ptp(samples.tau, axis=0) > 0.0)
     error = samples.standard_errors
-    return {
+    return record(samples.to_dataset(angular_frequency, temperature), _DIGITS) | {
         "draws": len(samples),
-        "angular_frequency": plain(angular_frequency),
-        "storage": {"lower": plain(band.lower.real), "upper": plain(band.upper.real)},
-        "loss": {"lower": plain(band.lower.imag), "upper": plain(band.upper.imag)},
-        "loss_tangent": {"lower": plain(lossy.lower), "upper": plain(lossy.upper)},
-        "modes": {"tau": plain(samples.tau[0]), "lower": plain(modes.lower), "upper": plain(modes.upper)}
+        "loss_tangent_lower": plain(lossy.lower),
+        "loss_tangent_upper": plain(lossy.upper),
+        "modes": {"retardation_time": plain(samples.tau[0]), "lower": plain(modes.lower), "upper": plain(modes.upper)}
         if alike
         else None,
         "E0_error95": plain(LEVEL_95 * error.E0),

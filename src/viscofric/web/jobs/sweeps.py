@@ -14,6 +14,7 @@ from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.web.jobs.context import Context, JobError
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, without_folder
+from viscofric.web.jobs.spectrum_numbers import moduli
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -101,10 +102,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> 
         "isotherms": [
             {
                 "temperature": plain(one.temperature),
-                "angular_frequency": plain(one.angular_frequency),
-                "storage": plain(one.storage_modulus),
-                "loss": plain(one.loss_modulus),
-                "loss_tangent": plain(one.loss_modulus / one.storage_modulus),
+                **moduli(one.angular_frequency, one.storage_modulus + 1j * one.loss_modulus),
                 "strain_amplitude": None if one.strain_amplitude is None else plain(one.strain_amplitude),
             }
             for one in sweeps.isotherms
@@ -156,8 +154,8 @@ def _left_out(traced: TracedSweeps) -> list[dict[str, Any]]:
             "place": points.places[row],
             "temperature": plain(float(points.temperature[row])),
             "angular_frequency": plain(float(points.angular_frequency[row])),
-            "storage": plain(float(points.storage_modulus[row])),
-            "loss": plain(float(points.loss_modulus[row])),
+            "storage_modulus": plain(float(points.storage_modulus[row])),
+            "loss_modulus": plain(float(points.loss_modulus[row])),
         }
         for row in traced.left_out[:_MOST_FLAGGED].tolist()
     ]
@@ -175,8 +173,8 @@ def _outliers(traced: TracedSweeps) -> list[dict[str, Any]]:
                     "place": traced.points.named(origins.tolist()),
                     "temperature": plain(one.temperature),
                     "angular_frequency": plain(float(one.angular_frequency[place])),
-                    "storage": plain(float(one.storage_modulus[place])),
-                    "loss": plain(float(one.loss_modulus[place])),
+                    "storage_modulus": plain(float(one.storage_modulus[place])),
+                    "loss_modulus": plain(float(one.loss_modulus[place])),
                 }
             )
     return found

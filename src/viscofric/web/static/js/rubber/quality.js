@@ -113,7 +113,7 @@ export function qualityCards(app) {
     if (!found) return;
     sentence.textContent = found.sentence;
     const part = (key, name, symbol, colour, judged) => {
-      const some = found.judged.map((one, at) => (one === judged ? at : -1)).filter((at) => at >= 0);
+      const some = found.judged.map((one, at) => (Boolean(one) === judged ? at : -1)).filter((at) => at >= 0);
       return {
         name: judged ? name : `${name}, not evaluated`,
         legend: judged,
@@ -124,7 +124,7 @@ export function qualityCards(app) {
         open: !judged,
         size: 6,
         x: some.map((at) => found.angular_frequency[at]),
-        y: some.map((at) => found[key][at]),
+        y: some.map((at) => found[`${key}_deviation`][at]),
       };
     };
     causal.update({

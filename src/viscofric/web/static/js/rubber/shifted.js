@@ -5,8 +5,8 @@ import { heldFactors } from "./held.js";
 import { byTemperature, decades, fewEnough, named, pick, synthetic, worded } from "./made.js";
 
 const QUANTITIES = [
-  ["storage", "E′"],
-  ["loss", "E″"],
+  ["storage_modulus", "E′"],
+  ["loss_modulus", "E″"],
   ["loss_tangent", "tan δ"],
 ];
 const REACH = 3; // decades
@@ -17,7 +17,7 @@ const SETTLE = 400; // ms after the last key
 export function shiftedCard(app) {
   const { state, fields, figures, api } = app;
   const { h, card, button } = fields;
-  let quantity = "storage";
+  let quantity = "storage_modulus";
   let answer = null;
   let chosen = null; // K
   let table = null; // misfit over decades moved, of the chosen isotherm

@@ -136,8 +136,8 @@ export function mount(section, app) {
         synthetic: madeUp,
         marks: [{ y: 0 }],
         traces: [
-          ["storage", "E′", "square", "blue"],
-          ["loss", "E″", "circle", "vermilion"],
+          ["storage_modulus", "E′", "square", "blue"],
+          ["loss_modulus", "E″", "circle", "vermilion"],
         ].map(([key, name, symbol, colour]) => ({
           name,
           mode: "markers",

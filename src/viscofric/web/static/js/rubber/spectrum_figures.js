@@ -5,21 +5,21 @@ import { named } from "./made.js";
 const SHOWN = 1e-10; // modes weaker than the strongest by more change nothing that can be seen
 
 export function keyNumbers({ spectrum, band }, { units }) {
-  if (spectrum.E0 === null) return [{ label: "material", value: "a table of moduli", remark: "without modes" }];
+  if (!spectrum.modes) return [{ label: "material", value: "a table of moduli", remark: "without modes" }];
   const error = (value) => (band && value ? `± ${units.show(value, "modulus", 2)} (95 %)` : "");
   const { fit } = spectrum;
   const all = [
     {
       label: "E₀, relaxed",
-      value: units.show(spectrum.E0, "modulus"),
+      value: units.show(spectrum.modes.E0, "modulus"),
       remark: [error(band?.E0_error95), fit?.E0_remark].filter(Boolean).join("; "),
     },
     {
       label: "E∞, glassy",
-      value: units.show(spectrum.E_inf, "modulus"),
+      value: units.show(spectrum.modes.E_inf, "modulus"),
       remark: [error(band?.E_inf_error95), fit?.E_inf_remark].filter(Boolean).join("; "),
     },
-    { label: "modes", value: String(spectrum.modes.tau.length), remark: fit?.method ?? "from the material file" },
+    { label: "modes", value: String(spectrum.modes.retardation_time.length), remark: fit?.method ?? "from the material file" },
     { label: "Poisson’s ratio", value: String(spectrum.poisson_ratio), remark: "" },
   ];
   if (fit && fit.rms_storage !== null)
@@ -43,8 +43,8 @@ export function caption(answer, here, app) {
 }
 
 const MODULI = [
-  ["storage", "E′", "square", "blue"],
-  ["loss", "E″", "circle", "vermilion"],
+  ["storage_modulus", "E′", "square", "blue"],
+  ["loss_modulus", "E″", "circle", "vermilion"],
 ];
 
 export function modulusTraces({ modulus, band, moved, isotherm }) {
@@ -53,7 +53,7 @@ export function modulusTraces({ modulus, band, moved, isotherm }) {
     colour,
     x: modulus.angular_frequency,
     y: modulus[key],
-    ...(band ? { lower: band[key].lower, upper: band[key].upper } : {}),
+    ...(band ? { lower: band[`${key}_lower`], upper: band[`${key}_upper`] } : {}),
   }));
   const points = moved
     ? MODULI.map(([key, name, symbol, colour]) => ({
@@ -88,7 +88,7 @@ export function tangentTraces({ modulus, band, moved, isotherm }) {
     colour: "green",
     x: modulus.angular_frequency,
     y: modulus.loss_tangent,
-    ...(band ? { lower: band.loss_tangent.lower, upper: band.loss_tangent.upper } : {}),
+    ...(band ? { lower: band.loss_tangent_lower, upper: band.loss_tangent_upper } : {}),
   };
   const points = moved
     ? [
@@ -125,8 +125,10 @@ export function tangentTraces({ modulus, band, moved, isotherm }) {
 export function modesFigure(answer, kind, synthetic) {
   const { spectrum, band } = answer;
   const retardation = kind === "retardation";
-  const { tau } = retardation ? spectrum.modes : spectrum.relaxation;
-  const strength = retardation ? spectrum.modes.C : spectrum.relaxation.E;
+  const { modes, relaxation } = spectrum;
+  const [tau, strength] = retardation
+    ? [modes.retardation_time, modes.creep_coefficient]
+    : [relaxation.relaxation_time, relaxation.modulus];
   const strongest = Math.max(...strength);
   const seen = strength.map((value, at) => at).filter((at) => strength[at] > SHOWN * strongest);
   const floor = Math.min(...seen.map((at) => strength[at])) / 2;
@@ -149,12 +151,12 @@ export function modesFigure(answer, kind, synthetic) {
     },
   ];
   if (retardation && band?.modes) {
-    const inside = band.modes.tau.map((_, at) => at).filter((at) => band.modes.upper[at] > floor);
+    const inside = band.modes.retardation_time.map((_, at) => at).filter((at) => band.modes.upper[at] > floor);
     traces.unshift({
       name: "95 % band",
       colour: "sky",
       width: 0,
-      x: inside.map((at) => band.modes.tau[at]),
+      x: inside.map((at) => band.modes.retardation_time[at]),
       y: inside.map((at) => band.modes.upper[at]),
       lower: inside.map((at) => Math.max(band.modes.lower[at], floor)),
       upper: inside.map((at) => band.modes.upper[at]),
@@ -177,14 +179,14 @@ export function modesFigure(answer, kind, synthetic) {
 }
 
 export function modesTable({ modes, relaxation }, { fields }) {
-  const count = Math.max(modes.tau.length, relaxation.tau.length);
+  const count = Math.max(modes.retardation_time.length, relaxation.relaxation_time.length);
   const cell = (values, at) => (at < values.length ? values[at].toExponential(4).replace("-", "−") : "");
   const rows = Array.from({ length: count }, (_, at) => [
     String(at + 1),
-    cell(modes.tau, at),
-    cell(modes.C, at),
-    cell(relaxation.tau, at),
-    cell(relaxation.E, at),
+    cell(modes.retardation_time, at),
+    cell(modes.creep_coefficient, at),
+    cell(relaxation.relaxation_time, at),
+    cell(relaxation.modulus, at),
   ]);
   return fields.table(
     ["k", "retardation time τ (s)", "compliance C (1/Pa)", "relaxation time (s)", "modulus E (Pa)"],

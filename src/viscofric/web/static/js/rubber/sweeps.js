@@ -6,8 +6,8 @@ import { fileTable, flaggedTable, isothermFigure, keyNumbers } from "./sweeps_fi
 import { sourceForm } from "./sweeps_form.js";
 
 const MODULI = [
-  ["storage", "storage modulus", "′"],
-  ["loss", "loss modulus", "″"],
+  ["storage_modulus", "storage modulus", "′"],
+  ["loss_modulus", "loss modulus", "″"],
   ["loss_tangent", "loss tangent tan δ", ""],
 ];
 
@@ -107,7 +107,7 @@ export function mount(section, app) {
         title: `${label[0].toUpperCase()}${label.slice(1)}${at}`,
         caption: "",
         synthetic: answer.synthetic,
-        y: { label: `${label} E${key === "storage" ? "′" : "″"}`, kind: "modulus", log: true },
+        y: { label: `${label} E${key === "storage_modulus" ? "′" : "″"}`, kind: "modulus", log: true },
         traces: [{ name: label, x: modulus.angular_frequency, y: modulus[key], legend: false }],
       });
     }

@@ -86,8 +86,8 @@ export function flaggedTable(answer, app) {
       one.why,
       units.show(one.temperature, "temperature"),
       units.show(one.angular_frequency, "angular_frequency"),
-      units.show(one.storage, "modulus"),
-      units.show(one.loss, "modulus"),
+      units.show(one.storage_modulus, "modulus"),
+      units.show(one.loss_modulus, "modulus"),
     ]);
   const table = fields.table(
     ["location", "reason", "temperature", "frequency", "storage modulus", "loss modulus"],
@@ -114,7 +114,7 @@ export function isothermFigure(answer, { key, label, primes }, app) {
     symbol: "circle",
   }));
   const flags = (left, name, symbol_) => {
-    const value = (one) => (modulus ? one[key] : one.storage > 0 ? one.loss / one.storage : null);
+    const value = (one) => (modulus ? one[key] : one.storage_modulus > 0 ? one.loss_modulus / one.storage_modulus : null);
     const some = answer.flagged.filter(
       (one) => (one.why === "left out") === left && one.angular_frequency > 0 && value(one) > 0,
     );

@@ -33,7 +33,7 @@ function superposition(state) {
 function modes(state) {
   const spectrum = state.result("rubber")?.spectrum;
   if (!spectrum) return "";
-  return spectrum.modes ? `${spectrum.modes.tau.length} modes` : "a table of moduli";
+  return spectrum.modes ? `${spectrum.modes.retardation_time.length} modes` : "a table of moduli";
 }
 
 function agreement(state) {
