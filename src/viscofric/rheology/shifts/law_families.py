@@ -106,8 +106,8 @@ class _Arrhenius(Family):
 
 class _WLFArrhenius(Family):
     size = 3
-    #: The place where one law passes into another is no regular constant: it counts for three (Y. Ninomiya, Ann. Inst.
-    #: Stat. Math. 67 (2015) 943).
+    #: The temperature where one law changes into another is no regular constant: it counts for three (Y. Ninomiya, Ann.
+    #: Inst. Stat. Math. 67 (2015) 943).
     surcharge = 2
 
     def law(self, parameters: Array, covariance: Array | None = None) -> ParametricLaw:

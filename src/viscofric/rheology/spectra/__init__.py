@@ -1,1 +1,1 @@
-"""Spectra of retardation and relaxation times, how they are fitted, and tables of moduli without any."""
+"""Spectra of retardation and relaxation times, their fits, and tables of moduli without a spectrum."""

@@ -29,15 +29,15 @@ PLATEAU_LOSS_TANGENT = 0.1
 ROUNDING = 1e-6
 #: Organic glasses have a few times 10⁹ Pa.
 STIFFEST_GLASS = 2e10  # Pa
-#: A spectrum with a rubber plateau follows a measured curve over its lowest decade to this …
+#: A spectrum with a rubber plateau fits a measured curve over its lowest decade to this …
 MISSED = 0.05  # decades, rms of E' and E''
-#: … or one that flows follows it no better by this factor; else the material is a liquid.
+#: … or one that flows is not better by this factor; else the material is a liquid.
 BETTER = 2.0
-#: A mode so much slower than the lowest frequency is seen as flow, 1/(iωη), to 1e-4.
+#: A mode slower than the lowest frequency by this factor equals flow, 1/(iωη), to 1e-4.
 FLOW = 1e4
-#: Slopes are read over this factor of frequency, the outermost half decade.
+#: Slopes are taken over this factor of frequency, the outermost half decade.
 END = math.sqrt(10.0)
-#: So many points at least show a slope.
+#: Fewest points for a slope.
 POINTS_OF_A_SLOPE = 4
 
 
@@ -189,7 +189,7 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: floa
 
 
 def _beside(limit: float, measured: float) -> str:
-    """Say how far a limit of the fit lies from the data's own."""
+    """Return the distance of a limit of the fit from that of the data, in words."""
     if limit > 10.0 * measured:
         return f"{limit / measured:.0f} times above"
     if limit < 0.1 * measured:
@@ -198,14 +198,14 @@ def _beside(limit: float, measured: float) -> str:
 
 
 def _loss_tangent_at_ends(angular_frequency: Array, loss_tangent: Array) -> tuple[float, float]:
-    """Median over the outermost half decade: single points are noisy."""
+    """Return the median over the outermost half decade: single points are noisy."""
     low = angular_frequency <= angular_frequency[0] * END
     high = angular_frequency >= angular_frequency[-1] / END
     return float(np.median(loss_tangent[low])), float(np.median(loss_tangent[high]))
 
 
 def _slopes_at_low_end(master_curve: MasterCurve) -> tuple[float, float] | None:
-    """Slopes of log E' and log E'' over log ω in the lowest half decade; None where too few points show them."""
+    """Return the slopes of log E' and log E'' over log ω in the lowest half decade; None with too few points."""
     low = master_curve.angular_frequency <= master_curve.angular_frequency[0] * END
     frequency = np.log(master_curve.angular_frequency[low])
     if len(frequency) < POINTS_OF_A_SLOPE or np.ptp(frequency) < 0.5 * math.log(END):

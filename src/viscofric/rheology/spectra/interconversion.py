@@ -13,7 +13,7 @@ and, written with s = −r, the zeros of S solve the same equation in rates,
 
     1/E_inf − Σ C_i p_i / (r − p_i) = 0,    p_i = 1/λ_i,   r_k = 1/τ_k,
 
-so that one function serves both ways: level E0, strengths E_k, positions τ_k give strengths C_i, positions λ_i;
+so that one function solves both: level E0, strengths E_k, positions τ_k give strengths C_i, positions λ_i;
 level 1/E_inf, strengths C_i, positions 1/λ_i give strengths E_k, positions 1/τ_k.  Between neighbouring poles
 lies exactly one zero, and one beyond the last: τ_1 < λ_1 < τ_2 < … < τ_n < λ_n.
 
@@ -24,8 +24,8 @@ zero, is known to relative accuracy even where they agree to all digits.  A stre
 
     C_i λ_i = (1/E0) (λ_i − τ_i) Π_{j≠i} (λ_i − τ_j)/(λ_i − λ_j),
 
-all factors positive: poles, zeros and strengths fit each other whatever the rounding of the zeros, so that E(ω) is
-the same from both series.  What limits single strengths is that times are stored rounded: a mode whose neighbour
+all factors positive: poles, zeros and strengths are consistent whatever the rounding of the zeros, so that E(ω) is
+the same from both series.  Single strengths are limited by the rounding of stored times: a mode whose neighbour
 differs by a fraction g of its time has a strength known to about 1e-16/g.
 
 References
@@ -47,16 +47,16 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices
 
 
-#: A distance is bracketed within e^±700 of its pole at worst: so many halvings leave no bit of its logarithm open.
+#: A distance is bracketed within e^±700 of its pole at worst: this many halvings determine all bits of its logarithm.
 _HALVINGS = 64
-#: A mode weaker than this, relative to the strongest, counts as none: it would underflow.
+#: A mode weaker than this, relative to the strongest, is left out: it would underflow.
 _NO_STRENGTH = 1e-200
 #: Newton steps in the logarithm of the distance, after which only rounding is left.
 _POLISHING = 3
 
 
 def merged(strengths: Array, positions: Array) -> tuple[Array, Array]:
-    """Return modes in ascending position, those at one position added up, those without strength left out."""
+    """Return modes in ascending position, those at one position summed, those without strength left out."""
     keep = strengths > _NO_STRENGTH * np.max(strengths, initial=0.0)
     unique, place = np.unique(positions[keep], return_inverse=True)
     return np.bincount(place, weights=strengths[keep], minlength=len(unique)).astype(float), unique
@@ -78,7 +78,7 @@ def reciprocal_modes(level: float, strengths: Array, positions: Array) -> tuple[
     nearest, distance = _zeros(weights * poles, poles)
     near = poles[nearest]
     zeros = near + distance
-    # Differences of a zero from each pole, and from each other zero, to relative accuracy.
+    # Differences of a zero from each pole, and from each other zero, with relative accuracy.
     from_pole = np.abs((near[:, None] - poles[None, :]) + distance[:, None])
     from_zero = np.abs((near[:, None] - near[None, :]) + (distance[:, None] - distance[None, :]))
     own = np.diag(from_pole).copy()
@@ -122,15 +122,15 @@ def _parts(residues: Array, poles: Array, nearest: Indices, side: Array, distanc
 
 
 def _imbalance(residues: Array, poles: Array, nearest: Indices, side: Array, distance: Array) -> Array:
-    """Logarithm of what the poles on the left pull over what level and poles on the right do: falls with x."""
+    """Return ln of the terms of poles on the left over those of level and poles on the right: falls with x."""
     below, above, _ = _parts(residues, poles, nearest, side, distance)
     return np.asarray(np.log(below) - np.log(above))
 
 
 def _closest(residues: Array, poles: Array, nearest: Indices, side: Array, farthest: Array) -> Array:
-    """Return a distance that is surely below that of the zero."""
+    """Return a lower bound of the distance of the zero."""
     below, above, _ = _parts(residues, poles, nearest, side, farthest)
-    # Going nearer to the pole only weakens the other side of the balance.
+    # Nearer to the pole, the other side of the balance only becomes smaller.
     return np.asarray(np.minimum(residues[nearest] / np.where(side > 0.0, above, below), farthest) * 0.5)
 
 

@@ -1,4 +1,4 @@
-"""What every fit of a spectrum minimises: the errors of ln E' and ln E'', and how they change with the modes."""
+"""The objective of every fit of a spectrum: the errors of ln E' and ln E'', and their derivatives by the modes."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 #: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out cannot be separated from
 #: a plateau, nor from the flow of a liquid: its compliance could grow without bound.
 EDGE = math.e
-#: The glass is at most so stiff.  Where the sweeps end in the middle of the transition nothing else bounds it: its
-#: compliance is too small a part of what was measured.
+#: Largest stiffness of the glass.  Where the sweeps end in the middle of the transition nothing else bounds it: its
+#: compliance is too small a part of the measured one.
 STIFFEST = 30.0  # times the largest measured storage modulus
 
 
@@ -58,7 +58,7 @@ class ModulusMisfit:
         return np.concatenate([np.ones((len(self.measured), 1), dtype=complex), self.relaxed(tau)], axis=1)
 
     def residual(self, compliance: ComplexArray) -> Array:
-        """Return ln E' and ln E'' measured less computed, (2N,); infinite where there is no logarithm."""
+        """Return measured minus computed ln E' and ln E'', (2N,); infinite where a modulus is not above zero."""
         modulus = 1.0 / compliance
         if not np.all((modulus.imag > 0.0) & (modulus.real > 0.0)):  # no mode at all
             return np.full(len(self.target), np.inf)

@@ -29,10 +29,10 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
-#: What a table says beyond its ends.
+#: Extrapolation of a table beyond its ends.
 Extrapolation: TypeAlias = Literal["refuse", "plateau"]
 
-#: A frequency beyond an end by no more than rounding is that end.
+#: A frequency beyond an end by less than this is that end.
 _ROUNDING = 1e-12  # of ln ω
 
 
@@ -234,16 +234,16 @@ def _column(values: ArrayLike, name: str) -> Array:
     return column
 
 
-#: Largest joint rms error of log10 E' and log10 E'' that passes for the same material: 12 %.
+#: Largest joint rms error of log10 E' and log10 E'' of modes that represent a table: 12 %.
 LARGEST_ERROR = 0.05
-#: Ratios of neighbouring retardation times, each lattice tried only near the modes of the one before.  A time between
-#: two of the last is met to (ln ratio)²/8 = 2e-4.
+#: Ratios of neighbouring retardation times, each lattice tried only near the modes of the one before.  The error of a
+#: time between two of the last is (ln ratio)²/8 = 2e-4.
 RATIOS = (2.0, 2.0**0.25, 2.0**0.0625)
-#: A joint error that no finer lattice has to improve.
+#: Joint error at which no finer lattice is tried.
 CLOSE = 1e-6
-#: Where a table treats its ends as plateaus, they are fitted over so many decades beyond, at so many points a decade.
+#: Where a table treats its ends as plateaus, decades beyond over which they are fitted, and points per decade.
 PLATEAU_DECADES, PLATEAU_POINTS = 2, 5
-#: A table has no temperature; the verdict on a fit does not depend on it.
+#: A table has no temperature; the assessment of a fit does not depend on it.
 ANY_TEMPERATURE = 298.15
 
 
@@ -274,7 +274,7 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
         if (smaller := joint_error(misfit, closer)) < error:
             modes, error = closer, smaller
     if not error <= LARGEST_ERROR:
-        solid_modes(misfit, lattice(misfit, RATIOS[0]), curve)  # a liquid is refused by its name
+        solid_modes(misfit, lattice(misfit, RATIOS[0]), curve)  # raises LiquidError
         raise InputError(
             f"no retardation modes describe this table of moduli: the best leave an rms error of {error:.2g} decades "
             f"of E' and E'', more than {LARGEST_ERROR:g}, so that they are not one material's; smooth the table, or "
@@ -285,7 +285,7 @@ def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
 
 
 def what_was_fitted(spectrum: RetardationSpectrum) -> tuple[str, ...]:
-    """Say in sentences that modes stand for a table, and how well."""
+    """Return sentences that modes represent a table, and with which misfit."""
     fit = spectrum.fit
     if fit is None or fit.rms_storage is None or fit.rms_loss is None:
         return ()

@@ -1,4 +1,4 @@
-"""Spectra on a lattice of retardation times by non-negative least squares: most modes come out as zero."""
+"""Spectra on a lattice of retardation times by non-negative least squares: most modes are zero."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _relative_start(columns: ComplexArray, measured: ComplexArray) -> Array:
     from scipy.optimize import nnls
 
     weighted = columns * measured[:, None]
-    scale = np.linalg.norm(weighted, axis=0)  # columns of one size, so that no unit matters
+    scale = np.linalg.norm(weighted, axis=0)  # columns of equal norm, independent of units
     rows = np.concatenate([weighted.real, weighted.imag]) / scale
     target = np.concatenate([np.ones(len(measured)), np.zeros(len(measured))])
     strengths, _ = nnls(rows, target, maxiter=50 * columns.shape[1])

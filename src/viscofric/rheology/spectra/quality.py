@@ -1,4 +1,4 @@
-"""How well a fitted spectrum describes its measurement, and which of its plateaus are extrapolated."""
+"""Quality of a fitted spectrum: its misfit to the measurement, and which of its plateaus are extrapolated."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from viscofric.rheology.spectra.response import shown_modulus
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
-#: Method of a spectrum that was found from friction.
+#: Method of a spectrum that was inferred from friction.
 FROM_FRICTION = "friction"
 _REACHED = "reached by the sweeps"
 

@@ -1,4 +1,4 @@
-"""Smooth spectra: the curvature of ln C over ln τ is held down, as strongly as the measurement allows."""
+"""Smooth spectra: the curvature of ln C over ln τ is penalised, as strongly as the measurement allows."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: Strengths that are tried, from too strong to too weak; each fit starts from the one before.
+#: Strengths tried, from too strong to too weak; each fit starts from the one before.
 STRENGTHS = np.geomspace(1.0, 1e-5, 26)
 FOLDS = 5
 ITERATIONS = 60
 CONVERGED = 1e-5  # relative fall of the objective
-#: An evenly spread spectrum is a start that no strength is far from.
+#: Starting spectrum, even in ln τ: a suitable start for any strength.
 FIRST_STRENGTH_ITERATIONS = 200
 
 
@@ -64,7 +64,7 @@ def _curvature(tau: Array) -> Array:
 
 
 def _even(misfit: ModulusMisfit, tau: Array) -> Array:
-    """Return logarithms of the compliances that are seen at each mode's own frequency."""
+    """Return logarithms of the measured compliances at each mode's own frequency."""
     seen = np.interp(-np.log(tau), np.log(misfit.angular_frequency), np.log(np.abs(misfit.measured)))
     spacing = min(1.0, float(np.mean(np.diff(np.log(tau)))))
     return np.append(-np.log(misfit.measured.real.max()), np.log(0.3 * spacing) - seen)
@@ -90,7 +90,7 @@ def mean_square(misfit: ModulusMisfit, modes: Modes) -> float:
 
 
 def corner(misfit: ModulusMisfit, fits: list[Modes]) -> int:
-    """Return the place of the L-curve's corner: where ln misfit over ln roughness is bent most.
+    """Return the index of the L-curve's corner: the largest curvature of ln misfit over ln roughness.
 
     References
     ----------
@@ -102,7 +102,7 @@ def corner(misfit: ModulusMisfit, fits: list[Modes]) -> int:
     slope = np.gradient(across), np.gradient(up)
     bend = slope[0] * np.gradient(slope[1]) - slope[1] * np.gradient(slope[0])
     bend /= (slope[0] ** 2 + slope[1] ** 2) ** 1.5 + 1e-12
-    return 2 + int(np.argmin(bend[2:-2]))  # from less misfit to more roughness it turns clockwise
+    return 2 + int(np.argmin(bend[2:-2]))  # towards more roughness the curve turns clockwise
 
 
 def cross_validated(misfit: ModulusMisfit, tau: Array, isotherm: Array) -> int:

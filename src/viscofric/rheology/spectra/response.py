@@ -117,7 +117,7 @@ def _times(values: ArrayLike) -> Array:
 
 
 def checked_times(values: ArrayLike, name: str) -> Array:
-    """Return times at which a step response is asked for: not below zero."""
+    """Return the times of a step response; InputError if one is below zero."""
     time = numbers(values, "time", infinite=True)
     if not np.all(time >= 0.0):
         raise InputError(f"time of a {name} must not be below zero, nor NaN.", code="not-positive")
@@ -125,7 +125,7 @@ def checked_times(values: ArrayLike, name: str) -> Array:
 
 
 def checked_shift(alpha: float, b: float) -> tuple[float, float]:
-    """Return shift factors, and refuse those that are not above zero and finite."""
+    """Return shift factors; InputError unless they are above zero and finite."""
     return positive(alpha, "dimensionless", "alpha"), positive(b, "dimensionless", "b")
 
 
@@ -139,7 +139,7 @@ def mode_column(values: ArrayLike, name: str, unit: str) -> Array:
 
 
 def shown_modulus(modulus: float) -> str:
-    """Write a modulus in Pa as users read it."""
+    """Return a modulus in Pa as text for users."""
     for unit, size in (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)):
         if modulus >= size:
             return f"{modulus / size:.4g} {unit}"

@@ -1,4 +1,4 @@
-"""The two spectra of one rubber at one temperature: retardation (creep), and relaxation, a Prony series."""
+"""The two spectra of a material at one temperature: retardation (creep), and relaxation, a Prony series."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 
-#: How exactly 1/E_inf + ΣC must meet 1/E0, relative to 1/E0.
+#: Largest difference of 1/E_inf + ΣC from 1/E0, relative to 1/E0.
 BALANCE = 1e-6
 
 
@@ -111,7 +111,7 @@ class RetardationSpectrum(FrequencyResponse):
     def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
         omega = numbers(angular_frequency, "angular_frequency")
-        # Mode by mode: a grid of a million frequencies would not fit into memory forty times.
+        # Mode by mode: a grid of a million frequencies does not fit into memory forty times.
         total = np.full(omega.shape, 1.0 / self.E_inf, dtype=complex)
         for compliance, time in zip(self.C, self.tau, strict=True):
             total += compliance / (1.0 + 1j * omega * time)

@@ -1,4 +1,4 @@
-"""Spectra of few modes: retardation times are free, and there are no more of them than an error asks for."""
+"""Spectra of few modes: retardation times are free, and their number is the smallest that meets an error."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 ITERATIONS = 40
 CONVERGED = 1e-4  # relative fall of the sum of squares
-#: A mode that holds less than this part of the compliance at its own frequency is none.
+#: A mode with less than this part of the compliance at its own frequency is left out.
 NEGLIGIBLE = 1e-6
-#: The search for the fewest modes strides by this part of their number.
+#: The search for the fewest modes changes their number in steps of this part of it.
 STRIDES = 5
 #: Modes whose times are closer than this are one.
 SAME = 1e-3  # of ln τ
@@ -34,8 +34,7 @@ def joint_error(misfit: ModulusMisfit, modes: Modes) -> float:
 def few_modes(misfit: ModulusMisfit, number: int) -> Modes:
     """Fit a number of modes whose retardation times are free.
 
-    They begin evenly spread over the measured frequencies, and never leave them by more than the factor that
-    `ModulusMisfit.ends` allows.
+    They start evenly spaced over the measured frequencies, and stay within the limits of `ModulusMisfit.ends`.
     """
     low, high = -math.log(misfit.angular_frequency[-1]), -math.log(misfit.angular_frequency[0])
     ends = np.linspace(low, high, number + 1)
@@ -92,8 +91,8 @@ def _tidied(misfit: ModulusMisfit, modes: Modes) -> Modes:
 def fewest_modes(misfit: ModulusMisfit, largest_error: float, most: int) -> Modes:
     """Return the fit of fewest modes whose joint error is not above a given one, or of `most` modes if none is.
 
-    The error falls with the number of modes.  The search begins at one mode in a decade, where it falls most
-    steeply, strides up or down to numbers that enclose the answer, and halves the distance between them.
+    The error falls with the number of modes.  The search begins at one mode per decade, where it falls most steeply,
+    steps up or down until the answer is enclosed, and bisects.
     """
     fits: dict[int, Modes] = {}
 

@@ -1,4 +1,4 @@
-"""Retardation spectrum from a master curve: non-negative, smooth or sparse modes; E' and E'' count equally."""
+"""Retardation spectrum from a master curve: non-negative, smooth or sparse modes; E' and E'' have equal weight."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 Method: TypeAlias = Literal["non-negative", "regularised", "sparse"]
 METHODS = ("non-negative", "regularised", "sparse")
-#: A sparse spectrum may err by so much more than one of many modes, unless another error is requested.
+#: Factor by which the error of a sparse spectrum may exceed that of many modes, unless another error is requested.
 ALLOWANCE = 1.05
-#: Curvature takes three neighbours; fewer than four are a straight line or nearly so.
+#: Curvature needs three neighbours; fewer than four are nearly a straight line.
 LEAST_SMOOTH = 4
-#: So many points at least for every sparse mode, which has two parameters and is seen in two moduli.
+#: Fewest points per sparse mode, which has two parameters and affects two moduli.
 POINTS_PER_MODE = 3
 
 
@@ -121,7 +121,7 @@ def _curve_of(given: object) -> MasterCurve:
 
 
 def as_spectrum(modes: Modes) -> RetardationSpectrum:
-    """Return the spectrum of those modes that have compliance."""
+    """Return the spectrum of the modes with compliance."""
     keep = modes.C > 0.0
     C = modes.C[keep]
     return RetardationSpectrum(1.0 / (modes.glass + float(C.sum())), 1.0 / modes.glass, C, modes.tau[keep])

@@ -1,1 +1,1 @@
-"""Uncertainty of a whole rubber: samples of it, as other measurements might have given them."""
+"""Uncertainty of a whole material: bootstrap samples of it."""

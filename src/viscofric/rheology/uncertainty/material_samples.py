@@ -1,4 +1,4 @@
-"""Drawn materials and what follows from them: bands of the moduli, standard errors, bands of anything else."""
+"""Samples of a material, and their statistics: bands of the moduli, standard errors, bands of derived quantities."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 class Band(NamedTuple):
     """Lower limit, middle (the median) and upper limit, each an array of one shape.
 
-    Limits of complex moduli hold for E' (their real part) and for E'' (their imaginary part) each by itself.
+    Limits of complex moduli hold for E' (their real part) and for E'' (their imaginary part) separately.
     """
 
     lower: NDArray[Any]
@@ -200,5 +200,5 @@ def _widened(band: Band, decades: Array) -> Band:
 
 def _limits(values: NDArray[Any], level: float) -> Band:
     outside = 0.5 * (1.0 - share(level, "level", example=0.95))
-    # Weibull's plotting position: a further sample lies between the limits with just this probability.
+    # Weibull's plotting position: a further sample lies between the limits with exactly this probability.
     return Band(*np.quantile(values, [outside, 0.5, 1.0 - outside], axis=0, method="weibull"))

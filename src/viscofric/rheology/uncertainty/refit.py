@@ -1,4 +1,4 @@
-"""A spectrum fitted anew to other draws of its master curve, by its own method and starting from it."""
+"""A spectrum fitted again to samples of its master curve, by its own method and starting from it."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
-#: Refits begin at the answer but for the noise, and need not find it closer than that noise.
+#: Refits start at the fit to the measurement; a tolerance well below the noise is sufficient.
 CONVERGED = 1e-3
 
-#: Times closer than this are the same one of the lattice.
+#: Times closer than this are the same time of the lattice.
 SAME = 1e-6  # of ln τ
 
 
@@ -43,13 +43,15 @@ class Refit:
             ends = ModulusMisfit(np.array([lowest, highest]), np.full(2, 1.0 + 1.0j))
             tau = lattice(ends, spectrum.fit.tau_ratio)
             away = np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).min(axis=1)
-            tau = np.sort(np.append(tau, self.start.tau[away > SAME]))  # the slowest may lie between two of the lattice
+            tau = np.sort(
+                np.append(tau, self.start.tau[away > SAME])
+            )  # the slowest may lie between two times of the lattice
             C = np.zeros(len(tau))
             C[np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).argmin(axis=1)] = self.start.C
             self.start = Modes(self.start.glass, C, tau)
 
     def __call__(self, misfit: ModulusMisfit) -> Modes:
-        """Fit; the modes are always as many, zeros included."""
+        """Return the fitted modes, always the same number, zeros included."""
         if not self.on_lattice:
             return sparse.moved_modes(misfit, self.start, tidy=False, converged=CONVERGED)
         low, high = misfit.ends

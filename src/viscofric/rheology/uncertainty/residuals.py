@@ -1,6 +1,6 @@
-"""Residuals of a fit: noise, how large in each isotherm and how alike along it, and the systematic misfit beyond it.
+"""Residuals of a fit: size and correlation of the noise along each isotherm, and the systematic misfit beyond it.
 
-A systematic misfit is alike over neighbouring points, and no bootstrap of noise shows it.
+A systematic misfit is correlated over neighbouring points, and no bootstrap of noise shows it.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
 
 
-#: The scatter of single isotherms is compared only with so many points.
+#: Fewest points of an isotherm for a scatter of its own.
 LEAST_POINTS = 3
-#: A point that the fit has followed further than this shows no error.
+#: A point of larger leverage shows no error.
 LARGEST_LEVERAGE = 0.9
-#: Neighbours more alike than this would be an offset of the whole isotherm, which its own shift takes up.
+#: A larger correlation of neighbours would be an offset of the whole isotherm, which its own shift absorbs.
 MOST_ALIKE = 0.95
 
 
@@ -68,10 +68,10 @@ class Residuals:
 
 
 def _moderated(squares: Array, counts: Integers) -> Array:
-    """Return the variance of each isotherm, drawn towards the common one as chance asks.
+    """Return the variance of each isotherm, shrunk towards the common one.
 
-    With ν0 the freedom of the common variance s0², that of an isotherm is (ν0 s0² + Σ r²)/(ν0 + n).  ν0 follows
-    from how much more ln s² scatters over the isotherms than the ψ'(n/2) of pure chance: ψ'(ν0/2) is the rest.
+    With ν0 the freedom of the common variance s0², that of an isotherm is (ν0 s0² + Σ r²)/(ν0 + n).  The scatter of
+    ln s² over the isotherms exceeds the ψ'(n/2) of pure chance by ψ'(ν0/2), which gives ν0.
     """
     from scipy.optimize import brentq
     from scipy.special import polygamma
@@ -88,19 +88,19 @@ def _moderated(squares: Array, counts: Integers) -> Array:
     return np.asarray((freedom * common + squares) / (freedom + counts))
 
 
-#: Residuals are averaged over so many neighbours along an isotherm: noise is averaged out, a misfit is not.
+#: Number of neighbours along an isotherm over which residuals are averaged: noise averages out, a misfit does not.
 NEIGHBOURS = 5
-#: Averages count as misfit by what they exceed so many times the variance that noise leaves in them.
+#: The misfit is the excess of the averages' squares over this many times the variance that noise leaves in them.
 NOISE = 3.0
-#: The misfit at a frequency is that of all points so near to it, whatever their isotherm.
+#: The misfit at a frequency is that of all points within this distance, whatever their isotherm.
 WINDOW = 0.5  # decades
-#: A note mentions it from this size on: sweeps of one sample repeat no better.
+#: Smallest misfit for a note: sweeps of one sample repeat no better.
 WORTH_A_NOTE = 0.02  # decades
 
 
 @dataclass(frozen=True, eq=False)
 class SystematicMisfit:
-    """Root mean square of what a fit misses beyond noise.
+    """Root mean square of the misfit of a fit beyond noise.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ class SystematicMisfit:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """One sentence where the misfit is worth a note."""
+        """Return a note on the misfit, if it is large enough for one."""
         worst = np.unravel_index(int(np.argmax(self.size)), self.size.shape)
         largest = float(self.size[worst])
         if largest < WORTH_A_NOTE:

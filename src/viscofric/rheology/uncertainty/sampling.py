@@ -1,4 +1,4 @@
-"""Uncertainty of a whole material: spectra and shift factors drawn as other measurements might have given them."""
+"""Uncertainty of a whole material: bootstrap samples of spectrum and shift factors."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 
 
 FEWEST_SAMPLES = 20
-#: Ranges that a spectrum states of its master curve agree with it to this, relative; files round.
+#: Relative tolerance of the ranges that a spectrum states of its master curve; files round.
 SAME = 1e-3
-#: Scatter of shift factors about a law that makes no difference, and that which explains anything; decades.
+#: Negligible scatter of shift factors about a law, and scatter that explains any misfit; decades.
 SCATTER = 1e-7, 10.0
 
 
@@ -162,7 +162,7 @@ def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> 
 
 
 def _misfit(curve: MasterCurve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -> SystematicMisfit:
-    """Return what the spectrum misses of the master curve beyond noise."""
+    """Return the misfit of the spectrum to the master curve beyond noise."""
     ratio = curve.complex_modulus, spectrum.complex_modulus(curve.angular_frequency)
     residual = np.stack([np.log10(ratio[0].real / ratio[1].real), np.log10(ratio[0].imag / ratio[1].imag)], axis=1)
     return systematic_misfit(np.log10(curve.angular_frequency), residual, _isotherm_of_points(curve, shifts))
@@ -177,7 +177,7 @@ def _refitted(
     E'' that all points of an isotherm share.
     """
     curve, isotherm = fit.master_curve, _isotherm_of_points(fit.master_curve, fit.shift_factors)
-    # By isotherm, frequencies ascending in each: errors are alike along isotherms.
+    # By isotherm, frequencies ascending in each: errors are correlated along isotherms.
     order = np.lexsort((curve.angular_frequency, isotherm))
     isotherm, omega = isotherm[order], curve.angular_frequency[order]
     modulus = spectrum.complex_modulus(omega)
@@ -202,9 +202,9 @@ def _refitted(
 
 
 def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Array:
-    """Return residuals (N, 2) less the part of each isotherm's mean that is its offset, of standard deviation (2,).
+    """Return residuals (N, 2) minus the part of each isotherm's mean that is its offset, of standard deviation (2,).
 
-    Offsets are drawn by themselves; left in the residuals, they would pass for noise that is alike along isotherms.
+    Offsets are drawn separately; in the residuals they would be taken for noise that is correlated along isotherms.
     """
     number = np.unique(isotherm, return_inverse=True)[1]
     count = np.bincount(number)[:, None]
@@ -231,7 +231,7 @@ def _leverage(misfit: ModulusMisfit, spectrum: RetardationSpectrum, isotherm: In
 
 
 def _isotherm_of_points(curve: MasterCurve, shifts: ShiftFactors) -> Integers:
-    """Return the place of every point's temperature among those of the shift factors."""
+    """Return the index of every point's temperature among those of the shift factors."""
     place = np.abs(curve.temperature[:, None] - shifts.temperatures).argmin(axis=1)
     return np.asarray(place, dtype=np.int64)
 
@@ -239,7 +239,7 @@ def _isotherm_of_points(curve: MasterCurve, shifts: ShiftFactors) -> Integers:
 def normal_deviates(random: np.random.Generator, covariance: Array, samples: int) -> Array:
     """Draw rows of normal deviates with a covariance, which may be singular.
 
-    By its symmetric root: eigenvectors of equal eigenvalues differ from one machine to another, and draws with them.
+    By its symmetric root: eigenvectors of equal eigenvalues differ between machines, and samples drawn with them.
     """
     values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
     root = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
@@ -249,7 +249,7 @@ def normal_deviates(random: np.random.Generator, covariance: Array, samples: int
 def _tables(
     random: np.random.Generator, fit: Superposition, samples: int
 ) -> tuple[list[ShiftFactors], Sequence[VerticalShift | None], Array]:
-    """Draw shift factors, vertical shifts where they were measured, and offsets: all at once, for they err together.
+    """Draw shift factors, vertical shifts where they were measured, and offsets together: their errors are correlated.
 
     Offsets are those of log10 E' and log10 E'', (samples, isotherms, 2).
     """
@@ -280,8 +280,8 @@ def _tables(
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
     """Return the law of every sample: its constants follow linearly from the errors of the shift factors.
 
-    The law's own covariance shows how much the table scatters about it beyond its uncertainty
-    (`ShiftFactors.law`); so much scatter is drawn too.
+    The law's own covariance shows the scatter of the table about it beyond its uncertainty (`ShiftFactors.law`);
+    this scatter is drawn too.
     """
     differences = np.diff(np.eye(len(shifts.temperatures)), axis=0)
     gradient = differences @ law.gradient(shifts.temperatures)
@@ -304,5 +304,5 @@ def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: 
     gain = covariance_and_gain(scatter)[1]
     errors = (moved + scatter * random.standard_normal(moved.shape)) @ gain.T
     drawn = constants * np.exp(errors) if np.all(constants > 0.0) else constants + scale * errors
-    # A draw is to answer, and to refuse, where the law does.
+    # A sample is valid at the same temperatures as the law.
     return [replace(law.with_parameters(row), fitted_range=law.fitted_range, bounded=law.bounded) for row in drawn]
