@@ -1,1 +1,1 @@
-"""Time–temperature superposition: isotherms laid on one master curve, and whether they may be."""
+"""Time–temperature superposition: isotherms shifted onto one master curve, and whether superposition holds."""

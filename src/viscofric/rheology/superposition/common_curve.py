@@ -1,10 +1,10 @@
-"""One smooth curve through shifted isotherms: a spline as rough as the data ask for.
+"""One smooth curve through shifted isotherms: a spline whose smoothness follows from the data.
 
 log E' and log E'' over log reduced frequency, or friction over reduced speed, are cubic splines; the square of their
-third derivative is penalised.  How much is found by restricted maximum likelihood (S. N. Wood, J. R. Stat. Soc. B 73
-(2011) 3), for each quantity: noisy sweeps get a smoother curve.  The errors of the shifts depend on it.  A curve that
-follows the noise has noise in its slope, and that passes for information on the shifts: at 3 % noise, 95 % bands from
-splines without penalty hold 88 %.
+third derivative is penalised.  The penalty's factor follows from restricted maximum likelihood (S. N. Wood, J. R. Stat.
+Soc. B 73 (2011) 3), for each quantity: noisy sweeps get a smoother curve.  The errors of the shifts depend on it.  A
+curve that follows the noise has noise in its slope, which would be taken for information on the shifts: at 3 % noise,
+95 % bands from splines without penalty cover 88 %.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: A knot for every so many points, but not closer than so many decades: spectra have no sharper features.
+#: Points per knot, and the smallest distance of knots in decades: spectra have no sharper features.
 POINTS_PER_KNOT = 5
 KNOT_SPACING = 0.4
-#: Smoothing parameters that are tried, decades⁵.
+#: Smoothing parameters tried, decades⁵.
 SMOOTHING = np.logspace(-8.0, 6.0, 57)
 #: Order of the derivative whose square is penalised; parabolas are free.
 ROUGHNESS = 3
-#: Keeps bases solvable that the points do not determine; relative.
+#: Regularises bases that the points do not determine; relative.
 RIDGE = 1e-10
 SMALLEST_SCATTER = 1e-6  # decades; noise-free data would have none
 
@@ -79,7 +79,7 @@ class Curves:
     residual: Array  # (n, m), points minus curves, times √w
 
     def cost(self, weights: Array) -> float:
-        """Return what the fit minimised: squared residuals and penalised roughness of all quantities, weighted (m,)."""
+        """Return the objective of the fit: squared residuals and penalised roughness, with weights (m,)."""
         rough = np.einsum("im,ij,jm->m", self.coefficients, self.smoother.penalty, self.coefficients)
         return float(weights @ (np.sum(self.residual**2, axis=0) + self.smoother.smoothing * rough))
 
@@ -125,7 +125,7 @@ def _knots(frequency: Array) -> tuple[Array, int]:
 def _splines(knots: Array, degree: int, at: Array) -> Array:
     """Return basis functions at points (n,), and their first and second derivatives: (3, n, K).
 
-    Beyond the ends the outermost polynomials go on.  C. de Boor, J. Approx. Theory 6 (1972) 50.
+    Beyond the ends the outermost polynomials continue.  C. de Boor, J. Approx. Theory 6 (1972) 50.
     """
     size, count = len(knots) - degree - 1, len(at)
     interval = np.clip(np.searchsorted(knots, at, side="right") - 1, degree, size - 1)
@@ -164,9 +164,9 @@ def _ridged(square: Array) -> Array:
 def _restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[Array, Array]:
     """Return the smoothing of each quantity that maximises its restricted likelihood, and the scatter then.
 
-    In the basis that makes BᵀB the identity and the penalty diagonal (d), the likelihood of all smoothings λ
-    follows at once: −2 log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and
-    q the number of coefficients that the penalty leaves free; S/(n − q) is the squared scatter.
+    In the basis that makes BᵀB the identity and the penalty diagonal (d), the likelihood of all smoothings λ is
+    −2 log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and q the number of
+    coefficients without penalty; S/(n − q) is the squared scatter.
     """
     factor = np.linalg.cholesky(_ridged(basis.T @ basis))
     whitened = np.linalg.solve(factor, np.linalg.solve(factor, penalty).T)

@@ -1,9 +1,8 @@
-"""All isotherms at once: shifts onto one smooth curve of E' and one of E'', with their covariance.
+"""Shifts of all isotherms together onto one smooth curve of E' and one of E'', with their covariance.
 
 For given shifts the common curves follow by linear least squares (`common_curve`), so only the shifts are sought
-(variable projection: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413).  Every measured point
-counts once, which is what makes the covariance of the shifts meaningful; pairwise overlaps would count it
-repeatedly.
+(variable projection: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413).  Every measured point is used once,
+so that the covariance of the shifts is meaningful; pairwise overlaps would use it repeatedly.
 """
 
 from __future__ import annotations
@@ -28,11 +27,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.quantity import Quantities
 
 
-OFFSET_PASSES = 3  # each with the curves smoothed anew beside the offsets that were found
+OFFSET_PASSES = 3  # each smooths the curves again, with the offsets found
 LARGEST_STEP = 0.3  # decades, in one iteration
-PASSES = 8  # each with knots and smoothing chosen anew
+PASSES = 8  # each chooses knots and smoothing again
 CONVERGED = 1e-5  # decades
-#: Second derivatives are taken for this part at least of what Gauss and Newton say.
+#: Second derivatives are at least this part of those of Gauss and Newton.
 SMALLEST_PART = 0.2
 
 
@@ -40,9 +39,9 @@ SMALLEST_PART = 0.2
 class CommonShifts:
     """Shifts log10 α (n,) and log10 b (n,), zero at the reference, and their covariances (n, n); in decades.
 
-    The cross covariance has log10 α in its rows and log10 b in its columns.  `parted` are the places of neighbours
+    The cross covariance has log10 α in its rows and log10 b in its columns.  `parted` are the indices of neighbours
     that were joined pair by pair because a common curve moved them past each other; `freedom` are the degrees of
-    freedom that the scatter of the points was found from; `offsets` are those of whole isotherms, where sought.
+    freedom of the scatter of the points; `offsets` are those of whole isotherms, where fitted.
     """
 
     values: Array
@@ -98,7 +97,7 @@ def common_shifts(
 
 
 def fitted(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShifts:
-    """Fit all isotherms as they are, of moduli or of any other quantities; errors from the scatter of the points."""
+    """Fit all isotherms of any quantities without offsets; errors follow from the scatter of the points."""
     search = _search(ShiftProblem(sweeps, joins, gauge), joins)
     covariance, freedom, _ = _covariance(search)
     return _result(search, covariance, freedom)
@@ -106,7 +105,7 @@ def fitted(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge) -> CommonShi
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """Where a search for the shifts has come to, the curves that belong to it, and the scatter about them."""
+    """State of a search for the shifts: parameters, curves, and the scatter about them."""
 
     problem: ShiftProblem
     parameters: Array
@@ -115,7 +114,7 @@ class _Search:
 
     @property
     def signal(self) -> Array:
-        """How clearly the curves slope at each isotherm (n,): their squared slope in units of its noise."""
+        """Squared slope of the curves at each isotherm, in units of its noise, (n,)."""
         return self.problem.signal(self.parameters, self.smoothers)
 
 
@@ -141,7 +140,7 @@ def _torn_apart(
 
 
 def _search(problem: ShiftProblem, joins: list[Join]) -> _Search:
-    """Find the shifts, from where neighbours were joined pair by pair."""
+    """Find the shifts, starting from the joins of neighbours."""
     shifts = problem.gauge.brought_to(-np.concatenate([[0.0], np.cumsum([found.step for found in joins])]))
     parameters = np.concatenate([shifts, np.zeros(len(problem.start) - problem.size)])
     for _ in range(PASSES):
@@ -155,7 +154,7 @@ def _search(problem: ShiftProblem, joins: list[Join]) -> _Search:
 
 
 def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantities) -> CommonShifts:
-    """Go on with offsets of whole isotherms; errors hold these too, and what profiles of the steps show."""
+    """Continue with offsets of whole isotherms; errors include these, and the profiles of the steps."""
     problem, expected = search.problem, None
     for _ in range(OFFSET_PASSES):
         offsets, gradient = _offsets(search, expected)
@@ -179,7 +178,7 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
 
 
 def _result(search: _Search, covariance: Array, freedom: float) -> CommonShifts:
-    """Part what belongs to horizontal from what belongs to vertical shifts."""
+    """Separate horizontal from vertical shifts."""
     problem, size = search.problem, search.problem.size
     values, vertical = problem.split(search.parameters)
     nothing = np.zeros((size, size))
@@ -214,11 +213,11 @@ def _descend(problem: ShiftProblem, parameters: Array, smoothers: list[Smoother]
 
 
 def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, float, Array]:
-    """Return the covariance of the shifts, the curvature of what is minimised around real scatter, and its freedom.
+    """Return the covariance of the shifts, the degrees of freedom of the scatter, and the inverse of the curvature.
 
-    The exact second derivatives are taken, not those of Gauss and Newton: these count the noise in the slope of
-    the curves for information.  Where they are small or negative (a plateau, far from quadratic), a part of the
-    latter is kept.
+    The exact second derivatives are taken, not those of Gauss and Newton, which take the noise in the slope of the
+    curves for information.  Where they are small or negative (a plateau, far from quadratic), a part of the latter is
+    kept.
     """
     problem, ways = search.problem, search.problem.ways
     state = problem.state(search.parameters, search.smoothers, search.noise, expected, exact=True)
@@ -229,7 +228,7 @@ def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, 
     back = np.linalg.solve(root.T, modes)
     inverse = back / np.maximum(parts, SMALLEST_PART) @ back.T
     prior = ways.T @ problem.prior.T @ problem.prior @ ways
-    # What the shifts take from the scatter: more than one degree of freedom each, as they follow noise in slopes.
+    # The shifts reduce the scatter by more than one degree of freedom each, as they follow noise in slopes.
     taken = float(np.trace(inverse @ (normal - prior)))
     left = max(state.freedom - taken, 1.0)
     score = state.freedom / left * score
@@ -237,7 +236,7 @@ def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, 
 
 
 def _offsets(search: _Search, expected: Array | None) -> tuple[Offsets, Array]:
-    """Find the variance of offsets of whole isotherms, and what each adds to the gradient that shifts follow."""
+    """Return the variance of offsets of whole isotherms, and the effect of each on the gradient by the shifts."""
     problem, ways = search.problem, search.problem.ways
     information, score, gradient = problem.with_offsets(search.parameters, search.smoothers, expected)
     turned = np.eye(len(score))[:, len(ways) - ways.shape[1] :]

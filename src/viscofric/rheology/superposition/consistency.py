@@ -1,4 +1,4 @@
-"""Whether time–temperature superposition holds: isotherms beside each other, and E' against E''."""
+"""Whether time–temperature superposition holds: comparison of neighbouring isotherms, and of E' with E''."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ if TYPE_CHECKING:
 #: glassy sweep aside), an NBR/PVC foam 0.015, a filled adhesive 0.029, an EVA that melts 0.080; rubbers planted
 #: with 0.3, 1 and 3 % noise 0.002, 0.002 and 0.005.
 REPRODUCIBILITY = 0.02  # decades
-#: Neighbours lie as far apart, on the whole, as noise and reproducibility explain together.
+#: Up to this, noise and reproducibility explain the distances of neighbours on the whole.
 LARGEST_FIGURE = 1.0
-#: Up to this it holds only roughly: a master curve of such sweeps (the adhesive has 1.2) is of use, but is off by more
-#: than they repeat.
+#: Up to this it holds only roughly: a master curve of such sweeps (the adhesive has 1.2) is useful, but its error
+#: exceeds their reproducibility.
 ROUGH_FIGURE = 2.0
-#: A single pair may lie so many times farther apart: one sweep that went wrong is no failure of superposition (the
-#: worst pair of the acrylic has 2.4, that of the foam 1.5, of the EVA 7).
+#: A single pair may differ by this many times more: one faulty sweep is no failure of superposition (the worst pair of
+#: the acrylic has 2.4, that of the foam 1.5, of the EVA 7).
 ONE_PAIR = 3.0
-#: Of these the worst are named in the sentences.
+#: Number of the worst pairs that are named in the sentences.
 _NAMED = 3
 
 
@@ -56,8 +56,7 @@ class Diagram:
     x, y : (n,) array
         SI units; angles in rad.
     temperature : (n,) array
-        Of the isotherm that each point belongs to, K; the points of one isotherm stand together, ascending in
-        frequency.
+        Of the isotherm of each point, K; the points of one isotherm are consecutive, ascending in frequency.
     x_name, y_name : str
         What is plotted, as in ``"|E*|"``.
     """
@@ -241,7 +240,7 @@ def _verdict(
     unidentified: tuple[tuple[float, float], ...],
     own: OwnShifts,
 ) -> Verdict:
-    """Return the verdict in a word: the worst that was found."""
+    """Return the worst verdict of the single checks."""
     if not neighbours:
         return "untested"
     if figure > LARGEST_FIGURE:
@@ -263,7 +262,7 @@ def _words(
     unidentified: tuple[tuple[float, float], ...],
     vertical_shift: VerticalShift | None,
 ) -> tuple[str, ...]:
-    """Say whether superposition holds, and whether it does with these shift factors."""
+    """Return sentences on whether superposition holds, in general and with these shift factors."""
     wrong = (f"The shift factors do not join the isotherms: {own.clause}.",) if own.wrong else ()
     if verdict == "untested":
         sentence = (
@@ -327,7 +326,7 @@ def _overlap(figure: float, misfit: float) -> tuple[str, ...]:
 
 
 def _gaps(isotherms: tuple[Isotherm, ...], quality: OverlapQuality) -> tuple[str, ...]:
-    """Say that what does not overlap is not tested."""
+    """Return a note that isotherms without overlap are not tested."""
     if not quality.gaps:
         return ()
     at = [isotherms[place : place + 2] for place in quality.gaps[:_NAMED]]

@@ -1,4 +1,4 @@
-"""The gauge of a superposition: where shifts are zero, which are held, and which follow from the trend (plateaus)."""
+"""The gauge of a superposition: where shifts are zero, which are fixed, and which follow from the trend (plateaus)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Gauge:
     free_vertical: bool = False  # whether vertical shifts are fitted
 
     def free(self) -> tuple[Array, Array]:
-        """Return shifts that meet what is held, and an orthonormal basis of the ways to change them."""
+        """Return shifts that meet the fixed ones, and an orthonormal basis of their possible changes."""
         size = len(self.weights)
         full = 2 * size if self.free_vertical else size
         rows = [np.eye(full)[place] for place in self.held]
@@ -40,7 +40,7 @@ class Gauge:
         return np.linalg.lstsq(matrix, np.array(values), rcond=None)[0], right[len(rows) :].T
 
     def within(self, first: int, last: int) -> Gauge:
-        """Return the same for some of the isotherms; about the nearest of them if the reference is not among them."""
+        """Return the gauge of some of the isotherms; about the nearest of them if the reference is not among them."""
         inside = slice(first, last)
         weights = self.weights[inside]
         if weights.sum() < 1.0 - 1e-9:
@@ -49,23 +49,23 @@ class Gauge:
         return Gauge(self.inverse_temperatures[inside], weights, self.vertical_weights[inside], held)
 
     def brought_to(self, shifts: Array) -> Array:
-        """Return shifts moved so that they meet what is held, by a correction that is straight in 1/T between."""
+        """Return shifts corrected to meet the fixed ones, by a correction that is linear in 1/T between them."""
         shifts = shifts - self.weights @ shifts
         changes = {float(self.weights @ self.inverse_temperatures): 0.0}
         changes |= {float(self.inverse_temperatures[place]): v - shifts[place] for place, v in self.held.items()}
         points = np.array(sorted(changes.items()))
         shifts = shifts + np.interp(self.inverse_temperatures, points[:, 0], points[:, 1])
-        start, ways = self.free()  # what is left of the condition at a reference between isotherms
+        start, ways = self.free()  # the remaining condition at a reference between isotherms
         parameters = np.concatenate([shifts, np.zeros(len(start) - len(shifts))])
         return np.asarray((start + ways @ (ways.T @ (parameters - start)))[: len(shifts)])
 
 
-#: An isotherm fixes its shift if the squared slope of the curves is so many times what noise makes of it.  Noise alone
-#: gives 0.3 to 9, sweeps that fix a step to 0.1 decades 20 and more.
+#: An isotherm determines its shift if the squared slope of the curves is this many times its noise.  Noise alone gives
+#: 0.3 to 9, sweeps that determine a step to 0.1 decades 20 and more.
 CLEAR = 15.0
-#: The trend is taken from so many of the last steps that are fixed.
+#: Number of the last determined steps that the trend is taken from.
 TREND_STEPS = 2
-#: Beyond, the rate of change with 1/T may change by so much from step to step; WLF laws change by less.
+#: Uncertainty of the change of the rate with 1/T from step to step beyond them; WLF laws change by less.
 BEND = 0.2  # decades per typical step
 
 
@@ -124,12 +124,12 @@ def continued_covariance(covariance: Array, gauge: Gauge, first: int, last: int)
 
 
 def _ends(size: int, first: int, last: int) -> list[tuple[int, int, Indices]]:
-    """Return for each end with a plateau: its last fitted isotherm, the one that the trend is from, and the plateau."""
+    """Return for each end with a plateau its last fitted isotherm, the start of the trend, and the plateau."""
     hot = last - 1, last - 1 - TREND_STEPS, np.arange(last, size)
     cold = first, first + TREND_STEPS, np.arange(first - 1, -1, -1)
     return [end for end in (hot, cold) if len(end[2])]
 
 
 def _change(gauge: Gauge) -> Array:
-    """Return what brings shifts to zero at the reference."""
+    """Return the matrix that makes shifts zero at the reference."""
     return np.asarray(np.eye(len(gauge.weights)) - gauge.weights)

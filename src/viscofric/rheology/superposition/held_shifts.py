@@ -1,4 +1,4 @@
-"""Shifts fitted, held or given: the arguments of `superpose` for α(T), as values at the isotherms."""
+"""Fitted, fixed or given shifts: the arguments of `superpose` for α(T), as values at the isotherms."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.quantity import Quantities
 
 
-#: A temperature is that of an isotherm if it is so much of the way, or less, to the next one.
+#: A temperature is that of an isotherm within this part of the distance to the next one.
 NEAR = 0.25
-#: Where the reference lies between isotherms, factors are held to its interpolated zero by repetition, to this.
+#: Where the reference lies between isotherms, iteration fixes factors relative to its interpolated zero, to this.
 EXACT = 1e-9  # decades
 REPETITIONS = 12
-#: A law close to its pole moves sweeps farther than this, beyond any frequency that a number can hold.
+#: A law close to its pole moves sweeps farther than this, beyond the largest floating-point number.
 LARGEST_SHIFT = 100.0  # decades
 
 
@@ -77,7 +77,7 @@ def fitted_shifts(
     around = _gauge(temperatures, reference, {}, free)
     if not held or np.max(around.weights) == 1.0:
         return common_shifts(sweeps, joined.joins, _gauge(temperatures, reference, held, free), quantities)
-    # `ShiftFactors` interpolates by a cubic and finds another zero than the straight line that the fit knows.
+    # `ShiftFactors` interpolates by a cubic, whose zero differs from that of the straight line in the fit.
     moved = 0.0
     for _ in range(REPETITIONS):
         shifted = {place: value + moved for place, value in held.items()}
@@ -127,5 +127,5 @@ def _gauge(temperatures: Array, reference: float, held: dict[int, float], free: 
 
 
 def _weights(at: float, points: Array) -> Array:
-    """Return the weights of linear interpolation at one place among ascending points."""
+    """Return the weights of linear interpolation at one position among ascending points."""
     return np.array([np.interp(at, points, unit) for unit in np.eye(len(points))])

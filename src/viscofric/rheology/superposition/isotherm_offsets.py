@@ -1,11 +1,11 @@
-"""Offsets of whole isotherms: how large they are, found from what no shift removes.
+"""Offsets of whole isotherms: their size, found from the misfit that no shift removes.
 
-A sample clamped anew, dimensions read again: E' and E'' of an isotherm are each too large or too small by one factor
-at all its frequencies.  More points do not average that out.  The variance follows from the misfit of neighbours that
-no shift removes, by restricted maximum likelihood (H. D. Patterson, R. Thompson, Biometrika 58 (1971) 545) with the
-shifts linearised.  Some twenty isotherms determine a variance to a factor of two only, and worse where vertical shifts
-are fitted too.  Standard errors include its mean over the likelihood; each bootstrap sample takes one of the sizes,
-with the probability of that size.
+After clamping the sample again or reading its dimensions again, E' and E'' of an isotherm are each too large or too
+small by one factor at all its frequencies.  More points do not average that out.  The variance follows from the misfit
+of neighbours that no shift removes, by restricted maximum likelihood (H. D. Patterson, R. Thompson, Biometrika 58
+(1971) 545) with the shifts linearised.  Some twenty isotherms determine a variance to a factor of two only, and worse
+where vertical shifts are fitted too.  Standard errors include its mean over the likelihood; each bootstrap sample takes
+one of the sizes, with the probability of that size.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.gauge import Gauge
 
 
-#: Standard deviations that are tried, decades, 0.1 to 25 % …
+#: Standard deviations tried, decades, 0.1 to 25 % …
 SIZES = np.logspace(-3.4, -1.0, 13)
-#: … and none, which beforehand is so many times as likely as all these together.
+#: … and none, whose prior probability is this many times that of all these together.
 NONE = 3.0
-#: … or so many times where vertical shifts are fitted.  Few degrees of freedom are left there (3 of 13 isotherms of a
+#: … or this many times where vertical shifts are fitted.  Few degrees of freedom are left there (3 of 13 isotherms of a
 #: soft rubber), so that this choice matters: with 3, errors of α were half of what they should be in a quarter of the
 #: sweeps that had offsets; with 0.3, errors of sweeps that have none are up to 1.6 times as large as with 3.
 NONE_BESIDE_VERTICAL = 0.3
-#: Of offsets of log E' and log E'' the sum and the difference, over √2, each have a variance of their own.  Beforehand
-#: the two sizes are alike within a factor of 2: where the curves are power laws, a shift takes up the sum.  The
-#: variance of a factor that E' and E'' share is then found some 20 % too small.  A factor of 4 mends that, but sweeps
-#: of three points along a power law, without offsets, would get 1.8 times the errors that their points make.
+#: The sum and the difference of the offsets of log E' and log E'', over √2, have separate variances.  A priori the two
+#: sizes agree within a factor of 2: where the curves are power laws, a shift absorbs the sum.  The variance of a common
+#: factor of E' and E'' is then estimated some 20 % too small.  A factor of 4 would correct that, but sweeps of three
+#: points along a power law, without offsets, would have 1.8 times the errors due to their points.
 TURNS = {1: np.ones((1, 1)), 2: np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)}
 
 
@@ -90,7 +90,7 @@ class IsothermOffsets:
         return np.asarray(np.swapaxes(by_isotherm, 1, 2) @ self.onto_moduli.T)
 
     def continued(self, gauge: Gauge, first: int, last: int) -> IsothermOffsets:
-        """Return those of all isotherms of a gauge, of which these are the ones from `first` to before `last`."""
+        """Return the offsets of all isotherms of a gauge; these are those of the isotherms `first` to before `last`."""
         size, part, moduli = len(gauge.weights), last - first, len(self.covariance)
         with_shifts = np.zeros((2, size, moduli, size))
         own = self.with_shifts.reshape(2, part, moduli, part)

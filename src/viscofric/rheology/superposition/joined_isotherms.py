@@ -1,4 +1,4 @@
-"""Which isotherms reach each other: neighbours joined, single ones at the ends left out, gaps refused."""
+"""Overlap of isotherms: neighbours joined, single ones at the ends left out, gaps refused."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ class JoinedIsotherms(Generic[Tested]):
     notes: tuple[str, ...]  # what was left out
 
     def less(self, log10_b: Array) -> JoinedIsotherms[Tested]:
-        """Return the same with vertical shifts taken off the logarithms."""
+        """Return the same with vertical shifts subtracted from the logarithms."""
         logs = [LogSweep(sweep.frequency, sweep.moduli - one) for sweep, one in zip(self.logs, log10_b, strict=True)]
         return replace(self, logs=logs)
 
     def disagreements(self, *, given: bool = False) -> tuple[str, ...]:
-        """Say in a sentence each where neighbours do not superpose, fitted or with given shift factors."""
+        """Return a note on each pair of neighbours that does not superpose, with fitted or given shift factors."""
         how = (
             "with the given shift factors."
             if given
@@ -63,12 +63,12 @@ class JoinedIsotherms(Generic[Tested]):
 
 
 def shown(kelvin: float) -> str:
-    """Write a temperature as users read it."""
+    """Return a temperature as text for users."""
     return f"{shown_celsius(kelvin)} °C"
 
 
 def ranges(steps: Iterable[tuple[float, float]]) -> str:
-    """Write steps from a colder to a warmer temperature, ascending, as ranges: neighbouring ones as one."""
+    """Return steps from a colder to a warmer temperature, ascending, as ranges in words, adjacent ones joined."""
     runs: list[list[float]] = []
     for colder, warmer in steps:
         if runs and runs[-1][1] == colder:

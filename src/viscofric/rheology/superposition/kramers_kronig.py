@@ -1,4 +1,4 @@
-"""Whether E' and E'' of one master curve belong to each other, as causality demands (Kramers and Kronig)."""
+"""Whether E' and E'' of one master curve are consistent, as causality requires (Kramers and Kronig)."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ if TYPE_CHECKING:
     from viscofric.data import MasterCurve
 
 
-#: Points are averaged in so many bins per decade: the relations need no more, and noise averages out.
+#: Bins per decade in which points are averaged: the relations need no more, and noise averages out.
 BINS = 8
-#: Modes per decade, and decades beyond the measured frequencies that they reach.
+#: Modes per decade, and decades that they extend beyond the measured frequencies.
 MODES = 3
 BEYOND = 1.0
-#: Frequencies nearer than this to an end are not judged: what lies beyond it counts there.
+#: Frequencies nearer than this to an end are not judged: they depend on moduli beyond it.
 EDGE = 0.5  # decades
 #: Largest rms difference of log10 E' from what E'' requires.  Planted rubbers with 0.3, 1 and 3 % noise have
 #: 0.001, 0.003 and 0.009; an acrylic and an NBR/PVC foam that superpose 0.018 and 0.03; an EVA that does not 0.1;
 #: a glass transition whose E'' is multiplied by 1.3 has 0.06 to 0.11, one with E' and E'' swapped more than 0.6.
 LARGEST_RMS = 0.05
-#: Largest factor by which E'' may differ, as a whole, from what E' demands; found to 3 % on the same materials.
+#: Largest factor of E'', as a whole, over the E'' that E' requires; found to 3 % on the same materials.
 LARGEST_SCALE = 1.15
 #: … and by this many of its standard errors.
 SURE = 3.0
-#: Residuals of neighbouring bins are alike, so that a decade of them counts as one independent value.
+#: Residuals of neighbouring bins are correlated, so that a decade of them counts as one independent value.
 INDEPENDENT = 1.0 / BINS
-#: From here on no factor describes what is wrong.
+#: From here on no factor describes the disagreement.
 SWAPPED = 0.2  # decades rms
 
 
@@ -47,16 +47,16 @@ class KramersKronig:
     angular_frequency : (n,) array
         Reduced, of the bins that the master curve was averaged in, rad/s.
     storage_deviation : (n,) array
-        log10 of E' that E'' alone demands (up to a constant, the rubber modulus) over the measured one.
+        log10 of E' that E'' alone requires (up to a constant, the relaxed modulus) over the measured one.
     loss_deviation : (n,) array
-        log10 of E'' that E' alone demands over the measured one.
+        log10 of E'' that E' alone requires over the measured one.
     local_deviation : (n,) array
         log10 of (π/2) dE'/d ln ω over the measured E''; zero where E' does not rise.  The relation is a local
-        approximation, off by some 0.2 decades where a spectrum is steep: for the eye, not for the verdict.
+        approximation, with an error of some 0.2 decades where a spectrum is steep: for figures, not for the verdict.
     truncation : (n,) array
-        How much of log10 E' comes from relaxation beyond the measured frequencies, as far as E'' shows it.
+        Part of log10 E' due to relaxation beyond the measured frequencies, estimated from E''.
     judged : (n,) array of bool
-        Those at least half a decade from the ends, of which the rms are taken.
+        Frequencies at least half a decade from the ends, over which the rms are taken.
     rms_storage, rms_loss : float
         Root mean square of the first two deviations, decades.
     loss_scale : float
@@ -68,9 +68,8 @@ class KramersKronig:
     -----
     Non-negative relaxation modes are fitted to E'' alone, and give E'; and the other way round.  That is the pair
     of relations E'(ω) − E'(0) = (2ω²/π) ∫ E''(u)/u / (ω² − u²) du and its inverse (R. de L. Kronig, J. Opt. Soc.
-    Am. 12 (1926) 547), with the integrals closed beyond the measurement by what the modes at its ends say, in
-    place of nothing.  The local relation is that of H. C. Booij, G. P. J. M. Thoone, Rheol. Acta 21 (1982) 15,
-    doi:10.1007/BF01520701.
+    Am. 12 (1926) 547), with the integrals continued beyond the measurement by the modes at its ends.  The local
+    relation is that of H. C. Booij, G. P. J. M. Thoone, Rheol. Acta 21 (1982) 15, doi:10.1007/BF01520701.
     """
 
     angular_frequency: Array
@@ -218,9 +217,9 @@ def _non_negative(basis: Array, size: Array, weight: Array, target: Array | None
 
 
 def _scale(rise: Array, storage: Array, weight: Array) -> tuple[float, float]:
-    """Return the factor by which the rise that E'' demands exceeds that of E', and its relative standard error.
+    """Return the factor by which the rise that E'' requires exceeds that of E', and its relative standard error.
 
-    E' = E0 + rise/factor by least squares in relative measure, E0 not below zero.
+    E' = E0 + rise/factor by least squares of relative errors, E0 not below zero.
     """
     rows = weight / storage
     matrix = np.stack([rows, rows * rise], axis=1)

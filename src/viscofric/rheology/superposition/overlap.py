@@ -1,7 +1,7 @@
 """Overlap of neighbouring isotherms: where two sweeps join, and how well a set of shifts joins all.
 
-Given shift factors may all be wrong alike.  Then no pair of neighbours stands out, and no plot without the frequency
-(`van_gurp_palmen`) shows it; `own_shifts` compares with the overlap that other shifts would leave.
+Given shift factors may all be wrong by one factor.  Then no pair of neighbours stands out, and no plot without the
+frequency (`van_gurp_palmen`) shows it; `own_shifts` compares with the best overlap of each pair.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ STEP = 0.02
 SMALLEST_OVERLAP = 0.1
 #: Steps that differ by more than this and join equally well show a plateau.
 FLAT = 0.5  # decades
-#: Neighbours that disagree by so many times what is typical do not superpose; see `failures`.
+#: Neighbours whose misfit is this many times the typical one do not superpose; see `failures`.
 FAILURE = 5.0
-#: … and by this at least, which interpolation between sparse points or the grid of steps cannot make.
+#: … and at least this, more than interpolation between sparse points or the grid of steps can cause.
 SMALLEST_FAILURE = 0.03  # decades
-#: Sweeps whose E' have this part of the smaller range in common belong over each other in frequency …
+#: Sweeps whose E' have this part of the smaller range in common must overlap in frequency …
 COMMON_MODULI = 0.25
-#: … and where they are joined pair by pair, E' and E'' ask for steps that differ by about so much.
+#: … and where they are joined pair by pair, the best steps of E' and of E'' differ by about this.
 PAIR_UNCERTAINTY = 0.5  # decades
 SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
-#: Sides of an interval that differ by more than this are no parabola with noise.
+#: Sides of an interval that differ by more than this factor are not those of a parabola with noise.
 LOPSIDED = 1.5
 
 
@@ -45,8 +45,8 @@ LOPSIDED = 1.5
 class LogSweep:
     """One isotherm in logarithms: frequency (n,), and moduli (n, 2), storage and loss.
 
-    Fits take other quantities than moduli too, in any number of columns (of friction one, over the speed), and weights
-    (n,), the inverse variances of the points relative to each other.
+    Fits also accept quantities other than moduli, in any number of columns (one for friction, over the speed), and
+    weights (n,), the inverse variances of the points relative to each other.
     """
 
     frequency: Array
@@ -61,7 +61,7 @@ class LogSweep:
 
     @classmethod
     def of(cls, isotherm: Isotherm, log10_b: float = 0.0) -> LogSweep:
-        """Take base-10 logarithms of an isotherm in rad/s and Pa, less a vertical shift."""
+        """Return base-10 logarithms of an isotherm in rad/s and Pa, minus a vertical shift."""
         moduli = np.stack([isotherm.storage_modulus, isotherm.loss_modulus], axis=1)
         return cls(np.log10(isotherm.angular_frequency), np.log10(moduli) - log10_b)
 
@@ -73,7 +73,7 @@ class LogSweep:
         return np.stack([np.interp(frequency, self.frequency, column) for column in self.moduli.T], axis=-1)
 
     def covers(self, frequency: Array) -> Mask:
-        """Say which frequencies lie within the sweep."""
+        """Return which frequencies lie within the sweep."""
         inside: Mask = (frequency >= self.frequency[0]) & (frequency <= self.frequency[-1])
         return inside
 
@@ -126,7 +126,7 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
 
 
 def steps_that_overlap(colder: LogSweep, warmer: LogSweep) -> tuple[float, float]:
-    """Return the smallest and the largest step that leave two sweeps lying over each other."""
+    """Return the smallest and the largest step at which two sweeps overlap."""
     margin = SMALLEST_OVERLAP * float(min(np.ptp(colder.frequency), np.ptp(warmer.frequency)))
     return (
         float(warmer.frequency[0] - colder.frequency[-1]) + margin,
@@ -137,8 +137,8 @@ def steps_that_overlap(colder: LogSweep, warmer: LogSweep) -> tuple[float, float
 def allowed_half_width(moves: Array, rise: Array, threshold: float) -> float:
     """Return half of the interval about zero of moves, ascending, whose rise is below a threshold.
 
-    It is the root mean square of the two sides where these are about alike, as noise makes them, and the wider side
-    where they are not.  Between moves the root of the rise is taken as straight, as it is for a parabola about zero.
+    It is the root mean square of the two sides where these differ by no more than noise explains, else the wider side.
+    Between moves the root of the rise is interpolated linearly, which is exact for a parabola about zero.
     """
     allowed = np.flatnonzero(rise <= threshold)
     ends = []
@@ -153,7 +153,7 @@ def allowed_half_width(moves: Array, rise: Array, threshold: float) -> float:
 
 
 def join_at(colder: LogSweep, warmer: LogSweep, step: float) -> Join:
-    """Say how well two sweeps overlap at a given step; the uncertainty is infinite where they do not at all."""
+    """Return the overlap of two sweeps at a given step; the uncertainty is infinite where they do not overlap."""
     frequency = colder.frequency + step
     inside = warmer.covers(frequency)
     if not np.any(inside):
@@ -170,13 +170,13 @@ def typical_noise(joins: list[Join]) -> float:
 
 
 def failures(joins: list[Join]) -> list[int]:
-    """Return the places of joins where superposition itself fails: misfits many times the typical one."""
+    """Return the indices of joins where superposition itself fails: misfits many times the typical one."""
     limit = max(FAILURE * typical_noise(joins), SMALLEST_FAILURE)
     return [place for place, found in enumerate(joins) if found.misfit > limit]
 
 
 def parted(sweeps: list[LogSweep], log10_shifts: Array) -> list[int]:
-    """Return the places of neighbours that shifts move past each other although their storage moduli overlap.
+    """Return the indices of neighbours that shifts move past each other although their storage moduli overlap.
 
     E' would fall with rising frequency from one to the other, which no material does.
     """
@@ -248,10 +248,10 @@ def overlap_quality(sweeps: list[LogSweep], log10_shifts: Array) -> OverlapQuali
     return OverlapQuality(float(rms[0]), float(rms[-1]), len(every), pairs, tuple(gaps))
 
 
-#: Neighbours that miss each other by so many times what shifts of their own leave were not shifted by right factors.
-#: Factors fitted to real sweeps (an acrylic, an adhesive, a foam, an EVA that melts) come to 1.0 to 1.2, WLF laws
-#: fitted to such factors to 1.2 to 1.9 (of the foam, which follows none, to 3.6); the factors themselves, with log10 α
-#: too large by 40 %, to 2.1 to 7.8.
+#: Factors are wrong if the misfit of neighbours exceeds that at their best overlap this many times: 1.0 to 1.2 times for
+#: factors fitted to real sweeps (an acrylic, an adhesive, a foam, an EVA that melts), 1.2 to 1.9 for WLF laws fitted to
+#: such factors (3.6 for the foam, which follows no such law), and 2.1 to 7.8 for the factors with log10 α too large by
+#: 40 %.
 BADLY = 2.0
 
 
@@ -271,7 +271,7 @@ class OwnShifts:
 
     @property
     def clause(self) -> str:
-        """What is found, as part of a sentence."""
+        """The result as a part of a sentence."""
         return (
             f"shifted by them neighbouring sweeps miss each other by {self.misfit:.2g} decades (rms) where they "
             f"overlap, and each pair shifted for itself by {self.attainable:.2g}"

@@ -1,4 +1,4 @@
-"""What shifts of isotherms are judged by: their points, the curves through them, weak expectations."""
+"""The objective of a fit of shifts: the points of the isotherms, the curves through them, weak priors."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.overlap import Join, LogSweep
 
 
-#: Where the data leave a step open it stays near the trend of its neighbours: the rate of change with 1/T, in
-#: decades per typical step, changes from step to step by about so much …
+#: Where the data do not determine a step, a prior keeps it near the trend of its neighbours: standard deviation of the
+#: change from step to step of the rate with 1/T, in decades per typical step …
 TREND = 1.0  # decades
-#: … and each step is within about so much of where neighbours were first joined.
+#: … and that of each step about the first join of the neighbours.
 PRIOR = 3.0  # decades
-#: Vertical shifts of neighbours differ by about so much: three times what ρT makes in 10 K.
+#: Standard deviation of the difference of neighbours' vertical shifts: three times the effect of ρT in 10 K.
 VERTICAL_PRIOR = 0.03  # decades
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """Isotherms that share curves: their places; points (n,), moduli (n, m), weights (n,); the first point of each."""
+    """Isotherms that share curves: their indices; points (n,), moduli (n, m), weights (n,); the first point of each."""
 
     first: int
     last: int
@@ -68,7 +68,7 @@ class Piece:
     def reduced(self, shifts: Array, vertical: Array) -> tuple[Array, Array, Array]:
         """Return frequencies and moduli of all points at one temperature, that of the mean shift, and weights.
 
-        To move all isotherms together then changes nothing, wherever the knots lie.
+        So moving all isotherms together changes nothing, whatever the knots.
         """
         inside = slice(self.first, self.last)
         return (
@@ -78,11 +78,11 @@ class Piece:
         )
 
     def own(self, values: Array) -> Array:
-        """Return to each point what its isotherm has, of all isotherms (N, …): (n, …)."""
+        """Return the values of each point's isotherm (n, …), from those of all isotherms (N, …)."""
         return np.asarray(values[self.first : self.last][self.isotherm])
 
     def gathered(self, values: Array) -> Array:
-        """Add up what points of the same isotherm have: (n, …) to (isotherms, …)."""
+        """Return sums over the points of each isotherm: (n, …) to (isotherms, …)."""
         return np.asarray(np.add.reduceat(values, self.starts, axis=0))
 
 
@@ -99,7 +99,7 @@ class State:
 
 
 class ShiftProblem:
-    """The measured points of all isotherms, the prior on the steps between them, and what is held."""
+    """The measured points of all isotherms, the prior on the steps between them, and the fixed shifts."""
 
     def __init__(
         self,
@@ -122,12 +122,12 @@ class ShiftProblem:
         self.prior, self.wanted = self._prior(joins, broken)
 
     def _prior(self, joins: list[Join], broken: list[int]) -> tuple[Array, Array]:
-        """Return rows that should be near values, both in standard deviations: steps, trends, vertical steps."""
+        """Return rows of the prior and their means, in standard deviations: steps, trends, vertical steps."""
         size, free_vertical = self.size, self.gauge.free_vertical
         step_of = -np.diff(np.eye(size), axis=0)
         steps = np.array([found.step for found in joins])
         error = np.full(size - 1, PRIOR)
-        for place in broken:  # nothing else joins the two sides
+        for place in broken:  # only the prior joins the two sides
             error[place] = min(joins[place].uncertainty, PRIOR)
         change = -np.diff(self.gauge.inverse_temperatures)
         rates = step_of * (np.median(change) / change)[:, None]
@@ -155,7 +155,7 @@ class ShiftProblem:
         return parameters, np.zeros(self.size)
 
     def signal(self, parameters: Array, smoothers: list[Smoother]) -> Array:
-        """Return how many times the squared slope of the curves at each isotherm exceeds what noise makes (n,)."""
+        """Return the squared slope of the curves at each isotherm over its noise (n,)."""
         ratios = []
         for piece, smoother in zip(self.pieces, smoothers, strict=True):
             curves = smoother.curves(*piece.reduced(*self.split(parameters)))
@@ -170,7 +170,7 @@ class ShiftProblem:
         return np.zeros((self.size, self.moduli)) if offsets is None else offsets.reshape(self.moduli, self.size).T
 
     def smoothers(self, parameters: Array, offsets: Array | None = None) -> list[Smoother]:
-        """Choose knots and smoothing of every piece anew, of moduli less offsets (m n) of the isotherms if given."""
+        """Choose knots and smoothing of every piece again, of moduli minus offsets (m n) of the isotherms if given."""
         less = self._of_isotherms(offsets)
         found = []
         for piece in self.pieces:
@@ -225,9 +225,9 @@ class ShiftProblem:
         *,
         exact: bool = False,
     ) -> State:
-        """Draw the curves at these shifts and find how what is minimised changes with them.
+        """Fit the curves at these shifts and return the objective and its derivatives.
 
-        With offsets (m n) of the isotherms given, `score` is that of the scatter which is left beside them.
+        With offsets (m n) of the isotherms given, `score` is that of the scatter without them.
         """
         less = self._of_isotherms(offsets)
         away = self.wanted - self.prior @ parameters
@@ -262,7 +262,7 @@ def _derivatives(
     weights: Array,
     exact: bool,
 ) -> State:
-    """Return cost, gradient and curvature of one piece, the curves being refitted wherever the shifts go.
+    """Return cost, gradient and curvature of one piece, with the curves refitted at all shifts.
 
     With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y a modulus, w its weight and s a shift, the cost is the sum of w yᵀMy.  Both its
     derivatives are exact.
@@ -298,7 +298,7 @@ def _derivatives(
 
 
 def _inflation(residual: Array, same: Mask) -> float:
-    """Return the factor by which alike residuals reduce the information of points."""
+    """Return the factor by which correlated residuals reduce the information of points."""
     squares = float(residual @ residual)
     alike = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0
     return (1.0 + alike) / (1.0 - alike) if alike > 0.0 else 1.0

@@ -1,10 +1,10 @@
-"""How far each step of log10 α may go before the measurement contradicts it: profiles of the likelihood.
+"""Confidence intervals of each step of log10 α: profiles of the likelihood.
 
 The curvature at the end of a search shows neither a second minimum nor a plateau beyond a small dip.  So each step is
-moved over all that leaves the two sides overlapping, the other shifts following; the ends of its 95 % interval are
-where the likelihood has fallen as far as 1.96 standard errors of a parabola (D. J. Venzon, S. H. Moolgavkar, Appl.
-Statist. 37 (1988) 87).  Curves, offsets of isotherms and vertical shifts are integrated over, so that isotherms which
-are pulled apart gain nothing from the freedom of their curves.
+varied over the range in which the two sides overlap, with the other shifts adjusted; the 95 % interval ends where the
+likelihood has fallen as at 1.96 standard errors of a parabola (D. J. Venzon, S. H. Moolgavkar, Appl. Statist. 37
+(1988) 87).  Curves, offsets of isotherms and vertical shifts are integrated over, so that moving isotherms apart gains
+nothing from the freedom of their curves.
 """
 
 from __future__ import annotations
@@ -26,27 +26,27 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.shift_problem import Piece, ShiftProblem
 
 
-#: A profile is followed from so many standard errors on, in distances that double, until it is excluded …
+#: A profile is followed from this many standard errors on, in distances that double, until it is excluded …
 NEAR = 3.0
 #: … and from there in steps of so many decades over all that leaves an overlap; but not where a step is known to this,
 #: since sweeps that fix a step so well join nowhere else.
 COARSE = 0.4
 SHARP = 0.03
-#: Excluded is what lies so many times the threshold below the best.
+#: Excluded are moves this many times the threshold below the best.
 EXCLUDED = 1.5
-#: Ends of an interval are sought so many times between distances that were tried.
+#: Number of bisections between the distances tried at the ends of an interval.
 HALVINGS = 3
-#: Variances of steps below this, decades², are those of steps that are held.
+#: Variances of steps below this, decades², are those of fixed steps.
 SMALLEST = 1e-18
-#: Cubic splines that are not zero at a point.
+#: Number of cubic splines that are not zero at a point.
 LOCAL = 4
-#: So many points are evaluated at once, which bounds the memory.
+#: Largest number of points evaluated together, which bounds the memory.
 AT_ONCE = 100_000
 
 
 @dataclass
 class _Profile:
-    """The likelihood along one step: moves that were tried, and −2 log of it there."""
+    """The likelihood along one step: moves tried, and −2 log of it there."""
 
     follow: Array  # (p,), how parameters follow the step
     variance: float
@@ -56,7 +56,7 @@ class _Profile:
     falls: list[float] = field(default_factory=list)
 
     def outwards(self) -> list[float]:
-        """Return the next move to either side, as far as one is needed."""
+        """Return the next move to either side, if one is needed."""
         error, found = float(np.sqrt(self.variance)), []
         for side, far in zip((-1.0, 1.0), self.reach, strict=True):
             place = int(np.argmax(side * np.array(self.moves)))
@@ -71,7 +71,7 @@ class _Profile:
         return found
 
     def halves(self) -> list[float]:
-        """Return the middles of the gaps that the interval ends in, beyond what a parabola makes."""
+        """Return the middles of the gaps that contain the interval's ends, if it is wider than that of a parabola."""
         moves, rise = self._sorted()
         allowed = np.flatnonzero(rise <= self.threshold)
         gaps = (allowed[0] - 1, allowed[0]), (allowed[-1], allowed[-1] + 1)
@@ -138,7 +138,7 @@ class StepProfiles:
         return widened
 
     def _try(self, parameters: Array, asked: list[tuple[_Profile, float]]) -> None:
-        """Evaluate moves of steps, and note what was found; all that have not moved at once."""
+        """Evaluate moves of steps, and record their likelihood."""
         moved = np.array([parameters + move * profile.follow for profile, move in asked if move])
         still = self(parameters[None])[0] if len(moved) < len(asked) else 0.0
         size = max(AT_ONCE // sum(len(piece.frequency) for piece in self.problem.pieces), 1)
@@ -148,7 +148,7 @@ class StepProfiles:
             profile.falls.append(float(found.pop(0) if move else still))
 
     def __call__(self, parameters: Array) -> Array:
-        """Return −2 log of the likelihood of each of several parameters (k, p), but for a constant: (k,)."""
+        """Return −2 log of the likelihood (k,) of each of several parameters (k, p), up to a constant."""
         problem, count, size = self.problem, len(parameters), self.problem.size
         steps = parameters.copy()
         steps[:, size:] = 0.0  # vertical shifts are among the levels
@@ -210,7 +210,7 @@ def _reduced(piece: Piece, frequency: Array, values: Array) -> tuple[Array, Arra
 def _eliminated(known: Array, square: Array, smoothing: float) -> tuple[Array, Array]:
     """Integrate over the curves: known A⁻¹ knownᵀ and log |A| − log |λP|, with A = square + λP.
 
-    Splines that no point reaches add as much to one of the logarithms as to the other.
+    Splines without points add equally to both logarithms.
     """
     from scipy.linalg.lapack import dpbtrf, dpbtrs
 

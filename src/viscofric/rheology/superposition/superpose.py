@@ -235,7 +235,7 @@ def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None,
 
 
 def _master_curve(joined: JoinedIsotherms[Isotherm], shift_factors: ShiftFactors) -> MasterCurve:
-    """Collect all points, moved along both axes."""
+    """Return all points, moved along both axes."""
     shifts = zip(joined.logs, shift_factors.log10_values, strict=True)
     frequency = np.concatenate([sweep.frequency + shift for sweep, shift in shifts])
     order = np.argsort(frequency, kind="stable")
@@ -249,7 +249,7 @@ def _master_curve(joined: JoinedIsotherms[Isotherm], shift_factors: ShiftFactors
 def _step_master_curve(
     joined: JoinedIsotherms[StepTest], shift_factors: ShiftFactors, kind: StepKind
 ) -> StepMasterCurve:
-    """Collect all points, moved along both axes."""
+    """Return all points, moved along both axes."""
     shifts = zip(joined.logs, shift_factors.log10_values, strict=True)
     rate = np.concatenate([one.frequency + shift for one, shift in shifts])
     order = np.argsort(-rate, kind="stable")

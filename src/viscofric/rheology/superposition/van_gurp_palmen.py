@@ -1,4 +1,4 @@
-"""How far apart neighbouring isotherms run where the shift along the frequency plays no part.
+"""Distances of neighbouring isotherms in plots without frequency, independent of the shift factors.
 
 Plotted as tan δ against |E*| (H. C. Booij, J. H. M. Palmen, Theoretical and Applied Rheology, 1992, 321; M. van
 Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5, with δ instead), isotherms that superpose lie on one curve, whatever their
@@ -21,24 +21,24 @@ if TYPE_CHECKING:
     from viscofric.data import Isotherm
 
 
-#: An isotherm of two or three decades has this much curvature, if it has points enough to separate it from noise.
+#: Degree of the curve of an isotherm of two or three decades, by its number of points.
 _DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)
-#: Segments of the curve that distances are taken to; their length leaves an error below 1e-4 decades.
+#: Number of segments of the curve for distances from it; their length causes an error below 1e-4 decades.
 _SEGMENTS = 40
 _KNOTS = np.linspace(-1.0, 1.0, _SEGMENTS + 1)
-#: Isotherms drift apart if so many neighbours or more lie to the same side of each other on the whole …
+#: Isotherms drift apart if at least this many neighbours lie to the same side of each other on the whole …
 RUN = 3
-#: … by more than this in all, which two isotherms differ by that repeat to 0.02 decades …
+#: … by more than this in sum, the difference of two isotherms that repeat to 0.02 decades …
 DRIFT = 0.045  # decades
-#: … and by more than so many standard errors.  A single distance counts for no more than this part of the above: one
-#: sweep that went wrong is no drift.
+#: … and by more than this many standard errors.  A single distance counts at most as this part of the above: one faulty
+#: sweep is no drift.
 SURE = 6.0
 LARGEST_PART = 2.0 / 3.0
 
 
 @dataclass(frozen=True)
 class Drift:
-    """A run of isotherms that move away from each other to one side, as no error of single isotherms makes them.
+    """A run of isotherms that move apart to one side, which errors of single isotherms do not explain.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class Drift:
 
 @dataclass(frozen=True)
 class NeighbourDistance:
-    """How far two neighbouring isotherms lie apart in log tan δ against log |E*|.
+    """Distance of two neighbouring isotherms in log tan δ against log |E*|.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class NeighbourDistance:
     standard_error : float
         Of the distance, from the scatter of each isotherm about its own smooth curve; decades.
     points : int
-        Measured points of both isotherms that face the other's curve.
+        Measured points of both isotherms within the range of the other's curve.
     """
 
     colder: float
@@ -160,8 +160,8 @@ def drift(neighbours: Sequence[NeighbourDistance]) -> Drift | None:
 
     Notes
     -----
-    Errors of single isotherms cancel in the sum over a run, but for its two ends; what changes with temperature adds
-    up: a vertical shift that was left out, a second relaxation, a sample that changes.  All runs are looked at.  Errors
+    Errors of single isotherms cancel in the sum over a run, except for its two ends; changes with temperature add up: a
+    missing vertical shift, a second relaxation, a sample that changes.  All runs are evaluated.  Errors
     σ of single isotherms make the differences of consecutive distances scatter by √6 σ, and a sum over a run by √2 σ.
     """
     distances = np.array([pair.distance for pair in neighbours])
@@ -183,7 +183,7 @@ def drift(neighbours: Sequence[NeighbourDistance]) -> Drift | None:
 
 
 def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:
-    """Return the mean distance of one smoothed isotherm from the other, its standard error, and how many points."""
+    """Return the mean distance of one smoothed isotherm from the other, its standard error, and its number of points."""
     line, points = other.line, one.points
     along = np.diff(line, axis=0)
     length = np.sum(along**2, axis=1) + 1e-300
@@ -193,7 +193,7 @@ def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:
     nearest = np.argmin(np.sum(offset**2, axis=2), axis=1)
     each = np.arange(len(points))
     place = place[each, nearest]
-    # A foot beyond an end of the other curve: there is nothing to compare with.
+    # A foot beyond an end of the other curve: no comparison.
     beside = ~(((nearest == 0) & (place < 0.0)) | ((nearest == _SEGMENTS - 1) & (place > 1.0)))
     if np.count_nonzero(beside) < 2:
         return 0.0, 0.0, 0

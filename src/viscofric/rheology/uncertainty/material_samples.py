@@ -191,7 +191,7 @@ class MaterialSamples:
 
 
 def _widened(band: Band, decades: Array) -> Band:
-    """Add an independent error of log10 of the values to their limits, where the values are above zero."""
+    """Return limits with an independent error of log10 of the values added, where the values are above zero."""
     lower, middle, upper = (np.maximum(one, 1e-300) for one in band)
     down, up = np.log10(middle / lower), np.log10(upper / middle)
     down, up = np.hypot(down, decades), np.hypot(up, decades)
