@@ -1,4 +1,4 @@
-"""Agreement of predicted with measured friction: bias, root mean square difference, share within error."""
+"""Agreement of predicted with measured friction: bias, root mean square difference, fraction within error."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ class AssumptionCheck:
 
 
 def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "python") -> xarray.Dataset:
-    """Return checks as a labelled data set along ``assumption``, their sentences in the words of a reader.
+    """Return checks as a labelled data set along ``assumption``, with sentences for one kind of reader.
 
     `value` is NaN where it is not known; `holds` is 1, 0, or −1 where it cannot be judged.
     """

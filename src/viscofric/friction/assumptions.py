@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 #: Representative strain under a ball over a/R (D. Tabor, The Hardness of Metals (1951); K. L. Johnson, Contact
 #: Mechanics (1985), section 6.3).
 REPRESENTATIVE_STRAIN = 0.2
-#: Acceptable relative change of friction by warming or by the rubber's thickness: tribometers repeat no better.
+#: Acceptable relative change of friction by warming or by the rubber's thickness: the repeatability of tribometers.
 CHANGE = 0.05
 _SOLVE = "solve the contact and give contact_radius"
 

@@ -1,21 +1,22 @@
-"""Bands of predicted friction: what the uncertainty of spectrum and shift factors makes of it.
+"""Bands of predicted friction due to the uncertainty of spectrum and shift factors.
 
-Friction is a functional of the compliance S(ω) that the rubber has at the temperature of the contact.  To first order,
-the friction of a drawn material differs from that of the material that was solved by ::
+Friction is a functional of the material's compliance S(ω) at the temperature of the contact.  To first order, the
+friction of a sample of the material differs from that of the solved material by ::
 
     Δμ = Σ_j g(τ_j) C_j − Σ_k g(τ_k) C_k + g(0) Δ(1/E_inf),    g(τ) = ∂μ/∂C of a mode at τ
 
-with the modes j of the drawn material and k of the solved one, both at that temperature: τ times α(T), C over b(T),
-each its own.  So α(T) and the spectrum count together, and what is wrong with the one and made good by the other, as
-where sweeps were measured, cancels before anything is linearised.  `ComplianceSensitivity` gives g.
+with the modes j of the sample and k of the solved material, both at that temperature: τ times α(T), C over b(T), each
+its own.  So α(T) and the spectrum enter together, and errors of the one that the other compensates, as within the
+measured frequencies, cancel before anything is linearised.  `ComplianceSensitivity` gives g.
 
-What is left out is of second order.  Drawn materials solved by themselves gave the same to 0.005 % of μ where the band
-was ±1 % (1 % noise of the moduli), and to 0.05 % where errors of α alone moved μ by ±9 %.  Made-up spectra of 3 to 13
-modes, each moved by 3 % by itself and all in time by 3 %, did to 0.1 %; moved by 10 %, so that μ changed by up to 10 %,
-to 0.3 % as a rule and 1.3 % at most.
+The neglected terms are of second order.  Solving each sample gave the same to 0.005 % of μ where the band was ±1 % (1 %
+noise of the moduli), and to 0.05 % where errors of α alone moved μ by ±9 %.  Made-up spectra of 3 to 13 modes, each
+moved by 3 % independently and all in time by 3 %, gave the same to 0.1 %; moved by 10 %, so that μ changed by up to
+10 %, to 0.3 % as a rule and 1.3 % at most.
 
-Of 60 planted measurements of one rubber with 2 % noise the bands held its true friction at 97 % of 360 points, and the
-estimated standard errors were 0 to 17 % above the scatter of the predictions (``benchmarks/friction/bands.py``).
+In 60 planted measurements of one material with 2 % noise the bands included its true friction at 97 % of 360 points,
+and the estimated standard errors were 0 to 17 % above the scatter of the predictions
+(``benchmarks/friction/bands.py``).
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
 
 
 LEVEL = 0.95
-#: From here on a note says that the first order alone is rough, relative to the friction.
+#: Width of the band, relative to friction, from which a note says that the first order is rough.
 LARGE_CHANGE = 0.3
 
 
@@ -103,7 +104,7 @@ class DrawnMaterials:
         return np.asarray(sensitivity.friction + part - sensitivity.compliance_part)
 
     def missed(self, sensitivity: ComplianceSensitivity, temperature: float) -> float:
-        """Return what the systematic misfit of the spectrum makes of μ, relative; see `with_material_band`."""
+        """Return the relative error of μ due to the systematic misfit of the spectrum; see `with_material_band`."""
         if self.misfit is None or sensitivity.friction == 0.0:
             return 0.0
         alpha = float(np.exp(np.mean(np.log(self.shifts(temperature)[0]))))
@@ -140,7 +141,7 @@ def with_material_band(
 
 
 def _doubts(friction: Array, lower: Array, upper: Array) -> tuple[str, ...]:
-    """Tell where the band is wide for a first order, and where it does not hold what it belongs to."""
+    """Return notes on points where the band is wide for a first order, or does not include the friction itself."""
     said = []
     change = np.maximum(upper - friction, friction - lower) / np.maximum(np.abs(friction), np.finfo(float).tiny)
     if np.any(change > LARGE_CHANGE):

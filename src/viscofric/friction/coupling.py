@@ -7,9 +7,9 @@ With Q = qH and κ = 3 − 4ν, by the same equations ::
 
     X = [2κ(κ−1)/(κ+1) (cosh 2Q − 1) − 8Q²/(κ+1)] / [2κ cosh 2Q + 1 + κ² + 4Q²]
 
-which goes to (1−2ν)/(2(1−ν)) on the half-space (K. L. Johnson, Contact Mechanics (1985), section 7.2), and does not
+which becomes (1−2ν)/(2(1−ν)) on the half-space (K. L. Johnson, Contact Mechanics (1985), section 7.2), and does not
 vanish with ν = ½ on a layer (N. Menga, G. Carbone, D. Dini, J. Mech. Phys. Solids 148 (2021) 104273).  The coupling of
-a contact is the mean of |X| over that of Θ, waves weighted as its pressure (Hertz's) slopes the surface.
+a contact is the mean of |X| over that of Θ, with the weights of the surface slopes under Hertz's pressure.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def coupling(poisson_ratio: float, thickness: float | None = None) -> float:
 def check_coupling(
     curves: FrictionCurves, poisson_ratio: float, thickness: float | None = None, sizes: Sequence[ContactSize] = ()
 ) -> AssumptionCheck | None:
-    """Check the coupling at points of friction curves of known Coulomb friction, at the worst; None if none is known.
+    """Check the coupling at the worst point of friction curves of known Coulomb friction; None if none is known.
 
     `thickness` is that of the rubber, m (a half-space without it), compared with the sizes of the contacts.
     """

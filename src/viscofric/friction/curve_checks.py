@@ -1,4 +1,4 @@
-"""Checks of measured friction curves: how well their errors are known, and whether a rubber can have such friction."""
+"""Checks of measured friction curves: the freedom of their errors, and whether a rubber can have such friction."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 #: Fewer second differences do not give a scatter.
 FEWEST_DIFFERENCES = 6
-#: Smaller relative errors are those of solved contacts, not of a measurement.
+#: Relative errors below this are those of solved contacts, not of a measurement.
 SOLVED = 1e-3
-#: Above so many times the scatter of neighbours, the scatter of all includes a trend of the errors.
+#: Above this many times the scatter of neighbours, the scatter of all includes a trend of the errors.
 COURSE = 2.0
-#: Errors that scatter no more than those of so many degrees of freedom are taken as known.
+#: Errors that scatter no more than those of this many degrees of freedom are taken as known.
 MANY = 60.0
-#: The power μFv that is lost in a linear rubber does not fall as it is deformed faster, to first order in the loss:
-#: waves of frequency ω lose ω²τ/(1 + ω²τ²) in a mode, and a contact that becomes smaller presses harder.
+#: The power μFv dissipated in a linear rubber does not fall as speed rises, to first order in the loss: waves of
+#: frequency ω dissipate ω²τ/(1 + ω²τ²) in a mode, and a smaller contact has a higher pressure.
 STEEPEST = -1.0
-#: A line must be steeper than that by so many of its standard errors.
+#: A line must be steeper than that by this many of its standard errors.
 SURE = 4.0
-#: Friction whose differences chance makes at least as often may be constant.
+#: Probability of differences by chance from which on friction may be constant.
 CHANCE = 0.01
 _FEWEST_POINTS = 3
 
@@ -35,9 +35,9 @@ _FEWEST_POINTS = 3
 def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     """Return the degrees of freedom of the standard errors of viscoelastic friction, (n,), and a note if inferred.
 
-    As given; else the replicates minus one; and where neither is given, from the scatter of the errors from one speed
-    to the next: ln s² of f degrees of freedom has the variance ψ′(f/2), and a smooth course of the errors has no second
-    differences.  Infinite where the errors are known, or do not appear to scatter.
+    As given; else the replicates minus one; and where neither is given, from the scatter of the errors over
+    neighbouring speeds: ln s² of f degrees of freedom has the variance ψ′(f/2), and a smooth trend of the errors has no
+    second differences.  Infinite where the errors are known, or do not appear to scatter.
     """
     if curves.viscoelastic_freedom is not None:
         return np.maximum(curves.viscoelastic_freedom, 1.0), ()

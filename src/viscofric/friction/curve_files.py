@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _TITLE = "viscofric friction curves"
 _REMARKS = ("source", "assumption", "note")
 
-#: field -> (SI unit, empty for a pure number; the heading that is written; others that are understood)
+#: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
 COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "speed": ("m/s", "speed", ("v", "sliding speed", "disc speed", "disk speed")),
     "temperature": ("K", "temperature", ("T", "temp", "temp.")),
@@ -57,7 +57,7 @@ COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper", "friction upper")),
 }
 _NEEDED = ("speed", "temperature", "load", "viscoelastic")
-#: What is infinite where it is not known, an empty cell in the file.
+#: Fields that are infinite where not known, an empty cell in the file.
 _OPEN = ("_error", "_scatter", "_freedom")
 _MOST_REPLICATES = 1e9
 #: A table of friction curves has a column of one of these, the files of a tribometer have none.
@@ -211,7 +211,7 @@ def _exact_in_celsius(kelvin: Array) -> bool:
 
 
 def _places(table: Table) -> dict[str, int]:
-    """Find each column, and insist on those that are needed."""
+    """Return the index of each column; raise an error if a required one is missing."""
     places = {}
     for name, (_, heading, others) in COLUMNS.items():
         place = table.find(frozenset({heading, heading.lower(), *others}), heading)
@@ -228,7 +228,7 @@ def _places(table: Table) -> dict[str, int]:
 
 
 def _load_unit(table: Table, place: int) -> str:
-    """Tell a load from one per length."""
+    """Return the unit of the load, N or N/m."""
     try:
         table.conversion(table.columns[place], "N/m")
     except DataFileError:
@@ -268,7 +268,7 @@ def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
 
 
 def _complete(columns: dict[str, Array], kind: str, replicates: Array, notes: list[str]) -> None:
-    """Find standard error and scatter from each other."""
+    """Compute standard error and scatter from each other."""
     if kind not in columns:
         return
     error, scatter = columns.get(f"{kind}_error"), columns.get(f"{kind}_scatter")

@@ -366,7 +366,7 @@ class FrictionCurves:
 
 
 def insist_on_curves(given: object, name: str) -> FrictionCurves:
-    """Return friction curves; raise `InputError` where something else is given, such as runs not yet separated."""
+    """Return friction curves; raise `InputError` for anything else, such as runs not yet separated."""
     if not isinstance(given, FrictionCurves):
         raise InputError(
             f"{name} must be FrictionCurves, as separate() gives them, not {type(given).__name__}.",

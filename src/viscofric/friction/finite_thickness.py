@@ -1,23 +1,23 @@
-"""What the finite thickness of the rubber does to friction and indentation, estimated without solving a layer.
+"""Effect of the rubber's finite thickness on friction and indentation, estimated without solving a layer.
 
-Waves of pressure longer than the layer is thick move its surface by Θ(qH) of what they move a half-space's (see
-`viscofric.contact.bodies`).  What the base takes from the displacement under the half-space's own pressure is a
-smooth hollow as wide as the layer is thick; across a small contact it is a level, a slope and a curvature ::
+Waves of pressure longer than the layer's thickness displace its surface Θ(qH) times as much as a half-space's (see
+`viscofric.contact.bodies`).  The difference of the displacements under the half-space's own pressure is a smooth
+hollow as wide as the layer is thick; across a small contact it is a level, a slope and a curvature ::
 
     Δδ = ∫ d²q/(2π)² 2(1−ν²)/q (1 − Θ(qH)) Re S(q·v) p̂ p̂₀/F
     Δμ = ∫ d²q/(2π)² 2(1−ν²)/q (1 − Θ(qH)) (−Im S(q·v)) (q·v)/v |p̂|²/F²
     Δκ = ∫ d²q/(2π)² 2(1−ν²)/q (1 − Θ(qH)) Re S(q·v) |p̂|²/F q²/2
 
-(in plane strain dq/(2π) and q² in their places).  The level is taken from the indentation.  The slope is what those
-waves dissipated: a paraboloid on a slope makes the same contact beside its axis, hence with friction less by Δμ.  The
-curvature adds to the indenter's 1/R, on which friction depends by the rule of loads
+(in plane strain dq/(2π) and q² in their places).  The level is subtracted from the indentation.  The slope follows from
+the dissipation of those waves: a paraboloid on a slope makes the same contact beside its axis, with friction smaller by
+Δμ.  The curvature adds to the indenter's 1/R, on which friction depends by the load rule
 (`viscofric.friction.shifting.load_rule`): d ln μ = (2 + s)/3 R Δκ for a ball and (1 + s)/2 R Δκ for a cylinder, with
 s = d ln μ/d ln v; it mostly raises friction.  p̂ is the transform of Hertz's pressure on the contact's radius and p̂₀
-that of a flat punch, by which a displacement counts in the indentation; long waves see of both little more than F.
+that of a flat punch, the weight of a displacement in the indentation; for long waves both are nearly F.
 
-For short memory, vτ ≪ a, slope and curvature both go as (a/H)³ (line contacts: a²/H²) and nearly cancel.  Where the
-memory is as long as the layer is thick, and in broad spectra, whose slow modes dissipate in long waves, the slope alone
-counts, and falls with the thickness as slowly as the loss of waves as long as the layer is thick.
+For short memory, vτ ≪ a, slope and curvature are both proportional to (a/H)³ (line contacts: a²/H²) and nearly cancel.
+Where the memory is as long as the thickness, and in broad spectra, whose slow modes dissipate in long waves, the slope
+alone matters, and decreases with the thickness as slowly as the loss of waves as long as the thickness.
 """
 
 from __future__ import annotations
@@ -34,15 +34,15 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
-#: Thinnest layer that is estimated, in contact radii: on thinner ones nothing of the contact is a half-space's.
+#: Thinnest layer that is estimated, in contact radii: a contact on a thinner one is unlike that on a half-space.
 THINNEST = 1.0
-# Thickest layer that is looked for, in contact radii, and steps of bisection towards it.
+# Thickest layer in the search, in contact radii, and steps of its bisection.
 _THICKEST, _BISECTIONS = 1e9, 40
-# Waves, in natural logarithms of q times a length, up to those that the layer (1 − Θ = e⁻⁵⁰) or the contact does not
-# see, from those that hold nothing any more; in plane strain they are as long as the longest memory, and longer.
+# Waves, in natural logarithms of q times a length: from a negligible contribution of long waves to those too short for
+# the layer (1 − Θ = e⁻⁵⁰) or the contact; in plane strain they are as long as the longest memory, and longer.
 _LONG, _LONGER, _SHORTEST_OF_LAYER, _SHORTEST_OF_CONTACT = -12.0, -6.0, 3.2, 7.0
 _STEP = 0.05
-# Friction of the half-space is believed within that factor of Hertz's estimate of it.
+# Friction of the half-space is limited to within this factor of Hertz's estimate.
 _LIKELY = 3.0
 
 
@@ -83,13 +83,13 @@ class ContactOnLayers:
         hertz = self._friction(seen, measure)
         friction = hertz if self.friction is None or not np.isfinite(self.friction) else self.friction
         known = float(np.clip(friction, hertz / _LIKELY, hertz * _LIKELY))
-        # A paraboloid's indentation is 3/2 of its displacement as a punch weighs it (Hertz).
+        # A paraboloid's indentation is 3/2 of its displacement averaged with a punch's pressure (Hertz).
         sunk = np.nan if self.line else 1.5 * self._level(seen, measure)
         for name, value in (("_half_space", known), ("_sunk", sunk), ("_slope", self._friction_slope(seen, measure))):
             object.__setattr__(self, name, value)
 
     def on(self, layer: Layer) -> ThicknessEffect:
-        """Return what a layer changes; one thinner than the contact's radius counts as that thick."""
+        """Return the effect of a layer; one thinner than the contact's radius counts as that thick."""
         thickness = max(float(layer.thickness), THINNEST * self.radius)
         seen = self._waves(thickness, _SHORTEST_OF_LAYER)
         taken = _STEP * seen.q * (1.0 - Layer(thickness, layer.bonded).yielding(seen.q, self.poisson_ratio))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.units import Quantity
 
-#: A layer thinner than so many contact radii is never taken as a half-space.
+#: A layer thinner than this many contact radii is never taken as a half-space.
 THICK = 4.0
 # Smaller changes are given as at most this.
 _SMALLEST = 1e-3

@@ -104,7 +104,7 @@ def _material_error(predicted: FrictionMasterCurve, reduced: Array, friction: Ar
 
 
 def _partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> int:
-    """Return the row of the prediction that belongs to a measured point."""
+    """Return the row of the prediction for a measured point."""
     speed, temperature, load = measured.speed[row], measured.temperature[row], measured.load[row]
     same = np.abs(predicted.speed - speed) <= _SAME_SPEED * speed
     same &= np.abs(predicted.temperature - temperature) <= _SAME_TEMPERATURE

@@ -1,7 +1,7 @@
 """Sensitivity of one contact's friction to the compliance at every retardation time, from one adjoint solve.
 
-With the derivatives ∂μ/∂C of modes that have no compliance, put where the material has none, g(τ) = ∂μ/∂C is known for
-all τ.  It is smooth, goes to its value in the glass for vτ far below the contact's length and to zero far above it.
+With the derivatives ∂μ/∂C of modes without compliance, added where the material has no mode, g(τ) = ∂μ/∂C is known for
+all τ.  It is smooth, approaches its glassy value for vτ far below the contact's length, and zero far above it.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
 
 
-#: Modes without compliance stand so far apart in ln τ: g is that smooth.
+#: Distance of modes without compliance in ln τ: g is that smooth.
 SPACING = 0.5
-#: Nodes nearer to each other than this in ln τ would make an interpolation between them ripple.
+#: Nodes nearer than this in ln τ would cause ripples in the interpolation.
 LEAST_SPACING = 0.1
-#: From and to where they stand, vτ over the length of the contact: beyond, g is at its limits to 1e-5.
+#: Range of their vτ over the length of the contact: beyond it, g is at its limits to 1e-5.
 REACH = 1e-6, 1e6
 #: Of ln τ.
 ROUNDING = 1e-9
@@ -86,7 +86,7 @@ def solve_with_sensitivity(
         load=found.logarithmic.load or 0.0,
         frequency=speed / (0.5 * (solution.front + solution.rear)),
     )
-    # Interpolated like that of other materials, so that the material's own modes change nothing.
+    # Interpolated as for other materials, so that the material's own modes change nothing.
     part = float(sensitivity.at(log_tau) @ modes.C) + glass / modes.E_inf
     return solution, replace(sensitivity, compliance_part=part)
 
@@ -113,7 +113,7 @@ def _with_empty_modes(spectrum: RetardationSpectrum, time: float) -> Retardation
 
 
 def _apart(log_tau: Array) -> list[int]:
-    """Rows of ascending values that keep their distance from those taken before."""
+    """Return rows of ascending values that are far enough from the preceding one."""
     rows = [0]
     for row, value in enumerate(log_tau):
         if value - log_tau[rows[-1]] >= LEAST_SPACING:

@@ -1,14 +1,14 @@
-"""How much the heat of friction warms the rubber, and what that changes in friction.
+"""Warming of the rubber by friction, and its effect on friction.
 
 Heat on a circle of radius a under Hertz's pressure, q = (3/2) q̄ √(1 − r²/a²), that moves with Péclet number
 Pe = V a/(2κ) over a half-space raises its surface temperature at most by [1]_ ::
 
     ΔT = 2.32 q̄ a / (k √(π (1.234 + Pe)))
 
-which joins the limits of a source at rest, 3π q̄ a/(8 k), and of a fast one, under which heat flows straight down.
-Of two bodies, each would be so warm with all of the heat; as their surfaces are equally warm, the heat divides such
-that 1/ΔT = 1/ΔT₁ + 1/ΔT₂ [1]_.  Under a line contact (half-width a, q = (4/π) q̄ √(1 − x²/a²)) the fast limit is
-taken, which no speed exceeds while heat flows straight down::
+which joins the limits of a source at rest, 3π q̄ a/(8 k), and of a fast one, under which heat flows vertically.  This
+is the rise of each of two bodies with all of the heat; as their surfaces are equally warm, the heat divides such that
+1/ΔT = 1/ΔT₁ + 1/ΔT₂ [1]_.  Under a line contact (half-width a, q = (4/π) q̄ √(1 − x²/a²)) the fast limit is used,
+which is an upper limit at any speed while heat flows vertically::
 
     ΔT = 2.188 (4/π) q̄ √(a κ/(π V)) / k
 
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 
 # The fast limit's largest ∫ √(1 − s²)/√(x − s) ds from −1 to x, over x.
 _FAST_HERTZ = 2.188
-# Loads whose logarithms differ by less are one; parts of the shift that are checked, as a maximum may lie on it.
+# Loads whose logarithms differ by less are equal; parts of the shift that are checked, as a maximum may lie within.
 _SAME_LOAD, _STEPS = 0.05, np.linspace(0.0, 1.0, 5)
 
 
@@ -78,7 +78,7 @@ def flash_temperature(
 
 
 def shared_flash_temperature(first: float, second: float) -> float:
-    """Return the rise of both surfaces, K, from what each would have with all of the heat."""
+    """Return the rise of both surfaces, K, from the rise of each with all of the heat."""
     if first == 0.0 or second == 0.0:
         return 0.0
     return 1.0 / (1.0 / first + 1.0 / second)
@@ -139,7 +139,7 @@ def _rise(
             flash_temperature(heat, radius, abs(speed - slip), counterbody, line=line),
         )
     force = abs(float(curves.viscoelastic[row])) * load
-    # Slow contacts lose heat meanwhile: never warmer than with all heat on the surface.
+    # Slow contacts lose heat meanwhile: the rise is limited to that with all heat on the surface.
     bulk = min(
         bulk_temperature(force, radius, rubber, line=line),
         flash_temperature(force * speed, radius, speed, rubber, line=line),

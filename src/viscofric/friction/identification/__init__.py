@@ -1,1 +1,1 @@
-"""The rubber read back from its friction."""
+"""Identification of the material from its friction."""

@@ -164,14 +164,14 @@ Anchor: TypeAlias = ModulusAnchor | ContactAnchor
 
 @dataclass(frozen=True, eq=False)
 class SolvedContact:
-    """ln of the size of a contact near a rubber for which it was solved.
+    """ln of the size of a contact near a material for which it was solved.
 
     Notes
     -----
-    A half-space's contact under a rigid indenter depends on load × compliance, so that two solved loads tell how a
-    size follows the level of all compliances.  How it is shared out among the modes is that of the contact radius to
-    first order (`FirstOrder`): Hertz's contact at the contact's own frequency.  The size itself is exact at the
-    rubber that was solved, so that only the step of an iteration, and the standard errors, rest on it.
+    A half-space's contact under a rigid indenter depends on load × compliance, so that two solved loads determine the
+    derivative of a size by the level of all compliances.  Its distribution over the modes is that of the contact radius
+    to first order (`FirstOrder`): Hertz's contact at the contact's own frequency.  The size itself is exact for the
+    solved material, so that only the step of an iteration, and the standard errors, depend on this approximation.
     """
 
     anchor: ContactAnchor
@@ -192,7 +192,7 @@ class SolvedContact:
         compliances: Array,
         log_alpha: float,
     ) -> SolvedContact:
-        """Solve the contact of a rubber whose `compliances` are those of `spectrum`."""
+        """Solve the contact of a material whose `compliances` are those of `spectrum`."""
         sizes = []
         for factor in (1.0, 1.0 + _LOAD_STEP, 1.0 / (1.0 + _LOAD_STEP)):
             solution = solve_steady(
@@ -213,7 +213,7 @@ class SolvedContact:
         return float(self.anchor.temperature)
 
     def away(self, compliances: Array, log_alpha: float) -> tuple[float, Array, float]:
-        """Return (modelled less measured)/error, and its derivatives by the compliances (1 + m,) and by ln α."""
+        """Return (modelled minus measured)/error, and its derivatives by the compliances (1 + m,) and by ln α."""
         log_speed = np.log(float(self.anchor.speed)) + np.array([self.log_alpha, log_alpha])
         before = self.first(self.compliances, log_speed[:1])
         now = self.first(compliances, log_speed[1:])

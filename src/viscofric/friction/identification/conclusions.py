@@ -1,4 +1,4 @@
-"""Results of a settled identification: enlarged errors, bands, the family of levels, the material with its origin."""
+"""Results of a converged identification: enlarged errors, bands, the family of levels, the material's origin."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
 
 #: Residuals this many standard deviations above their expectation enlarge the errors.
 DOUBTFUL = 3.0
-#: … and this many times as large as the errors, and larger than what counts as identified, they are no scatter but a
-#: model that fails: if they follow each other, and anyhow.
+#: … and this many times as large as the errors, and larger than the limit of identification, they indicate a model that
+#: fails, not scatter: if successive residuals are correlated, and in any case.
 MODEL_FAILS, MODEL_FAILS_ANYHOW = 3.0, 10.0
-#: Residuals follow each other from so many standard deviations of von Neumann's ratio on.
+#: Successive residuals are correlated from this many standard deviations of von Neumann's ratio on.
 FOLLOWING = 3.0
-#: What was given of the modulus contradicts the friction if it is missed by more standard errors.
+#: The given moduli contradict the friction if the fit differs from them by more standard errors.
 CONTRADICTED = 4.0
-#: Bands of moduli end so far beyond the contact's frequencies v/a at the latest: Hertz's pressure has waves up to 3/a.
+#: Bands of moduli end at this factor beyond the contact's frequencies v/a: Hertz's pressure has waves up to 3/a.
 BEYOND = 3.0
 
 
@@ -47,7 +47,7 @@ def with_origin(found: IdentifiedMaterial, source: str) -> Material:
     spectrum, band = found.material.spectrum, found.identified
     if not isinstance(spectrum, RetardationSpectrum):
         raise TypeError("an identified material is one of retardation modes.")
-    # Known nowhere: then all is extrapolated but the middle.
+    # Known nowhere: everything but the middle is extrapolated.
     ends = (band.low, band.high) if band.high > band.low else (found.middle, found.middle)
     behind = f" ({source})" if source else ""
     origin = f"The rubber was identified from friction{behind}, no modulus of it was measured."
@@ -80,7 +80,7 @@ class Outcome:
 
 def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels: Sequence[float]) -> IdentifiedMaterial:
     """Return the result; see `identify_material` for the arguments."""
-    fits, error_scale = _with_honest_errors(outcome.fits)
+    fits, error_scale = _with_enlarged_errors(outcome.fits)
     random = np.random.default_rng(seed)
     posterior = Posterior.of(fits, samples, random)
     best = posterior.best
@@ -138,8 +138,8 @@ def _freedom(best: Weighed) -> float:
     return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
 
 
-def _with_honest_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
-    """Enlarge the errors of the points, if their residuals are larger than these, and fit again."""
+def _with_enlarged_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
+    """Enlarge the errors of the points where their residuals exceed them, and fit again."""
     best = most_evident(fits)
     points = best.problem.observations.points
     away = _residuals(best)
@@ -217,7 +217,7 @@ def _follow_each_other(best: Weighed, residuals: Array) -> bool:
 
 
 def _anchor_notes(best: Weighed, drawn: MaterialSamples, middle: float, limit: float) -> tuple[Note, ...]:
-    """Return notes on anchors that do not fix the level, or contradict the friction or each other."""
+    """Return notes on anchors that do not determine the level, or contradict the friction or each other."""
     notes = []
     spread = float(np.std([np.log(np.abs(one.complex_modulus(middle))) for one in drawn.materials], ddof=1))
     if spread > limit:
@@ -256,7 +256,7 @@ def _expected(material_of: MaterialOf, best: Weighed, samples: int, random: np.r
     """Draw materials from the prior of the spectrum."""
     smoothness = best.problem.smoothness
     drawn = np.linalg.solve(smoothness.matrix, random.standard_normal((len(smoothness.middle), samples)))
-    # About the result: another level would only move the frequencies.
+    # About the result: another level only moves the frequencies.
     compliances = best.minimum.place[: best.problem.modes] + drawn.T
     spectra = [spectrum_of(row, smoothness.tau) for row in compliances]
     return MaterialSamples(
@@ -296,5 +296,5 @@ def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Arr
 
 
 def _limits(drawn: Array) -> Array:
-    """Return limits that hold a further draw with 95 % probability: Weibull's plotting position."""
+    """Return limits that include a further sample with 95 % probability: Weibull's plotting position."""
     return np.asarray(np.quantile(drawn, [0.025, 0.975], axis=0, method="weibull"))

@@ -1,4 +1,4 @@
-"""From the unknowns of an identification to rubbers: the best, the drawn ones, and the bands that they leave."""
+"""Materials of the unknowns of an identification: the best one, samples, and their bands."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 
-#: A roughness counts from this share of the evidence on.
+#: Smallest part of the evidence for a roughness to be included.
 LEAST_SHARE = 0.05
-#: Frequencies at which bands are looked for, per decade.
+#: Frequencies per decade at which bands are evaluated.
 BAND_STEPS = 20
 
 
@@ -38,7 +38,7 @@ class Posterior:
 
     @classmethod
     def of(cls, fits: Sequence[Weighed], samples: int, random: np.random.Generator) -> Posterior:
-        """Draw from fits, each by its share of the evidence."""
+        """Draw from fits, each by its part of the evidence."""
         evidence = np.array([fit.log_evidence for fit in fits])
         shares = np.exp(evidence - evidence.max())
         shares /= shares.sum()

@@ -1,4 +1,4 @@
-"""Friction of a rubber in closed form, to first order in the loss, and corrected by solved contacts."""
+"""Friction of a material in closed form, to first order in the loss, and corrected by solved contacts."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _STEP = 0.1
 _TABLE = np.arange(-35.0, 35.0 + 0.5 * _STEP, _STEP)
 _WAVES = np.arange(-12.0, 7.0, 0.02)
 _COSH = np.arange(0.0, 14.0, 0.01)
-#: Newton's steps for the contact radius; each squares an error that begins below one.
+#: Newton's steps for the contact radius; each squares an error that is below one at the start.
 _NEWTON = 8
 _SETTLED = 1e-6
 #: Range of ln(load × compliance) that the radii are tabulated over, on both sides of the first guess.
@@ -27,7 +27,7 @@ _REACH = 16.0
 
 
 class Friction(NamedTuple):
-    """ln μ (n,), and its derivatives by ln(1/E_inf) and every ln C (n, 1 + m) and by ln v (n,); radius alike.
+    """ln μ (n,), and its derivatives by ln(1/E_inf) and every ln C (n, 1 + m) and by ln v (n,); radius likewise.
 
     `log_radius` is the logarithm of the contact radius, `radius_change` and `radius_slope` its derivatives.
     """
@@ -125,7 +125,7 @@ def _kernels(dimension: int) -> tuple[_Table, _Table]:
 
 
 class _Table:
-    """Cubic spline of values at equally spaced places and of their slope, evaluated at once, faster than by SciPy."""
+    """Cubic spline of values at equally spaced points and of their slope, evaluated together, faster than by SciPy."""
 
     def __init__(self, places: Array, values: Array) -> None:
         from scipy.interpolate import CubicSpline

@@ -1,4 +1,4 @@
-"""The verb: identify a rubber from its friction at several speeds and temperatures."""
+"""Identification of a material from its friction at several speeds and temperatures."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.units import Quantity
 
-#: Solved contacts are known to this part of their accuracy, as a rule.
+#: Usual error of solved contacts, as a part of the requested accuracy.
 SOLVED_ERROR = 0.25
 FEWEST_SAMPLES, FEWEST_MODES = 20, 8
 LEVELS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)

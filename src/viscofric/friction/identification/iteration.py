@@ -18,24 +18,24 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.solving import Contacts
 
 
-#: Rubbers for which contacts are solved, at most.
+#: Largest number of materials for which contacts are solved.
 STEPS = 20
-#: Root mean square change of the friction in a step, in standard errors of the points, with which it ends.
+#: Root mean square change of the friction in the last step, in standard errors of the points.
 SETTLED = 0.1
-#: Solved contacts are known to this part of their accuracy, as a rule: no step can settle the friction any better.
+#: Usual error of solved contacts, as a part of the requested accuracy: no step can determine the friction any better.
 KNOWN_TO = 0.25
-#: Errors of ln μ with which the first fits are made.
+#: Errors of ln μ in the first fits.
 TEMPERED = (1.0, 0.3, 0.1, 0.05)
-#: … and standard deviation about the first guess that ln α has in them.
+#: … and standard deviation of ln α about the first guess in them.
 HELD = 0.2
-#: Errors of ln μ with which the first steps from solved contacts are made at the least: with smaller ones the
-#: steps would leave the neighbourhood in which those contacts describe friction.
+#: Least errors of ln μ in the first steps from solved contacts: with smaller ones the steps would leave the
+#: neighbourhood in which those contacts describe friction.
 FIRST_STEPS = (0.01, 0.003, 0.001)
-#: Contacts of the first rubbers, which are only passed through, are solved with this relative error.
+#: Relative error of the contacts of the first, intermediate materials.
 FIRST_ACCURACY = 1e-2
-#: A step is made if the misfit falls by this part of what was promised, and the next one is damped no more if by that.
+#: A step is accepted if the misfit falls by the first part of the prediction; the damping is released at the second.
 LEAST_GAIN, GOOD_GAIN = 0.1, 0.7
-#: By what the damping grows at least if a step is not made.
+#: Least factor of the damping if a step is rejected.
 GROWTH = 4.0
 HALVINGS = 4
 
@@ -76,7 +76,7 @@ def most_evident(fits: list[Weighed]) -> Weighed:
 
 
 class Here(NamedTuple):
-    """Unknowns (p,), and the problem with contacts solved for the rubber that they describe, with what accuracy."""
+    """Unknowns (p,), the problem with contacts solved for their material, and the accuracy of these."""
 
     place: Array
     problem: Problem
@@ -123,7 +123,7 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
 def _stepped(
     here: Here, best: Weighed, contacts: Contacts, number: int, damping: float
 ) -> tuple[Here | None, int, float]:
-    """Return where a step leads (None if nowhere), the number of rubbers solved by then, and the next damping."""
+    """Return the result of a step (None without one), the number of materials solved so far, and the next damping."""
     target, near = best.problem, here.place
     before = _squares(target, near)
     allowed = _allowance(target, near, here.accuracy)
@@ -143,7 +143,7 @@ def _stepped(
         if gained + allowed > LEAST_GAIN * promised:
             next_damping = 0.0 if gained > GOOD_GAIN * promised else damping
             return Here(place, solved, contacts.accuracy), number, next_damping
-        # With that, the way that was tried would have cost as much as it promised.
+        # The damping at which the penalty of the rejected step equals its predicted gain.
         away = place - near
         damping = max(GROWTH * damping, promised / float(away @ target.metric @ away))
     return None, number, damping
@@ -155,14 +155,14 @@ def _squares(residuals: Residuals, place: Array) -> float:
 
 
 def _allowance(problem: Problem, place: Array, accuracy: float) -> float:
-    """Return by how much the misfit may err because contacts are solved no better than this."""
+    """Return the error of the misfit due to the accuracy of the contacts."""
     error = problem.observations.points.error
     away = problem.measured(place)[0][: len(error)]
     return 2.0 * KNOWN_TO * accuracy * float(np.linalg.norm(away) * np.linalg.norm(1.0 / error))
 
 
 def _damped(problem: Problem, near: Array, damping: float) -> Residuals:
-    """Return the residuals of a problem with the way from a place added to them."""
+    """Return the residuals of a problem, with the distance from a point added as residuals."""
     root = np.sqrt(damping) * np.linalg.cholesky(problem.metric).T
 
     def together(place: Array) -> tuple[Array, Array]:
@@ -173,7 +173,7 @@ def _damped(problem: Problem, near: Array, damping: float) -> Residuals:
 
 
 def _first_solved(problem: Problem, contacts: Contacts, start: Array) -> Here:
-    """Return the rubber that fits roughly with its contacts solved, or one on the way to it that can be solved."""
+    """Return the roughly fitted material with its contacts solved, or a solvable one between it and the start."""
     place = first_fit(problem, start)
     for halving in range(HALVINGS + 1):
         try:
@@ -188,8 +188,8 @@ def _first_solved(problem: Problem, contacts: Contacts, start: Array) -> Here:
 def first_fit(problem: Problem, start: Array) -> Array:
     """Return unknowns that fit roughly, found with errors that are large at first and then smaller.
 
-    A fit to small errors from far away would end where some points are met and others given up, with shifts that have
-    run away from each other; they are held near their first guess meanwhile.
+    A fit with small errors from a distant start would end in a local minimum, where some points fit and others do not,
+    with shifts far apart; so shifts are held near their first guess meanwhile.
     """
     shifts = problem.shifts
     if shifts.found:

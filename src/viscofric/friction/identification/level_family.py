@@ -1,4 +1,4 @@
-"""Materials of nearly the same friction: for each level of the modulus the one that fits best."""
+"""Materials of nearly equal friction: the best-fitting one for each level of the modulus."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.solving import Contacts
 
 
-#: Relative error with which a level is held.
+#: Relative error of a fixed level.
 HELD = 1e-3
 
 

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 
 Known: TypeAlias = Material | MaterialSamples | MasterCurve
 
-#: A measured modulus enters at so many frequencies per decade: closer ones err alike.
+#: Frequencies per decade at which a measured modulus is used: errors of closer ones are correlated.
 PER_DECADE = 4
-#: Samples of a material are not trusted beyond this, relative: their covariance at many frequencies is nearly singular.
+#: Least relative error of samples of a material: their covariance at many frequencies is nearly singular.
 LEAST_ERROR = 3e-3
 
 
@@ -39,7 +39,7 @@ def compliance(compliances: Array, tau: Array, log_frequency: Array) -> tuple[Co
 
 
 def log_modulus(part: str, S: ComplexArray, change: ComplexArray) -> tuple[Array, Array]:
-    """Return ln of |E|, E' or E'' (n,), and how it follows changes (n, p) of the compliance S."""
+    """Return ln of |E|, E' or E'' (n,), and its changes (n, p) with those of the compliance S."""
     relative = -change / S[:, None]  # of E = 1/S
     E = 1.0 / S
     if part == "magnitude":
@@ -60,13 +60,13 @@ class ModulusObservation:
     log_modulus: Array  # (n,), ln of Pa
 
     def away(self, compliances: Array, tau: Array, log_alpha: float) -> tuple[Array, Array, Array]:
-        """Return modelled less observed (n,), and its derivatives by the compliances (n, 1 + m) and by ln α (n,)."""
+        """Return modelled minus observed (n,), and its derivatives by the compliances (n, 1 + m) and by ln α (n,)."""
         S, change, slope = compliance(compliances, tau, self.log_frequency + log_alpha)
         modelled, moved = log_modulus(self.part, S, np.column_stack([change, slope]))
         return modelled - self.log_modulus, moved[:, :-1], moved[:, -1]
 
 
-#: Observations that err together, and the matrix that whitens their errors.
+#: Observations with correlated errors, and the matrix that whitens these.
 Block: TypeAlias = "tuple[tuple[ModulusObservation, ...], Array]"
 
 

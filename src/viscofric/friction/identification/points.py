@@ -48,7 +48,7 @@ class Points:
         return len(self.log_speed)
 
     def at_one_load(self, curves: FrictionCurves) -> FrictionCurves:
-        """Return the friction as it would be under `load`, with the errors that count, of the curves it comes from."""
+        """Return the friction under `load` with the errors used, as curves."""
         friction = np.exp(self.log_friction)
         return replace(
             curves.select(self.rows),
@@ -169,9 +169,9 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
 def relative_errors(curves: FrictionCurves) -> Array:
     """Return standard errors of ln μ, moderated towards the common one.
 
-    Few replicates give a poor estimate of their scatter, eight to a quarter; points weighted by it would make the fit
-    worse than its errors.  With ν0 the freedom of the common variance s0², that of a point is
-    (ν0 s0² + ν s²)/(ν0 + ν); ν0 follows from how much more ln s² scatters than chance.  The error of a mean then has
+    The scatter of few replicates is a poor estimate, with an error of a quarter for eight; weights by it would make the
+    fit worse than its errors.  With ν0 the freedom of the common variance s0², that of a point is
+    (ν0 s0² + ν s²)/(ν0 + ν); ν0 follows from the scatter of ln s² beyond chance.  The error of a mean then has
     Student's distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2).
 
     References
@@ -188,7 +188,7 @@ def relative_errors(curves: FrictionCurves) -> Array:
 
 
 def moderated_variances(variances: Array, freedom: Array) -> Array:
-    """Return sample variances (n,) of so many degrees of freedom (n,), drawn towards the common one.
+    """Return sample variances (n,) with their degrees of freedom (n,), shrunk towards the common one.
 
     They are those of Student's distribution.
     """
@@ -199,7 +199,7 @@ def moderated_variances(variances: Array, freedom: Array) -> Array:
     logarithms = np.log(variances) - digamma(half) + np.log(half)
     rest = float(np.var(logarithms, ddof=1) - np.mean(polygamma(1, half)))
     common = float(np.exp(np.mean(logarithms)))
-    if rest <= polygamma(1, 5e3):  # no more than chance: all have one variance
+    if rest <= polygamma(1, 5e3):  # only chance: all have one variance
         total = float(np.sum(freedom))
         return np.full(len(variances), float(freedom @ variances) / max(total - 2.0, 0.5 * total))
     prior_half = brentq(lambda value: float(polygamma(1, value)) - rest, 1e-3, 1e4)

@@ -1,4 +1,4 @@
-"""Least squares with a prior: where it is least, how much evidence there is for the prior, and draws around it."""
+"""Least squares with a prior: the minimum, the evidence for the prior, and samples around the minimum."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ DRAW_CONVERGED = 1e-4
 
 
 class Minimum(NamedTuple):
-    """Where the sum of squares is least (p,), that sum, and the matrix of normal equations there (p, p).
+    """The point of the least sum of squares (p,), that sum, and the matrix of normal equations there (p, p).
 
-    `settled` says whether it fell no more in the end.
+    `settled` says whether the search converged.
     """
 
     place: Array
@@ -70,7 +70,7 @@ def descend(residuals: Residuals, start: Array, converged: float = CONVERGED, me
 def log_evidence(minimum: Minimum, log_volume: float) -> float:
     """Return the logarithm of the marginal likelihood by Laplace's approximation, up to a constant.
 
-    `log_volume` is that of the prior's normalisation, as far as it differs between what is compared.
+    `log_volume` is that of the prior's normalisation, up to a constant common to all that are compared.
     """
     return log_volume - 0.5 * minimum.squares - 0.5 * float(np.linalg.slogdet(minimum.normal)[1])
 
@@ -78,10 +78,10 @@ def log_evidence(minimum: Minimum, log_volume: float) -> float:
 def draws(
     residuals: Residuals, minimum: Minimum, count: int, random: np.random.Generator, metric: Array | None = None
 ) -> Array:
-    """Draw from the density exp(−|r|²/2), (count, p): each draw is the minimum for other errors of all that went in.
+    """Draw from the density exp(−|r|²/2), (count, p): each sample is the minimum for other errors of all inputs.
 
-    What was measured and what was expected are moved by errors as large as their own, and fitted anew.  This is exact
-    for linear residuals, and for as many residuals as unknowns up to the change of |∂r/∂x|; draws are independent.
+    Measurements and prior means are changed by errors of their own size, and fitted again.  This is exact for linear
+    residuals, and for as many residuals as unknowns up to the change of |∂r/∂x|; samples are independent.
 
     References
     ----------

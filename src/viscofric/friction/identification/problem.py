@@ -1,4 +1,4 @@
-"""The least-squares problem of an identification: what was measured, and the prior of spectrum and shift factors."""
+"""The least-squares problem of an identification: measurements, and the prior of spectrum and shift factors."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.laws import ShiftLaw
 
 
-#: Prior of found shifts, about those from the overlap of the curves alone: so many of their standard errors, and so
-#: much in ln α.  A free spectrum fits curves without overlap as well.  The prior adds to the information of the data
-#: one part in the square of that number.
+#: Standard deviation of the prior of found shifts, about those from the overlap of the curves alone, in their standard
+#: errors, and in ln α.  A free spectrum also fits curves without overlap.  The prior adds to the information of the
+#: data one part in the square of the first number.
 OVERLAPPING, OVERLAPPING_LEAST = 5.0, 0.05
 #: Standard deviation of ln α known without an error, for rounding.
 EXACT = 1e-7
 _SAME = 1e-6  # K
-#: Standard deviation of the mean of ln C about the first guess, and of ln(1/E_inf) about the compliance that is seen: a
-#: rubber of little loss has most of it, one amidst its transition a hundredth.
+#: Standard deviation of the mean of ln C about the first guess, and of ln(1/E_inf) about the compliance in the
+#: contacts: a material of little loss has most of it, one amidst its transition a hundredth.
 LEVEL = 3.0
 GLASS = 2.0
 #: Standard deviation of the mean slope d ln C/d ln τ: it lies between the −1 and 1 of power-law moduli, as a rule.
@@ -72,7 +72,7 @@ class Shifts:
 
     @classmethod
     def known(cls, temperatures: Array, shift: ShiftLaw) -> Shifts:
-        """Return those of a law or table at temperatures (t,), with its covariance where it has one."""
+        """Return the shifts of a law or table at temperatures (t,), with its covariance where it has one."""
         middle = LN10 * np.asarray(shift.log10(temperatures))
         covariance = LN10**2 * _covariance(shift, temperatures)
         return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())

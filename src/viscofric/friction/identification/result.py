@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
-#: The modulus is described so far beyond the frequencies of the contacts, as a factor, and at so many frequencies.
+#: Factor to which the modulus is given beyond the frequencies of the contacts, and number of frequencies.
 _BEYOND = 10.0
 _FREQUENCIES = 300
-#: Notes beside which nothing counts as identified: the friction is not that of one rubber, or of none that is known.
+#: Notes with which nothing counts as identified: the friction is not that of one rubber, or of no known rubber.
 NOTHING_IDENTIFIED = frozenset({"not-one-rubber", "too-steep", "constant-friction"})
 
 

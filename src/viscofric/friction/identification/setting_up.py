@@ -30,16 +30,17 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
 
-#: Retardation times reach so far beyond the contact's frequencies, decades; those beyond are felt as a spring or not.
+#: Decades to which retardation times extend beyond the contact's frequencies; modes beyond act as a spring or not at
+#: all.
 MARGIN = 1.9
 #: Fewest modes per decade with which E(ω) does not ripple.
 LEAST_PER_DECADE = 2.5
-#: Friction averages over two decades of τ (K of the theory): what lies within a decade of the first or the last of the
-#: contact's frequencies is seen from one side only, and a spectrum may end there, so that no smoothness is assumed of
-#: it.  Of a narrow band this is a quarter on either side.
+#: Friction averages over two decades of τ (K of the theory): modes within a decade of the first or the last of the
+#: contact's frequencies affect it from one side only, and a spectrum may end there, so that no smoothness is assumed
+#: for them.  Of a narrow band this is a quarter on either side.
 ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
-#: Slope of the indenter at the contact's edge that a first guess of the level assumes, and the standard deviation of
-#: ln |E| about it where nothing is known: of a ball, slopes from 0.06 to 0.4 are within two of them.
+#: Slope of the indenter at the contact's edge for a first guess of the level, and the standard deviation of ln |E|
+#: about it where nothing is known: for a ball, slopes from 0.06 to 0.4 are within two standard deviations.
 GUESSED_SLOPE = 0.15
 GUESSED_SPREAD = 1.5
 
@@ -83,7 +84,7 @@ def shifts_of(
                 f"{asked} was not measured, only {shown_celsius(only)} °C was; give shift=.", code="no-such-temperature"
             )
         return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]))
-    # Points are at one load already, as far as contacts at different loads are alike.
+    # Points are at one load already, where contacts at different loads are similar.
     alike = points.at_one_load(curves)
     found = shift_friction(alike).shift_factors
     away = np.abs(points.temperatures[points.number][:, None] - found.temperatures)
@@ -145,11 +146,11 @@ def _guess(log_frequency: float, temperature: float, compliance: float) -> Block
 
 
 def _first_guess(moduli: tuple[Block, ...], contacts: Contacts, plane_strain: float) -> float:
-    """Return a compliance, 1/Pa: of what is known of the modulus, or that of a contact of moderate slope."""
+    """Return a compliance, 1/Pa: that of the known moduli, or that of a contact of moderate slope."""
     if moduli:
         return float(np.exp(-np.mean(np.concatenate([one.log_modulus for together, _ in moduli for one in together]))))
     logarithms = np.linspace(np.log(1e-3), np.log(1e15), 181)
     slopes = [Scale.for_load(contacts.indenter, float(np.exp(one)), contacts.load).slope for one in logarithms]
-    # Slopes fall as stiffness rises; a cone's is what it is.
+    # Slopes fall as stiffness rises; a cone's is constant.
     place = int(np.argmin(np.abs(np.log(np.array(slopes) / GUESSED_SLOPE))))
     return float(np.exp(-logarithms[place])) / plane_strain

@@ -1,4 +1,4 @@
-"""Contacts solved at nodes for one material, with the derivatives of friction; the fit is made about them."""
+"""Contacts solved at nodes for one material, with the derivatives of friction, as the basis of the fit."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from viscofric.processes import Workers
 
 
-#: Contacts that are solved per decade of reduced speed, and how far beyond the points, decades.  What the closed form
-#: misses changes so slowly that four per decade carry it to 1e-4 of the friction.
+#: Contacts solved per decade of reduced speed, and decades beyond the points.  The error of the closed form changes so
+#: slowly that four per decade interpolate it to 1e-4 of the friction.
 NODES_PER_DECADE = 4
 BEYOND = 0.15
 FEWEST_NODES = 5

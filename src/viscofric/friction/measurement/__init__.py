@@ -1,1 +1,1 @@
-"""Tribometer runs taken apart: viscoelastic friction, Coulomb friction and the zero of the force cell."""
+"""Separation of tribometer runs into viscoelastic friction, Coulomb friction and the zero of the force cell."""

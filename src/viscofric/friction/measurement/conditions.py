@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.traction import TractionRuns
 
 
-# Width of the intervals that swept slip is cut into, in tolerances: as far as readings of one slip may stretch.
+# Width of the intervals that swept slip is cut into, in tolerances: the largest range of readings of one slip.
 _INTERVAL = 4.0
 # Slip over speed below which a ball rolls, however still the speeds are.
 _PURE_ROLLING = 1e-3
@@ -183,7 +183,7 @@ def _jitter(speed: Array, senses: Integers) -> float:
 
 
 def _equal_rows(keys: Integers) -> list[Integers]:
-    """Return the places of equal rows, by ascending rows."""
+    """Return the indices of equal rows, by ascending rows."""
     _, number = np.unique(keys, axis=0, return_inverse=True)
     number = number.reshape(-1)
     order = np.argsort(number, kind="stable")
@@ -191,16 +191,16 @@ def _equal_rows(keys: Integers) -> list[Integers]:
 
 
 def where(some: list[Condition], total: int) -> str:
-    """Return the conditions as the beginning of a sentence; of several, their number and the first."""
+    """Return the conditions as the start of a sentence; of several, their number and the first."""
     if len(some) == 1:
         return f"At {some[0]}"
     return f"At {len(some)} of {total} conditions, the first being {some[0]},"
 
 
 def _slips(ratio: Array, tolerance: float, jittering: float) -> tuple[Array, Integers, bool]:
-    """Return the sense of sliding (along the disc's motion, ±1 or 0), numbers of the magnitudes, and if swept.
+    """Return the sense of sliding (along the disc's motion, ±1 or 0), indices of the magnitudes, and whether swept.
 
-    `jittering` is the largest slip of one reading that jitter can make.
+    `jittering` is the largest slip of one reading that jitter can cause.
     """
     resolution = max(0.1 * tolerance, jittering)
 
@@ -222,7 +222,7 @@ def _slips(ratio: Array, tolerance: float, jittering: float) -> tuple[Array, Int
         rolls = ((low <= 0.0) & (high >= 0.0)) | (np.abs(mean) < np.maximum(_PURE_ROLLING, jittering / np.sqrt(count)))
         direction = np.where(rolls, 0.0, np.sign(mean))[signed]
         magnitude = np.where(rolls, 0.0, np.abs(mean))[signed]
-        # Rolling stays apart from sliding, however slow.
+        # Rolling and sliding are separate, however slow.
         return direction, np.where(direction == 0.0, 0, numbered(magnitude) + 1), False
     except InputError:
         pass

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from viscofric.traction import TractionRuns
 
 
-#: How often a sound test, of however many conditions, is noted for one kind of deviation: once in 370 times.  The
-#: threshold in standard errors is Student's t, larger where few replicates or many conditions stand behind them.
+#: Probability of a note on one kind of deviation in a sound test of any number of conditions: one in 370.  The
+#: threshold in standard errors is Student's t, larger with few replicates or many conditions.
 CHANCE = 0.0027
 ROUNDING = 1e-9  # relative; smaller deviations come from rounding
-# What unnoticed slip adds to viscoelastic friction, over Coulomb friction, for it to matter.
+# Least significant contribution of unnoticed slip to viscoelastic friction, over Coulomb friction.
 _MATTERS = 0.1
 _OUTLIER = 5.0  # robust standard deviations
 _FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
@@ -71,7 +71,10 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
 
 
 def _why_viscoelastic(fit: Fit, entry: Entry) -> str:
-    """Return what can make viscoelastic friction negative; with positive Coulomb friction, not the force's sign."""
+    """Return possible causes of negative viscoelastic friction.
+
+    The sign of the force is one only where Coulomb friction is not positive.
+    """
     measured = entry.slides and fit.coulomb is None
     reasons = []
     if not measured or entry.value[2] <= 0.0:
@@ -89,7 +92,7 @@ def _why_viscoelastic(fit: Fit, entry: Entry) -> str:
 
 
 def _why_coulomb(fit: Fit, entry: Entry) -> str:
-    """Return what can make Coulomb friction negative."""
+    """Return possible causes of negative Coulomb friction."""
     if entry.value[1] > 0.0 and fit.fits_offset:
         return "probably the speeds of disc and ball are exchanged"
     return "probably the sign of the force, or of the velocities, is reversed"
@@ -293,10 +296,10 @@ def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
 
 
 def _of_few(n: int) -> float:
-    """Return how much farther a reading may lie from a median of few.
+    """Return the factor by which a reading may be farther from a median of few.
 
-    An outlying one of n is off a median that has itself a variance of π/2n, and the median absolute deviation of n is
-    small by about (n − 0.8)/n (C. Croux, P. J. Rousseeuw, Computational Statistics 1, 411–428, 1992).
+    The median of n readings has a variance of π/2n, and the median absolute deviation of n is too small by a factor of
+    about (n − 0.8)/n (C. Croux, P. J. Rousseeuw, Computational Statistics 1, 411–428, 1992).
     """
     return float(np.sqrt(1.0 + 0.5 * np.pi / n)) * n / (n - 0.8)
 

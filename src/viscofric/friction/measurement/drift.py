@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from viscofric.friction.measurement.fit import Entry
 
 
-_FEWEST = 3  # degrees of freedom behind a rate
-# The recorded zeros are followed where this makes the sum of squares smaller by more than chance would.
+_FEWEST = 3  # degrees of freedom of a rate
+# The recorded zeros are followed where this reduces the sum of squares by more than chance.
 _WORTH = 0.8
 _PER_HOUR = 3600.0
 
@@ -58,7 +58,7 @@ class Drift:
         if not taken:
             return cls(follows=follows, wandering=_in_order_of_rows(fitted, plain), timed=False)
         zero = np.concatenate([fit.offset(plain) for fit in taken])
-        # Where readings of a replicate weigh unequally, its zero is that of the time which the fit makes of theirs.
+        # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
         time = np.concatenate([fit.time - fit.each[:, 0, DRIFT] for fit in taken])
         line = np.repeat(np.arange(len(taken)), [len(fit.each) for fit in taken])
         if not repeated:
@@ -124,7 +124,7 @@ class Drift:
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
-    """Return the standard deviation of zeros that follow each other closely, N; zero where they do not."""
+    """Return the standard deviation of zeros that vary smoothly with the row, N; zero where they do not."""
     if not fits:
         return 0.0
     row = np.concatenate([fit.first_rows for fit in fits])

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from viscofric.friction.measurement.fit import Fit
 
 
-#: Degrees of freedom from which the scatter of a condition counts alone: Student's t is then 2.8, not 12.7.
+#: Degrees of freedom from which the scatter of a condition is used alone: Student's t is then 2.8, not 12.7.
 _ENOUGH = 4.0
 _VISCOELASTIC, _COULOMB, _CONSISTENCY = 1, 2, 3
 _AUTOCORRELATIONS = np.linspace(0.0, 0.99, 200)
@@ -102,8 +102,8 @@ class Pool:
         """Analyse the variance, in which the speeds of one run may share a part.
 
         Sums of squares of the means of runs over speeds, and of the rest, each have their own degrees of freedom;
-        those of their sum follow after F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110.  They are few where the
-        speeds of a run differ from other runs alike, and those of all conditions where they do so independently.
+        those of their sum follow from F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110.  They are few where all
+        speeds of a run deviate together, and those of all conditions where they deviate independently.
         """
         between, within = np.zeros((0, 2)), np.zeros((0, 2))
         speeds = 1.0
@@ -171,7 +171,7 @@ def _scatters(fit: Fit, weights: Array) -> list[Scatter]:
 
 
 def _measured_once(fit: Fit) -> bool:
-    """Whether a condition has one pass of several readings in each of its configurations, and no more."""
+    """Whether a condition has exactly one pass, of several readings, in each of its configurations."""
     few = int(fit.passes.max()) + 1 == len(fit.group.signs)
     return few and not fit.paired and fit.group.rows.size > len(fit.group.signs)
 
@@ -262,13 +262,13 @@ def _products(deviations: Array, passes: Indices) -> float:
 
 
 def _of_sums(rho: float | Array, size: Integers) -> Array:
-    """Variance of the sum of n readings over n times that of one: 1 + 2 Σ (1 − k/n) ρᵏ over the lags k."""
+    """Return the variance of the sum of n readings over n times that of one: 1 + 2 Σ (1 − k/n) ρᵏ over the lags k."""
     n = np.asarray(size, dtype=float)
     return np.asarray((1.0 + rho) / (1.0 - rho) - 2.0 * rho * (1.0 - rho**n) / (n * (1.0 - rho) ** 2))
 
 
 def _autocorrelation(ratio: float, sizes: Integers) -> float:
-    """Return the autocorrelation, not below zero, at which products over squares have this ratio in expectation."""
+    """Return the autocorrelation, not below zero, at which products over squares have this expected ratio."""
     rho = _AUTOCORRELATIONS[:, None]
     size, count = np.unique(sizes, return_counts=True)
     sums = _of_sums(rho, size)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 _OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
-#: Degrees of freedom that steps of several configurations leave, for their sums to give errors.
+#: Fewest degrees of freedom of steps of several configurations for errors from their sums.
 _FEWEST_STEPS = 3
 _MOST_PASSES = 1_000_000_000
 _FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
@@ -28,8 +28,8 @@ FORCE, DRIFT, ZERO_CHANGES = range(3)
 class Entry:
     """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition, in this order.
 
-    `freedom` is the number of degrees of freedom behind each error, infinite where it is known; what cannot be
-    known has an infinite error.
+    `freedom` is the number of degrees of freedom of each error, infinite where it is exact; an unknown value has an
+    infinite error.
     """
 
     value: Array
@@ -237,7 +237,7 @@ def _parts(runs: TractionRuns, group: Condition, zeros: Zeros, offset: bool) -> 
             target[:, ZERO_CHANGES] = -(known - known.mean())
     else:
         target[:, FORCE] = force - known
-        # The zeros that were recorded hold their own drift.
+        # Recorded zeros include their own drift.
         target[:, DRIFT] = 0.0
     return target
 
@@ -247,7 +247,7 @@ def _times(runs: TractionRuns, group: Condition) -> Array:
 
 
 def _replicates(runs: TractionRuns, group: Condition) -> tuple[Indices, Indices]:
-    """Return numbers of the replicates, and the steps, of a condition's readings.
+    """Return the indices of the replicates, and of the steps, of a condition's readings.
 
     Readings of one step are no repetitions of the test.  Where their replicate numbers differ, the steps are the
     replicates if each has all configurations; else the first step of each configuration is in the first replicate.
@@ -265,7 +265,7 @@ def _replicates(runs: TractionRuns, group: Condition) -> tuple[Indices, Indices]
 
 
 def _steps(step: Integers, group: Condition, replicate: Indices) -> Indices:
-    """Return numbers of the steps of a condition; those that a test numbers anew in each run, by their runs."""
+    """Return indices of the steps of a condition; those that a test numbers again in each run, by their runs."""
     block = np.concatenate([[0], np.cumsum(np.diff(step) != 0)])[group.rows]
     _, block = np.unique(block, return_inverse=True)
     _, number = np.unique(step[group.rows], return_inverse=True)

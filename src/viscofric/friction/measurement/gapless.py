@@ -1,4 +1,4 @@
-"""Advice on readings without gaps between nominal values: tolerances to give, readings to leave out."""
+"""Advice on readings without gaps between nominal values: tolerances to set, readings to leave out."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Gapless:
         return Note("no-gap", words, remedy=remedy)
 
     def _selection(self, low: float, high: float) -> Remedy:
-        """Return what to select: all but the steps that are not steady, or values near the median."""
+        """Return the selection to make: all steps except unsteady ones, or values near the median."""
         inside = (self.values >= low) & (self.values <= high)
         allowed = self.gap * (high if self.relative else 1.0)
         if self.runs.step is not None:

@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 
 #: Distance of the groups over their standard deviation: two halves of one normal distribution have 2.65.
 _APART = 6.0
-#: The same over the largest force of the condition: more than any variation from run to run.
+#: The same over the largest force of the condition: more than any variation between runs.
 _OF_FORCE = 0.5
 #: Smallest share of the readings in a group: fewer are outliers.
 _SHARE = 0.2
-# Speeds within this part of each other may have been meant to be one.
+# Speeds within this part of each other may have one nominal value.
 _NEAR = 0.5
 # (sgn u_disc, sgn(u_disc − u_ball)) in words
 _WORDS = {
@@ -47,7 +47,7 @@ class TwoGroups:
 
     @property
     def opposite(self) -> bool:
-        """Whether the forces have opposite signs with slip; without, slip too small to be measured can do that."""
+        """Whether the forces have opposite signs with slip; without slip, unmeasurably small slip can cause that."""
         return self.slides and self.low < 0.0 < self.high
 
 
@@ -125,7 +125,7 @@ class Grouping:
         except InputError as error:
             problem, groups, notes, poor = error, [], (), []
         if problem or poor:
-            # Slip that parts the disc's speeds by as much as nominal speeds may differ does so at some of them only.
+            # Slip separates the disc's speeds by as much as nominal speeds may differ only at some of them.
             try:
                 others, other_notes, still_poor = grouped(of_both(runs))
             except InputError:

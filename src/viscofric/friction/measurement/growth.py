@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 #: sums of up to four such terms, drawn at random, reached 1.0, 1.0, 1.54 and 3.3.  Rounded up, by half the last one:
 #: a maximum of friction half a decade wide, sharper than any of those, has 0.9, 1.1, 2.1 and 5.4.
 STEEPEST = (1.0, 1.2, 2.0, 5.0)
-#: Standard error of a derivative that is not known, over its largest: more than of equal chances up to that, 1/√3,
-#: since sharp curves reach it with one sign at many speeds.
+#: Standard error of an unknown derivative, over its largest value: more than the 1/√3 of a uniform distribution, since
+#: sharp curves reach that value with one sign at many speeds.
 _STANDARD = 0.7
 
 
@@ -40,7 +40,7 @@ class Growth:
 
     @classmethod
     def unknown(cls) -> Growth:
-        """Return a constant, without other speeds."""
+        """Return a constant, which uses no other speeds."""
         return cls(np.zeros(1), np.zeros(1), np.zeros(1))
 
     @classmethod

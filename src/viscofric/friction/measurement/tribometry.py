@@ -1,4 +1,4 @@
-"""Separate viscoelastic from Coulomb friction in the signed traction runs of a mini-traction machine."""
+"""Separation of viscoelastic from Coulomb friction in the signed traction runs of a mini-traction machine."""
 
 from __future__ import annotations
 
@@ -166,7 +166,7 @@ def separate(
 
 @dataclass(frozen=True, eq=False)
 class _Separation:
-    """Fits and results, condition by condition, the places where Coulomb friction was assumed, and notes."""
+    """Fits and results by condition, the indices where Coulomb friction was assumed, and notes."""
 
     fits: list[Fit]
     entries: list[Entry]
@@ -182,7 +182,7 @@ class _Separation:
         speed_tolerance: float,
         temperature_tolerance: float,
     ) -> _Separation:
-        """Separate a test without looking for outliers."""
+        """Separate a test without a search for outliers."""
         zeros = Zeros.known(runs, zero)
         grouping = Grouping.of(runs, zeros, assumed, speed_tolerance, temperature_tolerance)
         uneven = Uneven.of(runs, grouping.groups, speed_tolerance)

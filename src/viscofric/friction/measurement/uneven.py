@@ -1,4 +1,4 @@
-"""Tests that move the disc faster with one direction of slip than with the other."""
+"""Tests whose disc moves faster with one direction of slip than with the other."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def _growth(place: int, alike: list[int], fits: list[Fit], bare: list[Entry], en
     known = np.isfinite(bare[place].error[1])
 
     def error(one: int) -> float:
-        # A condition's own error is not to grow by what follows from it.
+        # A condition's own error must not increase by its own consequences.
         return float((bare if one == place else entries)[one].error[1])
 
     # Of several slips at one speed, the nearest.

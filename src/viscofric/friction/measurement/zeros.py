@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 _FEWEST_FOR_DRIFT = 8
 # Standard deviations that the ratio of von Neumann is below its mean where values drift.
 _DRIFTS = 3.0
-#: Conditions that determine a zero; fewer do not give its error.
+#: Fewest conditions that determine a zero with its error.
 _FEWEST = 3
-#: Standard errors that a given zero may lie away.
+#: Largest deviation of a given zero, in standard errors.
 _AWAY = 3.0
 
 
@@ -91,8 +91,8 @@ class Zeros:
     def variance(self, group: Condition, operator: Array, part: Indices | None) -> Array:
         """Return the variance of coefficients (4,) = `operator` @ readings due to the errors of the recordings.
 
-        Parts of the readings whose scatter gives the errors (`part` numbers them) include it as far as their recordings
-        differ: all of it where each has its own, nothing where they share one.  That share is subtracted.
+        The scatter of parts of the readings (numbered by `part`), which gives the errors, includes this variance if
+        each part has its own recording, and nothing of it if they share one.  The included part is subtracted.
         """
         _, which = np.unique(self.recording[group.rows], return_inverse=True)
         recordings = int(which.max()) + 1
@@ -101,7 +101,7 @@ class Zeros:
             parts = int(part.max()) + 1
             among = part * recordings + which
             squares = np.array([np.sum(np.bincount(among, row) ** 2) for row in operator])
-            # The variance of a mean that the scatter of its terms is expected to show, less that of what they share.
+            # The variance of the mean expected from the scatter of its terms, minus that of their common part.
             left = np.maximum(left - (parts * squares - left) / (parts - 1), 0.0)
         return self.error**2 * left
 
@@ -116,7 +116,7 @@ class Zeros:
         )
 
     def notes(self, groups: list[Condition], used: list[Condition]) -> list[str]:
-        """Return a note on viscoelastic friction that rests on a recorded zero."""
+        """Return a note on viscoelastic friction that depends on a recorded zero."""
         if self.given or not used:
             return []
         load = float(np.mean([group.load for group in used]))
@@ -150,7 +150,7 @@ class Zeros:
 
 
 def wanders(values: Array) -> bool:
-    """Whether values in succession are closer than chance makes them, so that they drift.
+    """Whether successive values are closer than by chance, so that they drift.
 
     The mean square of their successive differences over their variance is about 2 for independent ones, with variance
     4(n−2)/(n²−1) (von Neumann, Annals of Mathematical Statistics 12, 367–395, 1941).

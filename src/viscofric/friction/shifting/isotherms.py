@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 #: Points of an isotherm whose speeds differ by less are one point.
 SAME_SPEED = 1e-3  # decades
-#: Friction within so many standard errors of zero has no logarithm worth taking: all is then fitted as it is.
+#: Within this many standard errors of zero the logarithm of friction is useless: the coefficient itself is then fitted.
 CLEAR_OF_ZERO = 4.0
-#: Stated errors below this part of the typical one are not believed, relative.
+#: Smallest stated error that is used, relative to the typical one.
 SMALLEST_ERROR = 0.1
-#: What points without errors may scatter by, decades of friction: as little as a curve can be read to.
+#: Smallest scatter of points without errors, decades of friction: the precision of reading a curve.
 UNKNOWN_ERROR = 0.004
-#: Degrees of freedom of an error that is not found from replicates.
+#: Degrees of freedom of an error that is not that of replicates.
 EXACT = 1e6
 
 
@@ -56,7 +56,7 @@ class FrictionIsotherm:
         return Smoother.fitted(*columns).curves(*columns)
 
     def read(self, speed: Array) -> tuple[Array, Array]:
-        """Read the curve at log10 speeds (k, m) within the range, with the covariance of each m values (k, m, m)."""
+        """Return the curve at log10 speeds (k, m) within the range, and the covariance of each m values (k, m, m)."""
         from scipy.interpolate import BSpline
 
         smoother, curves = self.curves.smoother, self.curves
@@ -66,12 +66,12 @@ class FrictionIsotherm:
         return basis @ curves.coefficients[:, 0], spread
 
     def raised(self, part: float) -> FrictionIsotherm:
-        """Return the same with all friction larger by a part."""
+        """Return the same with all friction larger by a relative amount."""
         friction = self.friction + math.log10(1.0 + part) if self.logarithmic else (1.0 + part) * self.friction
         return replace(self, friction=friction)
 
     def sweep(self, unit: float) -> LogSweep:
-        """Return the points as superposition takes them, weights in units of an inverse variance."""
+        """Return the points in the form of superposition, weights in units of an inverse variance."""
         return LogSweep(self.speed, self.friction[:, None], 1.0 / (unit * self.variance))
 
 
@@ -114,10 +114,9 @@ def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
 def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[Indices]) -> Array:
     """Pool the squared errors of each temperature; a point without an error gets the typical one.
 
-    A standard error found from few replicates is itself uncertain, and weights that scatter cost precision which the
-    fit does not know of.  So squares are pooled with the typical one of their temperature, which counts for as many
-    replicates as their scatter over the points leaves room for (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004)
-    article 3).
+    A standard error of few replicates is itself uncertain, and scattering weights cost precision that the fit does not
+    account for.  So squares are pooled with the typical one of their temperature, which counts for as many replicates
+    as their scatter over the points allows (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) article 3).
     """
     known = np.isfinite(error)
     if not np.any(error[known] > 0.0):
@@ -130,13 +129,13 @@ def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[In
         typical[row] = np.median(squared[among])
     freedom = np.where(known, np.clip(freedom, 1.0, EXACT), 0.0)
     prior = _prior_freedom(np.log(squared / typical)[known], freedom[known])
-    # What one replicate without an error weighs beside those with one.
+    # The weight of one replicate without an error relative to those with one.
     fewer = np.where(known, 1.0, np.maximum(np.median(replicates[known]) / replicates, 1.0))
     return np.asarray(fewer * (freedom * squared + prior * typical) / (freedom + prior))
 
 
 def _prior_freedom(log_squares: Array, freedom: Array) -> float:
-    """Return how many degrees of freedom the typical squared error counts for."""
+    """Return the degrees of freedom of the typical squared error."""
     from scipy.special import polygamma
 
     candidates = np.logspace(0.0, 6.0, 61)
@@ -147,7 +146,7 @@ def _prior_freedom(log_squares: Array, freedom: Array) -> float:
 def _merged(
     temperature: float, speed: Array, ordinate: Array, variance: Array, friction: Array, logarithmic: bool
 ) -> FrictionIsotherm:
-    """Make one point of those at equal speeds."""
+    """Merge points of equal speeds."""
     order = np.argsort(speed, kind="stable")
     number = np.zeros(len(order), dtype=int)
     number[1:] = np.cumsum(np.diff(speed[order]) > SAME_SPEED)

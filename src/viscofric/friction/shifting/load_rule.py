@@ -39,18 +39,18 @@ _OF_FRICTION = (
 class LoadRule:
     """Exact similarity of friction at different loads and vertical shifts.
 
-    An indenter without a length of its own, on a linear half-space, makes contacts that are alike at all loads.
-    With the load relative to a reference load and to the vertical shift b of the modulus, f = F/(b F0), their size
-    goes as f^p and their strain as f^q, whatever the spectrum.  The time that a point spends in contact is the size
-    over the speed, and friction is proportional to the strain, hence
+    The contacts of an indenter without a length of its own on a linear half-space are similar at all loads.  With the
+    load relative to a reference load and to the vertical shift b of the modulus, f = F/(b F0), their size is
+    proportional to f^p and their strain to f^q, whatever the spectrum.  The time that a point spends in contact is the
+    size over the speed, and friction is proportional to the strain, hence
 
         μ(v, T, F) = f^q μ(α(T) v / f^p, T0, F0),    f = F/(b(T) F0).
 
     For a ball p = q = 1/3: μ = (a0/R) Φ(v/a0), with a0 the Hertz radius (K. L. Johnson, Contact Mechanics, Cambridge
-    1985, ch. 4); for a cylinder, with its load per length, p = q = 1/2; for a cone p = 1/2, q = 0.  Under an elastic
-    indenter it holds too as long as b = 1: its compliance is added to the rubber's, and neither has a length; but it
-    does not follow the rubber's b(T), so that there friction at E_i goes with that of E_i/b at the reference.  On a
-    layer, whose thickness is a length, it does not hold.
+    1985, ch. 4); for a cylinder, with its load per length, p = q = 1/2; for a cone p = 1/2, q = 0.  It also holds for
+    an elastic indenter if b = 1: its compliance is added to the material's, and neither has a length.  It does not
+    depend on the material's b(T): friction with E_i corresponds to friction with E_i/b at the reference.  The rule does
+    not hold on a layer, whose thickness is a length.
 
     Attributes
     ----------

@@ -312,6 +312,6 @@ class FrictionMasterCurve:
 
 
 def _values(values: Quantities, unit: str, name: str) -> tuple[Array, bool]:
-    """Return values in SI units in their own shape, and whether it is a single one."""
+    """Return values in SI units in their shape, and whether there is a single one."""
     found = to_si_in_shape(values, unit, name)
     return np.atleast_1d(found), found.ndim == 0

@@ -1,10 +1,9 @@
-"""Friction curves of several temperatures put over each other roughly: which of them overlap, and by what shift.
+"""Rough alignment of friction curves of several temperatures: which of them overlap, and at which shift.
 
 Each temperature has a smooth curve of its own, with its covariance.  At every step of log10 α two curves are compared
-over the stretch where both were measured.  Two curves that have only been moved apart do not contradict each other
-there.  So a step at which they coincide counts as an overlap only if contradiction bounds it on both sides: curves that
-can be slid apart without contradiction do not overlap as far as anyone knows, and friction that does not depend on
-speed can always be slid.
+over the stretch where both were measured.  Two curves without a common stretch do not contradict each other.  So a step
+at which they coincide is an overlap only if contradiction bounds it on both sides: of curves that can be moved apart
+without contradiction no overlap is known, and curves of constant friction can always be moved.
 """
 
 from __future__ import annotations
@@ -22,25 +21,25 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.isotherms import FrictionIsotherm
 
 
-#: Curves are slid along each other in steps of this many decades …
+#: Curves are moved along each other in steps of this many decades …
 STEP = 0.02
-#: … while so many points of each lie over the other one at least.
+#: … while at least this many points of each lie over the other one.
 FEWEST_POINTS = 2
 #: They are compared at both ends and in the middle of what they have in common.
 PLACES = np.array([0.0, 0.5, 1.0])
-#: A curve is read to about so much between its points, whatever their errors; decades of friction.
+#: Least error of a curve between its points, decades of friction.
 READING = 0.004
 #: χ² of the comparison that noise exceeds in one of 60 000 pairs (three degrees of freedom).
 LARGEST_MISFIT = 25.0
-#: What contradicts a step beside one where curves coincide: χ² larger by so much, three standard deviations.
+#: Increase of χ², from a step where curves coincide, that contradicts another step: three standard deviations.
 CONTRADICTION = 9.0
-#: α falls as temperature rises; a rise by so much is tolerated.
+#: α falls as temperature rises; a rise by this much is tolerated.
 WRONG_WAY = 0.05  # decades
-#: Above this part of all steps being possible, the curves are too flat rather than apart.
+#: If more than this part of all steps is possible, the curves are too flat.
 FLAT = 0.4
-#: Arrangements that are followed at a time.
+#: Largest number of arrangements kept at a time.
 BREADTH = 12
-#: Positions that lie closer are one, decades.
+#: Positions closer than this are equal, decades.
 SAME_POSITION = 0.1
 #: An arrangement whose squares exceed those of the best one by less is as good, in squares of standard deviations.
 AS_GOOD = 9.0
@@ -89,7 +88,7 @@ def _steps(colder: FrictionIsotherm, warmer: FrictionIsotherm) -> Array:
     if not lowest <= highest:
         return np.empty(0)
     steps = np.linspace(lowest, highest, max(3, int((highest - lowest) / STEP) + 1))
-    inside = np.full(steps.shape, True)  # with points that are far apart, steps between the ends may fail
+    inside = np.full(steps.shape, True)  # with points far apart, steps between the ends may fail
     for points, curve, way in ((colder, warmer, steps), (warmer, colder, -steps)):
         place = points.speed + way[:, None]
         over = (place >= curve.speed[0] - 1e-9) & (place <= curve.speed[-1] + 1e-9)
@@ -144,7 +143,7 @@ Pairs: TypeAlias = "Mapping[tuple[int, int], Pair]"
 
 
 def scan_pairs(isotherms: Sequence[FrictionIsotherm], scale: float) -> dict[tuple[int, int], Pair]:
-    """Scan all pairs of temperatures; the keys are their places, the colder first."""
+    """Scan all pairs of temperatures; the keys are their indices, the colder first."""
     pairs = {
         (colder, warmer): scan(isotherms[colder], isotherms[warmer], scale)
         for colder, warmer in combinations(range(len(isotherms)), 2)
@@ -155,8 +154,8 @@ def scan_pairs(isotherms: Sequence[FrictionIsotherm], scale: float) -> dict[tupl
 def _with_those_between(places: tuple[int, int], pair: Pair, pairs: Pairs) -> Pair:
     """Drop the steps that most temperatures between the two contradict.
 
-    α falls with temperature, so that a curve between two others lies between them.  Different stretches of a curve that
-    look alike, as the flanks of two maxima, coincide where what was measured in between has no place.
+    α falls with temperature, so that a curve between two others lies between them.  Similar stretches of a curve, such
+    as the flanks of two maxima, may coincide at a step that leaves no position for the temperatures between.
     """
     between = range(places[0] + 1, places[1])
     if not pair.candidates or not between:
@@ -177,7 +176,7 @@ def _with_those_between(places: tuple[int, int], pair: Pair, pairs: Pairs) -> Pa
 
 
 def groups(places: Iterable[int], joined: Iterable[tuple[int, int]]) -> list[list[int]]:
-    """Return the groups of places that pairs join, each ascending."""
+    """Return the groups of indices that pairs join, each ascending."""
     group = {place: place for place in places}
     for one, other in joined:
         old, new = group[other], group[one]
@@ -188,9 +187,9 @@ def groups(places: Iterable[int], joined: Iterable[tuple[int, int]]) -> list[lis
 def arrange(members: Sequence[int], pairs: Pairs) -> list[Arrangement]:
     """Return arrangements of the curves of a group of temperatures over each other, the best one first.
 
-    From the coldest on, each curve is tried wherever it coincides with one that has a place already.  The best few
-    arrangements are kept, so that a curve which coincides with one neighbour in two places gets the right one.  No α
-    may rise with temperature; curves without a place are left out.
+    From the coldest on, each curve is tried wherever it coincides with one that has a position already.  The best few
+    arrangements are kept, so that a curve that coincides with one neighbour at two steps gets the right one.  No α may
+    rise with temperature; curves without a position are left out.
 
     `members` are the places of the temperatures, which `pairs`, from `scan_pairs`, join.
     """
@@ -215,7 +214,7 @@ def arrange(members: Sequence[int], pairs: Pairs) -> list[Arrangement]:
 
 
 def rivals(found: Sequence[Arrangement]) -> list[int]:
-    """Return the places of temperatures whose position differs in another arrangement as good as the best one."""
+    """Return the indices of temperatures whose position differs in another arrangement as good as the best one."""
     best = found[0]
     return sorted(
         {
@@ -233,7 +232,7 @@ def _pair(pairs: Pairs, one: int, other: int) -> Pair:
 
 
 def _positions(arrangement: Arrangement, place: int, pairs: Pairs) -> list[float]:
-    """Return where a curve coincides with those that are placed."""
+    """Return the positions at which a curve coincides with the placed ones."""
     positions: list[float] = []
     for other, position in arrangement.positions.items():
         sign = 1.0 if other < place else -1.0

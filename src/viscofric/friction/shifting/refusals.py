@@ -105,7 +105,7 @@ def shown(isotherm: FrictionIsotherm) -> str:
 
 
 def too_flat(isotherms: Sequence[FrictionIsotherm]) -> Note:
-    """Return that friction may be constant."""
+    """Return a note that friction may be constant."""
     return Note(
         "curves-too-flat",
         f"friction curves at {_listed(isotherms)} are too flat: friction changes too little with speed for its errors, "

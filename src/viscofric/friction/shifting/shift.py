@@ -1,4 +1,4 @@
-"""Friction curves of several temperatures onto one: by shift factors that are given, or found from the curves."""
+"""Shifting of friction curves of several temperatures onto one, by shift factors given or found from the curves."""
 
 from __future__ import annotations
 
@@ -157,7 +157,7 @@ def shift_friction(
 
 
 def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
-    """Return at how many points friction is negative, which that of rubber cannot be."""
+    """Return the number of points of negative friction, which is impossible for rubber."""
     count = int(np.count_nonzero(curves.viscoelastic < -2.0 * curves.viscoelastic_error))
     if not count:
         return ()

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.result import Superposition
 
 
-#: A temperature that lies so near to the reference is the reference, K.
+#: A temperature closer than this to the reference is the reference, K.
 AT_REFERENCE = 1e-6
-#: Combinations whose variance is below this part of the largest one say how the reference was interpolated.
+#: Combinations whose variance is below this part of the largest one result from the interpolation of the reference.
 INTERPOLATED = 1e-9
 #: Rounding of tabulated values, decades; keeps exact ones from dividing by zero.
 ROUNDING = 1e-6
@@ -214,7 +214,7 @@ def _factors(found: Any, name: str) -> ShiftFactors:
 def _independent(spread: Array) -> Array:
     """Return the independent combinations (m, n) of values.
 
-    With a reference between temperatures the values around it are tied by interpolation, and there is one less.
+    With a reference between temperatures the values around it are related by interpolation, and there is one less.
     """
     variance, axes = np.linalg.eigh(spread)
     keep = variance > INTERPOLATED * variance[-1]

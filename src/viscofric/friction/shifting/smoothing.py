@@ -20,7 +20,7 @@ WIDEST_GAP = 0.5
 _ROUNDING = 1e-9
 # Different abscissae that the kernel must reach beyond the three that a parabola needs, so that it smooths.
 _NEIGHBOURS = 5
-# Abscissae closer than this share of the bandwidth count as one.
+# Abscissae closer than this part of the bandwidth count as one.
 _COINCIDENT = 1e-6
 
 
@@ -64,7 +64,7 @@ def _weights(error: Array) -> Array:
     typical = float(np.median(finite)) if finite.size else 0.0
     if typical == 0.0:
         return np.ones(error.shape)
-    # An unknown error weighs little, not nothing: its point may be the only one around.
+    # A point of unknown error has a small weight, not zero: it may be the only one nearby.
     squared = np.where(np.isfinite(error), error, 100.0 * typical) ** 2 + typical**2
     return np.asarray(squared.min() / squared)
 

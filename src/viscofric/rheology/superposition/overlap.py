@@ -248,10 +248,10 @@ def overlap_quality(sweeps: list[LogSweep], log10_shifts: Array) -> OverlapQuali
     return OverlapQuality(float(rms[0]), float(rms[-1]), len(every), pairs, tuple(gaps))
 
 
-#: Factors are wrong if the misfit of neighbours exceeds that at their best overlap this many times: 1.0 to 1.2 times for
-#: factors fitted to real sweeps (an acrylic, an adhesive, a foam, an EVA that melts), 1.2 to 1.9 for WLF laws fitted to
-#: such factors (3.6 for the foam, which follows no such law), and 2.1 to 7.8 for the factors with log10 α too large by
-#: 40 %.
+#: Factors are wrong if the misfit of neighbours exceeds that at their best overlap this many times: 1.0 to 1.2 times
+#: for factors fitted to real sweeps (an acrylic, an adhesive, a foam, an EVA that melts), 1.2 to 1.9 for WLF laws
+#: fitted to such factors (3.6 for the foam, which follows no such law), and 2.1 to 7.8 for the factors with log10 α too
+#: large by 40 %.
 BADLY = 2.0
 
 

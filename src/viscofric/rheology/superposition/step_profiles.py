@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 #: A profile is followed from this many standard errors on, in distances that double, until it is excluded …
 NEAR = 3.0
-#: … and from there in steps of so many decades over all that leaves an overlap; but not where a step is known to this,
-#: since sweeps that fix a step so well join nowhere else.
+#: … and from there in steps of this many decades as long as the sides overlap; but not where a step is known to the
+#: second number, since sweeps that determine a step so well join nowhere else.
 COARSE = 0.4
 SHARP = 0.03
 #: Excluded are moves this many times the threshold below the best.

@@ -183,7 +183,7 @@ def drift(neighbours: Sequence[NeighbourDistance]) -> Drift | None:
 
 
 def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:
-    """Return the mean distance of one smoothed isotherm from the other, its standard error, and its number of points."""
+    """Return the mean distance of one smoothed isotherm from the other, its standard error, and number of points."""
     line, points = other.line, one.points
     along = np.diff(line, axis=0)
     length = np.sum(along**2, axis=1) + 1e-300
