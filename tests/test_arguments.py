@@ -21,6 +21,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from refusals import refused
 from test_docstrings import PUBLIC, RETURNED, methods
 
 EXAMPLE = files("viscofric") / "example"
@@ -745,5 +746,5 @@ def test_a_numpy_header_of_ten_trillion_heights_is_refused_before_memory_is_aske
     header = io.BytesIO()
     np.lib.format.write_array_header_1_0(header, {"descr": "<f8", "fortran_order": False, "shape": (10**13,)})
     (tmp_path / "scan.npy").write_bytes(header.getvalue() + bytes(80))
-    with pytest.raises(vf.DataFileError, match=r"1e\+13 numbers"):
+    with refused("damaged", vf.DataFileError, naming="1e+13"):
         vf.read_topography(tmp_path / "scan.npy", spacing=1e-6)

@@ -16,6 +16,7 @@ import pytest
 
 import hostile
 import viscofric as vf
+from refusals import refused
 from study import sweeps
 from viscofric import files
 from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_imported, shortened
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 LONGEST = 2.0
 
 
-def refused(read, path):
+def refusal(read, path):
     """Return the sentence by which a file is refused, and insist that it is one, and soon."""
     before = os.times()
     with pytest.raises(vf.InputError) as caught:
@@ -52,7 +53,7 @@ def refused(read, path):
 def test_run_files_of_any_depth_are_refused_at_once(tmp_path: Path, name: str) -> None:
     path = tmp_path / "study.toml"
     path.write_text(hostile.run_files()[name], encoding="utf-8")
-    refused(vf.load_study, path)
+    refusal(vf.load_study, path)
 
 
 def test_ordinary_keys_and_texts_with_dots_are_read() -> None:
@@ -77,14 +78,14 @@ def test_arrays_that_announce_more_than_they_hold_are_refused(tmp_path: Path) ->
     def read(path: Path) -> object:
         return vf.read_topography(path, spacing="1 um")
 
-    assert "announces 1e+13 numbers" in refused(read, hostile.array(tmp_path / "scan.npy"))
+    assert "announces 1e+13 numbers" in refusal(read, hostile.array(tmp_path / "scan.npy"))
 
 
 def test_workbooks_are_no_surfaces(tmp_path: Path) -> None:
-    refused(vf.read_topography, hostile.workbook(tmp_path / "book.xlsx"))
+    refusal(vf.read_topography, hostile.workbook(tmp_path / "book.xlsx"))
     torn = tmp_path / "torn.xlsx"
     torn.write_bytes(hostile.workbook(tmp_path / "book.xlsx").read_bytes()[:3_000])
-    refused(vf.read_topography, torn)
+    refusal(vf.read_topography, torn)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no limit of address space")
@@ -99,13 +100,13 @@ def test_surfaces_of_instruments_are_read_within_limits(
     monkeypatch.setattr(package, "_APART", process)
     path = tmp_path / "scan.sur"
     path.write_bytes(b"DIGITAL SURF\0" + bytes(1_000))
-    assert words in refused(vf.read_topography, path)
+    assert words in refusal(vf.read_topography, path)
 
 
 @pytest.mark.slow  # a workbook of 600,000 cells takes seconds to write and to parse
 def test_a_workbook_as_the_tester_writes_it_is_parsed_apart(tmp_path: Path) -> None:
     path = hostile.workbook(tmp_path / "scan.xlsx", ("DATA", "Certificate"), rows=6_000, columns=100)
-    with pytest.raises(DataFileError, match="cells, more than a line scan has"):
+    with refused("too-large", DataFileError):
         vf.read_topography(path)
 
 
@@ -113,9 +114,9 @@ def test_hdf5_that_announces_more_than_it_can_hold_is_refused(tmp_path: Path) ->
     pytest.importorskip("h5py")
     path = hostile.hdf5(tmp_path / "results.nc")
     assert path.stat().st_size < 10_000
-    assert "would unpack to 3200 MB" in refused(vf.read_topography, path)
-    assert "announces 3200 MB" in refused(vf.open_results, path)
-    with pytest.raises(DataFileError, match="would unpack to"):
+    assert "would unpack to 3200 MB" in refusal(vf.read_topography, path)
+    assert "announces 3200 MB" in refusal(vf.open_results, path)
+    with refused("too-large", DataFileError):
         insist_on_size(path.read_bytes(), path)
 
 
@@ -126,7 +127,7 @@ def test_hdf5_of_others_is_refused_without_a_warning(tmp_path: Path) -> None:
         file.create_dataset("heights", data=[[1.0, 2.0]])  # without names of its dimensions
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        refused(vf.open_results, path)
+        refusal(vf.open_results, path)
 
 
 MEASURED = """
@@ -171,14 +172,14 @@ CARDS = {
 def test_cards_with_endless_numbers_and_lines_are_refused(tmp_path: Path, name: str) -> None:
     path = tmp_path / name
     path.write_text(CARDS[name], encoding="utf-8")
-    refused(vf.read_card, path)
+    refusal(vf.read_card, path)
 
 
 def test_a_card_of_a_whole_disk_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "card.inp"
     with path.open("wb") as file:
         file.truncate(LARGEST_CARD + 1)  # takes no room
-    assert "such a file has at most 20 MB" in refused(vf.read_card, path)
+    assert "such a file has at most 20 MB" in refusal(vf.read_card, path)
 
 
 @pytest.mark.parametrize(
@@ -188,7 +189,7 @@ def test_measurements_of_a_whole_disk_are_not_read(tmp_path: Path, read: object)
     path = tmp_path / "long.csv"
     with path.open("wb") as file:
         file.truncate(LARGEST_TABLE + 1)  # takes no room
-    assert "at most 50 MB; keep every tenth row" in refused(read, path)
+    assert "at most 50 MB; keep every tenth row" in refusal(read, path)
 
 
 def test_heights_of_a_large_surface_are_read_in_binary_form_only(
@@ -201,7 +202,7 @@ def test_heights_of_a_large_surface_are_read_in_binary_form_only(
     reads = (lambda path: vf.read_topography(path, spacing="1 m").heights, read_heights)
     for read in reads:
         np.testing.assert_array_equal(read(tmp_path / "scan.npy"), heights)
-        assert "numpy.save" in refused(read, tmp_path / "scan.csv")
+        assert "numpy.save" in refusal(read, tmp_path / "scan.csv")
 
 
 def test_a_card_may_hold_a_name_of_any_length(tmp_path: Path) -> None:
@@ -224,9 +225,9 @@ def test_friction_and_heights_that_no_rubber_or_surface_has_are_noted(tmp_path: 
     assert "implausible-friction" in codes(vf.read_mtm(path).notes)
     scan = tmp_path / "scan.csv"
     scan.write_text("8e298,0\n0,1\n", encoding="utf-8")
-    with pytest.raises(DataFileError, match=r"heights of up to 8e\+298 m"):
+    with refused("implausible-height", DataFileError, naming="8e+298"):
         vf.read_topography(scan, spacing="1 um")
-    with pytest.raises(DataFileError, match=r"heights of up to 8e\+298 m"):
+    with refused("implausible-height", DataFileError, naming="8e+298"):
         read_heights(scan)
     scan.write_text("3.5,0\n0,1\n", encoding="utf-8")  # µm, read as m
     assert "implausible-heights" in codes(vf.read_topography(scan, spacing="1 um").history)
@@ -279,7 +280,7 @@ TABLES = {
 def test_messages_quote_no_more_than_a_sentence_holds(tmp_path: Path, read: object, name: str) -> None:
     path = tmp_path / "long.csv"
     path.write_text(TABLES[name], encoding="utf-8")
-    refused(read, path)
+    refusal(read, path)
 
 
 def test_a_long_sentence_keeps_its_beginning_and_its_end() -> None:

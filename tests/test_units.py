@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.units import (
     angular_frequency,
@@ -51,36 +52,36 @@ def test_one_number_and_one_unit_are_understood(text, unit, number):
 
 
 @pytest.mark.parametrize(
-    ("text", "unit", "says"),
+    ("text", "unit", "refusal"),
     [
-        ("9,525 mm", "m", "has a decimal comma; write '9.525 mm', or '9525 mm' if it separates thousands"),
-        ("25,5 N", "N", r"has a decimal comma; write '25\.5 N'\."),
-        (",5 N", "N", r"has a decimal comma; write '0\.5 N'\."),
-        ("1 000 N", "N", r"has thousands separators; write '1000 N'\."),
-        ("1,000.5 N", "N", r"has thousands separators; write '1000\.5 N'\."),
-        ("1,234,567 N", "N", r"has thousands separators; write '1234567 N'\."),
-        ("5 N + 3 N", "N", "not one plain number followed by one unit"),
-        ("2*3 mm", "m", "not one plain number followed by one unit"),
-        ("20, 200 mm/s", "m/s", "not one plain number followed by one unit"),
-        ("1_000 N", "N", "not one plain number"),
-        ("٣ N", "N", "not one plain number"),
-        ("mm", "m", "has no number"),
-        ("25", "N", "has no unit"),
-        ("", "N", "is empty"),
-        ("1e400 N", "N", "not a finite number"),
-        ("5 foo", "N", "'foo' is not a known unit"),
-        ("5 kg", "N", r"wrong kind of unit \(kilogram\); write, for example, '25 N'"),
-        ("60 C", "K", "write '60 degC'"),
-        ("140 F", "K", "write '140 degF'"),
-        ("5 MPA", "Pa", "write '5 MPa'"),
-        ("5 kpa", "Pa", "write '5 kPa'"),
-        ("20 delta_degC", "K", "is a temperature difference"),
-        ("51.6 degC", "delta_degC", "is a temperature where a temperature difference is needed"),
-        ("17 K", "dimensionless", r"has a unit \(kelvin\), but must be a pure number; .* the plain number 0\.5"),
+        ("9,525 mm", "m", ("decimal-comma", "'9.525 mm'", "'9525 mm'")),
+        ("25,5 N", "N", ("decimal-comma", "'25.5 N'")),
+        (",5 N", "N", ("decimal-comma", "'0.5 N'")),
+        ("1 000 N", "N", ("thousands-separators", "'1000 N'")),
+        ("1,000.5 N", "N", ("thousands-separators", "'1000.5 N'")),
+        ("1,234,567 N", "N", ("thousands-separators", "'1234567 N'")),
+        ("5 N + 3 N", "N", ("not-a-number",)),
+        ("2*3 mm", "m", ("not-a-number",)),
+        ("20, 200 mm/s", "m/s", ("not-a-number",)),
+        ("1_000 N", "N", ("not-a-number",)),
+        ("٣ N", "N", ("not-a-number",)),
+        ("mm", "m", ("no-number",)),
+        ("25", "N", ("no-unit",)),
+        ("", "N", ("empty",)),
+        ("1e400 N", "N", ("not-finite",)),
+        ("5 foo", "N", ("unknown-unit", "'foo'")),
+        ("5 kg", "N", ("wrong-unit", "'25 N'")),
+        ("60 C", "K", ("wrong-unit", "'60 degC'")),
+        ("140 F", "K", ("wrong-unit", "'140 degF'")),
+        ("5 MPA", "Pa", ("unknown-unit", "'5 MPa'")),
+        ("5 kpa", "Pa", ("unknown-unit", "'5 kPa'")),
+        ("20 delta_degC", "K", ("temperature-difference",)),
+        ("51.6 degC", "delta_degC", ("not-a-temperature-difference",)),
+        ("17 K", "dimensionless", ("wrong-unit", "0.5")),
     ],
 )
-def test_what_is_not_one_number_and_one_unit_is_refused_in_one_sentence(text, unit, says):
-    with pytest.raises(InputError, match=says) as caught:
+def test_what_is_not_one_number_and_one_unit_is_refused_in_one_sentence(text, unit, refusal):
+    with refused(refusal[0], naming=refusal[1:]) as caught:
         to_si(text, unit, "radius")
     assert str(caught.value).startswith(f"radius = {text!r}: ")
     assert "\n" not in str(caught.value)
@@ -106,9 +107,9 @@ def test_units_of_headings_are_not_evaluated_either():
 
 @pytest.mark.parametrize("value", [True, False, np.True_, None, [1.0], "N", object()])
 def test_what_is_not_a_number_is_refused(value):
-    with pytest.raises(InputError, match=r"not a number|has no number"):
+    with refused("load"):
         to_si(value, "N", "load")
-    with pytest.raises(InputError, match="is not a number"):
+    with refused("not-a-number", naming="value"):
         to_si(True, "dimensionless")
 
 
@@ -116,9 +117,9 @@ def test_temperature_differences_and_temperatures_are_kept_apart():
     quantity = registry().Quantity
     assert to_si(quantity(20.0, "degC"), "K") == pytest.approx(293.15)
     assert to_si(quantity(20.0, "delta_degC"), "delta_degC") == pytest.approx(20.0)
-    with pytest.raises(InputError, match="temperature difference"):
+    with refused("temperature-difference"):
         to_si(quantity(20.0, "delta_degC"), "K")
-    with pytest.raises(InputError, match="is a temperature where"):
+    with refused("not-a-temperature-difference"):
         to_si(quantity(20.0, "degC"), "delta_degC")
 
 
@@ -128,17 +129,17 @@ def test_lists_arrays_and_quantities_become_arrays():
     assert to_si_array("1 mm", "m") == pytest.approx([1e-3])
     assert to_si_array(quantity(np.array([20.0, 30.0]), "degC"), "K") == pytest.approx([293.15, 303.15])
     assert to_si_array(quantity(5.0, "mm"), "m") == pytest.approx([5e-3])
-    with pytest.raises(InputError, match="wrong kind of unit"):
+    with refused("wrong-unit", naming="value"):
         to_si_array(quantity(np.array([5.0]), "N"), "m")
     for wrong in ([True], None):
-        with pytest.raises(InputError, match="is not a number"):
+        with refused("not-a-number", naming="value"):
             to_si_array(wrong, "m")
 
 
 def test_positive_insists():
-    with pytest.raises(InputError, match=r"load = '0 N': must be above zero"):
+    with refused("not-positive", naming="load = '0 N'"):
         positive("0 N", "N", "load")
-    with pytest.raises(InputError, match=r"temperature = '-300 degC': must be above absolute zero"):
+    with refused("not-positive", naming="temperature = '-300 degC'"):
         positive("-300 degC", "K", "temperature")
 
 
@@ -170,5 +171,5 @@ def test_hertz_count_two_pi_radians_each():
 
 @pytest.mark.parametrize("wrong", ["10", "10 1/s", "10 s", "0 Hz", "-1 rad/s", "ten Hz", "10 rad"])
 def test_what_is_no_frequency_is_refused(wrong):
-    with pytest.raises(InputError, match="frequency"):
+    with refused("frequency"):
         angular_frequency(wrong, "frequency")

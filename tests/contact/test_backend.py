@@ -229,7 +229,7 @@ def test_missing_libraries_are_named_with_their_installation(
     # An entry of None makes an import fail as if nothing were installed.
     for module in (library, f"{library}.fft", f"{library}.interfaces.scipy_fft"):
         monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(InputError, match=rf"^backend = '{name}': .*install.*{words}[^\n]*$"):
+    with refused("not-installed", naming=(f"backend = '{name}'", words)):
         Backend(name)
 
 

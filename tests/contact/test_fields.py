@@ -247,7 +247,7 @@ def test_depth_must_be_below_the_surface(depth: float) -> None:
     x = np.arange(3.0)
     with refused("depth"):
         stress_layer(x, x, np.ones((3, 3)), depth, 0.3)
-    with pytest.raises(InputError, match=r"^depths?"):
+    with refused("not-finite" if math.isnan(depth) else "not-positive", naming="depth"):
         line_stress(x, np.ones(3), [1.0, depth], 0.3)
 
 
@@ -255,13 +255,13 @@ def test_fields_refuse_arrays_that_do_not_fit() -> None:
     x, ones = np.arange(3.0), np.ones((3, 3))
     with refused("pressure"):
         stress_layer(x, x, np.ones((3, 4)), 1.0, 0.3)
-    with pytest.raises(InputError, match="equal steps"):
+    with refused("not-ascending"):
         stress_plane(np.array([0.0, 1.0, 3.0]), x, ones, 1.0, 0.3)
     with refused("not-on-points"):
         stress_at(x, x, ones, [1.0, 2.0, 3.0], 0.3)
     with refused("no-contact"):
         highest_von_mises(x, x, 0.0 * ones, 0.3)
-    with pytest.raises(InputError, match="finite"):
+    with refused("not-a-number", naming="displacement"):
         surface_power(x, ones, np.full((3, 3), math.nan), 1.0)
 
 

@@ -7,6 +7,7 @@ import pytest
 import scipy.linalg
 
 import viscofric as vf
+from refusals import refused
 from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
@@ -104,7 +105,7 @@ def test_mean_compression_is_part_of_the_indentation() -> None:
     np.testing.assert_allclose(solution.gap, solution.displacement + height - solution.indentation, atol=1e-18)
 
 
-@pytest.mark.parametrize("wrong", [0.0, -1.0, "1 s"])
-def test_wrong_thickness_is_refused(wrong: object) -> None:
-    with pytest.raises(vf.InputError, match="thickness"):
+@pytest.mark.parametrize(("wrong", "code"), [(0.0, "not-positive"), (-1.0, "not-positive"), ("1 s", "wrong-unit")])
+def test_wrong_thickness_is_refused(wrong: object, code: str) -> None:
+    with refused(code, naming="thickness"):
         Layer(wrong)  # type: ignore[arg-type]

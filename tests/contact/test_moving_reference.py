@@ -14,6 +14,7 @@ from scipy.fft import dst
 from scipy.integrate import quad
 
 from marks import slow
+from refusals import refused
 from viscofric.contact.reference import (
     HunterContact,
     RollingFoundationContact,
@@ -289,9 +290,9 @@ def test_rolling_foundation_obeys_the_laws_of_low_and_of_high_speed(ratio: float
 
 
 def test_rolling_foundation_refuses_what_it_cannot_do() -> None:
-    with pytest.raises(InputError, match="glassy"):
+    with refused("out-of-range"):
         rolling("line", 0.9, 1.0)
-    with pytest.raises(InputError, match="half-widths"):
+    with refused("out-of-range"):
         rolling("ball", 10.0, 1e10)
 
 
@@ -358,5 +359,5 @@ def test_laws_of_speed_add_up_over_modes_and_refuse_nonsense() -> None:
             law(C, tau[:1])
         with pytest.raises(InputError):
             law(C, [1e-2, 0.0])
-    with pytest.raises(InputError, match="speed"):
+    with refused("no-speed"):
         high_speed_friction(0.0, 3.0, R, E, NU, C, tau)

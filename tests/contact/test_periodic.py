@@ -389,7 +389,7 @@ def test_table_is_asked_only_for_frequencies_that_there_are() -> None:
     found = solve_periodic(short, profile, speed=1.0, pressure=0.05)
     expected = solve_periodic(broad(), profile, speed=1.0, pressure=0.05)
     assert found.friction_coefficient == pytest.approx(expected.friction_coefficient, rel=1e-3)  # interpolation
-    with pytest.raises(vf.InputError, match="outside the table"):
+    with refused("outside-table"):
         solve_periodic(short, surface, speed=1.0, pressure=0.05)
 
 
@@ -526,7 +526,7 @@ def test_wrong_values_are_refused(settings: dict[str, object], about: str) -> No
 
 @pytest.mark.parametrize("z", [[[1.0, np.nan]], [1.0], np.zeros((4, 4)), np.zeros((2, 2, 2)), "rough"])
 def test_wrong_surfaces_are_refused(z: object) -> None:
-    with pytest.raises(vf.InputError, match="z of a periodic surface"):
+    with refused("z"):
         PeriodicSurface(z, 1.0)  # type: ignore[arg-type]
 
 

@@ -295,13 +295,13 @@ def test_coulomb_friction_that_changes_the_pressure_is_reported(
 def test_what_cannot_be_checked_is_refused() -> None:
     with refused("no-points"):
         vf.check_assumptions(RUBBER, BALL, curves().select(np.zeros(4, dtype=bool)))
-    with pytest.raises(InputError, match="must be an indenter"):
+    with refused("wrong-type", naming="indenter"):
         vf.check_assumptions(RUBBER, 9.5e-3, curves())
     with refused("no-shift"):
         vf.check_assumptions(replace(RUBBER, shift=None), BALL, curves())
     with refused("contact-radius"):
         vf.check_assumptions(RUBBER, BALL, curves(), contact_radius=[1e-3, 2e-3])
-    with pytest.raises(InputError, match="thickness"):
+    with refused("not-positive", naming="thickness"):
         vf.check_assumptions(RUBBER, BALL, curves(), thickness="-1 mm")
 
 

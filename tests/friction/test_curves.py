@@ -11,7 +11,6 @@ import pytest
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
 from refusals import refused
-from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.prediction import predict_friction
@@ -113,7 +112,7 @@ def test_curves_of_line_contacts_count_their_load_per_length(rubber: vf.Material
     assert len(curves.at_load("202 N/m")) == 2
     with refused("no-such-load"):
         curves.at_load("300 N/m")
-    with pytest.raises(InputError, match="load = '2 N': has the wrong kind of unit"):
+    with refused("wrong-unit", naming="load = '2 N'"):
         predict_friction(rubber, vf.Cylinder("1 cm"), speeds=0.1, temperatures=320.0, load="2 N")
     line, point = (
         vf.solve_steady(rubber, shape, speed=0.1, load=load, temperature=320.0, accuracy=0.1)
@@ -121,7 +120,7 @@ def test_curves_of_line_contacts_count_their_load_per_length(rubber: vf.Material
     )
     with refused("mixed-geometries"):
         FrictionCurves.from_solutions([line, point])
-    with pytest.raises(InputError, match="must be an indenter"):
+    with refused("wrong-type", naming="indenter"):
         predict_friction(rubber, "ball", speeds=0.1, temperatures=320.0, load=2.0)  # type: ignore[arg-type]
 
 
@@ -140,20 +139,22 @@ def test_progress_is_reported(rubber: vf.Material) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "message"),
+    ("change", "refusal"),
     [
-        ({"speeds": [0.1, 0.0]}, "speeds must be above zero"),
-        ({"speeds": ["100 mm/s", "-1 mm/s"]}, "speeds must be above zero"),
-        ({"speeds": []}, "speeds must hold at least one"),
-        ({"speeds": "100 mm"}, "speeds = '100 mm': has the wrong kind of unit"),
-        ({"temperatures": 0.0}, "temperatures must be above zero"),
-        ({"load": "-1 N"}, "load = '-1 N': must be above zero"),
-        ({"workers": 0}, "workers = 0: must be a whole number of processes above zero"),
+        ({"speeds": [0.1, 0.0]}, ("not-positive",)),
+        ({"speeds": ["100 mm/s", "-1 mm/s"]}, ("not-positive",)),
+        ({"speeds": []}, ("empty-list",)),
+        ({"speeds": "100 mm"}, ("wrong-unit", "'100 mm'")),
+        ({"temperatures": 0.0}, ("not-positive",)),
+        ({"load": "-1 N"}, ("not-positive", "'-1 N'")),
+        ({"workers": 0}, ("not-a-whole-number",)),
     ],
 )
-def test_senseless_conditions_are_refused(rubber: vf.Material, change: dict[str, object], message: str) -> None:
+def test_senseless_conditions_are_refused(
+    rubber: vf.Material, change: dict[str, object], refusal: tuple[str, ...]
+) -> None:
     wanted = {"speeds": 0.1, "temperatures": "50 degC", "load": "2 N", **change}
-    with pytest.raises(InputError, match=message):
+    with refused(refusal[0], naming=refusal[1:]):
         predict_friction(rubber, BALL, **wanted)  # type: ignore[arg-type]
 
 

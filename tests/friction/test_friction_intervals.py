@@ -13,7 +13,6 @@ from scipy.stats import t as student
 
 from friction.made_runs import FOUR, friction_curves, timed_sweeps, traction_runs
 from refusals import refused
-from viscofric.errors import InputError
 from viscofric.friction.identification.points import relative_errors
 from viscofric.friction.measurement.errors import Pool, Scatter
 from viscofric.friction.measurement.tribometry import separate
@@ -136,7 +135,7 @@ def test_an_interval_is_students_with_the_freedom_that_there_is() -> None:
     assert np.all(np.isinf(np.stack(unknown.interval())))
     plain = friction_curves(np.array([0.1]), np.array([300.0]), np.array([0.03]), error=0.01)
     assert plain.interval()[1] == pytest.approx([0.03 + 1.959964 * 0.01], rel=1e-6)
-    with pytest.raises(InputError, match="between 0 and 1"):
+    with refused("out-of-range", naming="level"):
         plain.interval(95.0)
     with refused("not-known"):
         plain.interval(of="coulomb")

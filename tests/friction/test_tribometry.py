@@ -16,7 +16,6 @@ from scipy.stats import binom
 
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from refusals import refused
-from viscofric.errors import InputError
 from viscofric.friction.measurement.conditions import conditions
 from viscofric.friction.measurement.course import of_the_disc
 from viscofric.friction.measurement.fit import operators, residuals
@@ -446,7 +445,7 @@ def test_outliers_are_left_out_if_wanted_and_named(places: tuple[int, ...]) -> N
     (note,) = (note for note in curves.notes if note.code == "outliers")
     assert "row 6 (replicate 6, 30.0 °C and 100 mm/s" in note
     assert ("and 1 more" in note) == (len(places) > 3)
-    with pytest.raises(InputError, match="must be 'keep' or 'leave out'"):
+    with refused("wrong-choice", naming=("outliers", "'keep'", "'leave out'")):
         separate(runs, outliers="drop")  # type: ignore[arg-type]
 
 
@@ -573,7 +572,7 @@ def test_no_readings_are_an_error() -> None:
 
 @pytest.mark.parametrize("tolerance", [0.0, 1.0, -1.0])
 def test_tolerance_must_be_a_fraction(tolerance: float) -> None:
-    with pytest.raises(InputError, match="between 0 and 1"):
+    with refused("out-of-range", naming="speed_tolerance"):
         separate(traction_runs(viscoelastic=lambda v, T: 0.03), speed_tolerance=tolerance)
 
 

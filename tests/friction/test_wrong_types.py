@@ -9,6 +9,7 @@ import pytest
 
 import viscofric as vf
 from friction.made_runs import traction_runs
+from refusals import refused
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -122,38 +123,38 @@ def test_a_value_of_the_wrong_kind_is_refused(
     for wrong in (*_WRONG, *(() if optional else (None,))):
         if isinstance(wrong, (str, int)) and (argument, wrong) in right:
             continue
-        with pytest.raises(vf.InputError) as refused:
+        with pytest.raises(vf.InputError) as caught:
             verb(**{argument: wrong})
         # One sentence that can be read: no array or object is printed in full.
-        assert len(str(refused.value)) < 320, argument
-        assert "\n" not in str(refused.value), argument
+        assert len(str(caught.value)) < 320, argument
+        assert "\n" not in str(caught.value), argument
 
 
 @pytest.mark.parametrize("name", [*_COLUMNS, "load_unit"])
 def test_columns_of_something_else_make_no_friction_curves(name: str) -> None:
     for wrong in ("fast", {}, object(), [1j] * 18, [b"x"] * 18, 10**400, float("nan")):
-        with pytest.raises(vf.InputError, match=name):
+        with refused(name):
             vf.FrictionCurves(**_COLUMNS | {name: wrong})
 
 
 def test_half_a_replicate_is_refused() -> None:
-    with pytest.raises(vf.InputError, match="whole numbers"):
+    with refused("not-a-whole-number"):
         vf.FrictionCurves(**_COLUMNS | {"replicates": np.full(18, 1.5)})
 
 
 @pytest.mark.parametrize(
-    ("call", "said"),
+    ("call", "refusal"),
     [
-        (lambda: vf.separate(_CURVES), "runs must be TractionRuns, as read_mtm"),  # type: ignore[arg-type]
-        (lambda: vf.write_friction_curves(_RUNS, "x.csv"), "curves must be FrictionCurves"),  # type: ignore[arg-type]
-        (lambda: vf.read_friction_curves(None), "None is not the name of a file"),  # type: ignore[arg-type]
-        (lambda: vf.read_mtm(5), "5 is not the name of a file"),  # type: ignore[arg-type]
-        (lambda: vf.read_mtm(["a.csv", "b.csv"]), "not in a list"),  # type: ignore[arg-type]
-        (lambda: vf.separate(_RUNS, speed_tolerance="5 %"), "speed_tolerance = '5 %'"),  # type: ignore[arg-type]
-        (lambda: vf.separate(_RUNS, zero="5 mm"), "zero = '5 mm': has the wrong kind of unit"),
-        (lambda: _predict(temperatures=5.0), "plain numbers are kelvin"),
+        (lambda: vf.separate(_CURVES), ("wrong-type", "runs", "TractionRuns")),  # type: ignore[arg-type]
+        (lambda: vf.write_friction_curves(_RUNS, "x.csv"), ("not-friction-curves",)),  # type: ignore[arg-type]
+        (lambda: vf.read_friction_curves(None), ("not-a-name",)),  # type: ignore[arg-type]
+        (lambda: vf.read_mtm(5), ("not-a-name",)),  # type: ignore[arg-type]
+        (lambda: vf.read_mtm(["a.csv", "b.csv"]), ("files-in-a-list",)),  # type: ignore[arg-type]
+        (lambda: vf.separate(_RUNS, speed_tolerance="5 %"), ("not-a-number", "speed_tolerance = '5 %'")),  # type: ignore[arg-type]
+        (lambda: vf.separate(_RUNS, zero="5 mm"), ("wrong-unit", "zero = '5 mm'")),
+        (lambda: _predict(temperatures=5.0), ("out-of-range",)),
     ],
 )
-def test_what_was_meant_is_reported(call: Callable[[], object], said: str) -> None:
-    with pytest.raises(vf.InputError, match=said):
+def test_what_was_meant_is_reported(call: Callable[[], object], refusal: tuple[str, ...]) -> None:
+    with refused(refusal[0], naming=refusal[1:]):
         call()

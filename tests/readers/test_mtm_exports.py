@@ -10,7 +10,6 @@ import pytest
 
 from readers.refusal import noted, refused
 from readers.samples import pcs
-from viscofric.errors import InputError
 from viscofric.notes import codes
 from viscofric.readers import read_mtm
 
@@ -175,7 +174,7 @@ def test_a_test_that_was_aborted_is_reported(tmp_path):
 def test_the_thermometer_can_be_chosen(tmp_path, mtm):
     path = pcs.TRACTION_SAMPLES["MTM"](tmp_path)
     assert read_mtm(path, thermometer="pot").temperature == pytest.approx(np.full(24, 315.15))
-    with pytest.raises(InputError, match=r"^thermometer = 'oven'"):
+    with refused("wrong-choice", None, "thermometer = 'oven'"):
         read_mtm(path, thermometer="oven")
     lines = [line.replace("Lube RTD Temp (degC)", "Something else") for line in pcs.mtm()]
     runs = read_mtm(pcs.write(tmp_path, lines))

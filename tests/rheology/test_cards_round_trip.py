@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from refusals import refused
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError
 from viscofric.notes import codes, warned
 from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
@@ -137,7 +137,7 @@ def test_programs_that_need_a_bulk_modulus_say_so(tmp_path, program):
 def test_temperatures_in_degrees_celsius_come_back(tmp_path, program, law):
     material = rubber(law)
     if (program, law) == ("ls-dyna", "arrhenius"):
-        with pytest.raises(InputError, match="in K"):
+        with refused("temperature-unit"):
             write_card(material, tmp_path / "card", program, density=1e3, temperature_unit="degC")
         return
     path = write_card(material, tmp_path / "card", program, density=1e3, temperature_unit="degC")
@@ -350,30 +350,30 @@ def test_damaged_cards_give_an_answer_or_one_clear_error(tmp_path, program, data
 
 
 def test_unknown_formats_and_files_are_refused(tmp_path):
-    with pytest.raises(InputError, match="must be 'abaqus', 'ansys'"):
+    with refused("wrong-choice", naming=("format", "'abaqus'", "'ansys'")):
         write_card(rubber(), tmp_path / "card", "nastran")
-    with pytest.raises(InputError, match="must be 'abaqus', 'ansys'"):
+    with refused("wrong-choice", naming=("format", "'abaqus'", "'ansys'")):
         read_card(tmp_path / "card", "nastran")
     (tmp_path / "letter").write_text("Dear colleague,\nthe rubber is soft.\n")
     with refused("unknown-card", DataFileError):
         read_card(tmp_path / "letter")
     with refused("other-card", DataFileError):
         read_card(tmp_path / "letter", "abaqus")
-    with pytest.raises(DataFileError, match="no such file"):
+    with refused("no-such-file", DataFileError):
         read_card(tmp_path / "nothing")
     with refused("not-written", DataFileError):
         write_card(rubber(), tmp_path / "no folder" / "card", "json")
 
 
 def test_impossible_wishes_are_refused(tmp_path):
-    for wish, says in (
-        ({"poisson_ratio": 0.7}, "between 0 and 0.5"),
-        ({"temperature_unit": "F"}, "temperature_unit = 'F'"),
-        ({"domain": "space"}, "domain = 'space'"),
-        ({"material_id": 0}, "1 or more"),
-        ({"density": -1.0}, "density"),
+    for wish, code in (
+        ({"poisson_ratio": 0.7}, "poisson-ratio"),
+        ({"temperature_unit": "F"}, "wrong-choice"),
+        ({"domain": "space"}, "wrong-choice"),
+        ({"material_id": 0}, "not-a-whole-number"),
+        ({"density": -1.0}, "not-positive"),
     ):
-        with pytest.raises(InputError, match=says):
+        with refused(code, naming=tuple(wish)):
             write_card(rubber(), tmp_path / "card", "abaqus", **wish)
     with refused("no-density"):
         write_card(rubber(), tmp_path / "card", "ls-dyna")
@@ -388,23 +388,23 @@ def changed(tmp_path, change):
 
 
 @pytest.mark.parametrize(
-    ("change", "says"),
+    ("change", "refusal"),
     [
-        (lambda one: one.update(version=2), "reads version 1 to 1"),
-        (lambda one: one.update(format="other"), "is not a material of viscofric"),
-        (lambda one: one.update(colour="black"), "colour: no such field"),
-        (lambda one: one.pop("spectrum"), "spectrum of kind None"),
-        (lambda one: one["spectrum"].pop("tau"), "cannot be made of C, E0, E_inf"),
-        (lambda one: one["spectrum"].update(E0="soft"), "E0"),
-        (lambda one: one["shift"].update(kind="Path"), "must be one of WLF"),
-        (lambda one: one["shift"].update(C3=1.0), "WLF has no C3; the file may be of a newer version"),
-        (lambda one: one["shift"].pop("C1"), "WLF cannot be made of"),
-        (lambda one: one.update(poisson_ratio=0.9), "between 0 and 0.5"),
-        (lambda one: one.update(poisson_ratio="x"), "cannot be made of"),
+        (lambda one: one.update(version=2), ("newer-version",)),
+        (lambda one: one.update(format="other"), ("not-a-material",)),
+        (lambda one: one.update(colour="black"), ("unknown-field",)),
+        (lambda one: one.pop("spectrum"), ("wrong-choice",)),
+        (lambda one: one["spectrum"].pop("tau"), ("missing-fields",)),
+        (lambda one: one["spectrum"].update(E0="soft"), ("no-number",)),
+        (lambda one: one["shift"].update(kind="Path"), ("wrong-choice",)),
+        (lambda one: one["shift"].update(C3=1.0), ("unknown-field",)),
+        (lambda one: one["shift"].pop("C1"), ("missing-fields",)),
+        (lambda one: one.update(poisson_ratio=0.9), ("poisson-ratio", "0.5")),
+        (lambda one: one.update(poisson_ratio="x"), ("missing-fields",)),
     ],
 )
-def test_a_wrong_material_file_is_reported_with_its_fault(tmp_path, change, says):
-    with pytest.raises(DataFileError, match=says):
+def test_a_wrong_material_file_is_reported_with_its_fault(tmp_path, change, refusal):
+    with refused(refusal[0], DataFileError, naming=refusal[1:]):
         read_card(changed(tmp_path, change))
 
 

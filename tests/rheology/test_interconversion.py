@@ -11,7 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from refusals import refused
-from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 
@@ -212,18 +211,18 @@ def test_an_unbalanced_spectrum_keeps_its_modulus():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "code"),
     [
-        ({"E0": -1.0}, "must not be below zero"),
-        ({"E": [-1.0]}, "E must not be below zero"),
-        ({"tau": [0.0]}, "tau must be above zero"),
-        ({"tau": [1.0, 2.0]}, "must be as many"),
-        ({"E": [math.inf]}, "finite numbers"),
-        ({"E0": 0.0, "E": [0.0]}, "no modulus at all"),
+        ({"E0": -1.0}, "not-positive"),
+        ({"E": [-1.0]}, "not-positive"),
+        ({"tau": [0.0]}, "not-positive"),
+        ({"tau": [1.0, 2.0]}, "wrong-length"),
+        ({"E": [math.inf]}, "not-a-number"),
+        ({"E0": 0.0, "E": [0.0]}, "no-modulus"),
     ],
 )
-def test_impossible_series_are_refused(arguments, says):
-    with pytest.raises(InputError, match=says):
+def test_impossible_series_are_refused(arguments, code):
+    with refused(code):
         RelaxationSpectrum(**{"E0": 1e6, "E": [1e6], "tau": [1.0], **arguments})
 
 
@@ -249,5 +248,5 @@ def test_densities_of_discrete_modes_hold_their_strength():
     # Where the modes are dense and smooth, mode / ln ratio is what the estimate approaches.
     middle = np.argmax(spectrum.C)
     assert spectrum.retardation_density(spectrum.tau[middle]) == pytest.approx(spectrum.C[middle], rel=0.4)
-    with pytest.raises(InputError, match="above zero"):
+    with refused("not-positive"):
         spectrum.relaxation_density(0.0)

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from refusals import refused
 from viscofric.data import MasterCurve
-from viscofric.errors import InputError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 
@@ -76,7 +75,7 @@ def test_ends_taken_for_plateaus_keep_storage_and_lose_loss():
     assert (one.E0, one.E_inf) == (low.real, high.real)
     with refused("outside-table"):
         _ = table().E0
-    with pytest.raises(InputError, match="angular_frequency = nan"):
+    with refused("not-a-number", naming="angular_frequency"):
         one.complex_modulus(np.nan)
 
 
@@ -132,28 +131,28 @@ def test_without_resolution_only_equal_frequencies_are_averaged():
     omega = np.array([1.0, 1.0, 1.0001, 10.0])
     one = ModulusTable.from_master_curve(master(omega, np.full(4, 1e6), np.full(4, 1e5)), resolution=0.0)
     assert len(one) == 3
-    with pytest.raises(InputError, match="not below zero"):
+    with refused("not-positive", naming="resolution"):
         ModulusTable.from_master_curve(master(omega, np.full(4, 1e6), np.full(4, 1e5)), resolution=-1.0)
 
 
 @pytest.mark.parametrize(
-    ("columns", "says"),
+    ("columns", "code"),
     [
-        (([1.0, 2.0], [1e6, 1e6], [1e5]), "2, 2 and 1"),
-        (([2.0, 1.0], [1e6, 1e6], [1e5, 1e5]), "must ascend without repeats"),
-        (([1.0], [1e6], [1e5]), "two at least"),
-        (([1.0, 2.0], [1e6, 0.0], [1e5, 1e5]), "storage_modulus of a modulus table"),
-        (([1.0, 2.0], [1e6, 1e6], [1e5, -1.0]), "loss_modulus of a modulus table"),
-        (([0.0, 2.0], [1e6, 1e6], [1e5, 1e5]), "angular_frequency of a modulus table"),
+        (([1.0, 2.0], [1e6, 1e6], [1e5]), "wrong-length"),
+        (([2.0, 1.0], [1e6, 1e6], [1e5, 1e5]), "not-ascending"),
+        (([1.0], [1e6], [1e5]), "not-ascending"),
+        (([1.0, 2.0], [1e6, 0.0], [1e5, 1e5]), "not-a-number"),
+        (([1.0, 2.0], [1e6, 1e6], [1e5, -1.0]), "not-a-number"),
+        (([0.0, 2.0], [1e6, 1e6], [1e5, 1e5]), "not-a-number"),
     ],
 )
-def test_impossible_tables_are_refused(columns, says):
-    with pytest.raises(InputError, match=says):
+def test_impossible_tables_are_refused(columns, code):
+    with refused(code):
         ModulusTable(*columns)
 
 
 def test_unknown_extrapolation_is_refused():
-    with pytest.raises(InputError, match="must be 'refuse' or 'plateau'"):
+    with refused("wrong-choice", naming=("extrapolate", "'refuse'", "'plateau'")):
         table(extrapolate="flat")
 
 

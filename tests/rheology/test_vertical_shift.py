@@ -154,5 +154,5 @@ def test_on_a_power_law_the_vertical_shift_is_not_identified():
 
 
 def test_only_the_three_ways_of_vertical_shift_are_known():
-    with pytest.raises(InputError, match="must be 'free', 'density', a VerticalShift or None"):
+    with refused("wrong-choice", naming=("'free'", "'density'")):
         vf.superpose(planted_sweeps(0).sweeps, "30 degC", vertical="both")

@@ -14,7 +14,7 @@ import xarray
 
 from refusals import refused
 from study.sweeps import friction_of, made_results, made_sweep
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError
 from viscofric.study.results import export
 from viscofric.study.results.export import FORMS
 
@@ -142,7 +142,7 @@ def test_nothing_else_is_replaced(tmp_path: Path) -> None:
         with refused("results-file"):
             results.export(form, tmp_path / "results.nc")
     assert (tmp_path / "folder" / "precious.txt").exists()
-    with pytest.raises(InputError, match="must be 'csv', 'excel'"):
+    with refused("wrong-choice", naming=("form", "'csv'", "'excel'")):
         results.export("xml")  # type: ignore[arg-type]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from refusals import refused
 from viscofric.errors import DataFileError, InputError, LiquidError
 from viscofric.friction.identification.conclusions import with_origin
 from viscofric.notes import codes
@@ -82,7 +83,7 @@ def test_the_best_law_is_the_one_that_was_planted(sweeps: Path) -> None:
 
 
 def test_a_file_that_is_missing_is_named_once(sweeps: Path) -> None:
-    with pytest.raises(DataFileError, match=r"^no such\.csv: no such file"):
+    with refused("no-such-file", DataFileError, naming="such.csv"):
         rubber(dma=str(sweeps), shift_factors="no such.csv", **REFERENCE)
 
 

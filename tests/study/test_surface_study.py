@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from refusals import refused
 from viscofric.study import open_results, run_study
 from viscofric.study.cases.record import Failure, Record
 from viscofric.study.cases.solving import solve
@@ -227,5 +228,5 @@ def test_check_shows_how_much_it_would_be(tmp_path: Path) -> None:
 
 
 def test_a_topography_is_not_taken_for_a_surface() -> None:
-    with pytest.raises(vf.InputError, match=r"to_surface\(\)"):
+    with refused("wrong-type", naming="surface"):
         vf.solve_periodic(RUBBER, surfaces()[0], speed=1.0, pressure=1e4, temperature=300.0)  # type: ignore[arg-type]

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.errors import InputError, ViscofricError
+from refusals import refused
+from viscofric.errors import ViscofricError
 from viscofric.web.jobs import contact, curve
 from web.contact_studies import BALL, CYLINDER, ROUGH, Desk
 from web.rubber_workspace import EXAMPLE, SWEEPS
@@ -162,7 +163,7 @@ def test_one_of_several_loads_is_solved(desk: Desk) -> None:
     study = {**BALL, "conditions": {**BALL["conditions"], "load": ["10 N", "25 N"]}}
     where = {"speed": 0.1, "temperature": 333.15, "stages": "coarse"}
     assert [value(desk.run(contact, study, combination=which, **where), "load") for which in (0, 1)] == [10.0, 25.0]
-    with pytest.raises(ViscofricError, match="combination = 2: the study has 2 of them"):
+    with refused("no-such-combination", ViscofricError, naming="combination = 2"):
         desk.run(contact, study, combination=2, **where)
 
 
@@ -193,9 +194,9 @@ def test_extrapolated_rubber_is_reported_where_the_study_reports_it(
 
 
 def test_what_cannot_be_solved_is_one_sentence(desk: Desk) -> None:
-    with pytest.raises(InputError, match="wider than the ball"):
+    with refused("beyond-indenter"):
         desk.run(contact, {**BALL, "conditions": {**BALL["conditions"], "load": "1 MN"}}, speed=0.1, temperature=333.15)
-    with pytest.raises(InputError, match="temperature"):
+    with refused("out-of-range", naming="temperature"):
         desk.run(contact, BALL, speed=0.1, temperature=20.0)
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
-import pytest
 
+from refusals import refused
 from viscofric.datasets import plain
 from viscofric.errors import DataFileError, StudyError
 from viscofric.study.run_file.study import TABLES, Study
@@ -126,8 +126,8 @@ def test_run_file_opens_with_its_files_under_plain_names(tmp_path: Path) -> None
 
 def test_run_file_that_cannot_be_opened_says_why(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
-    with pytest.raises(StudyError, match="no such file"):
+    with refused("no-file", StudyError):
         opened_study(study)
     study.write_text((EXAMPLE / "study.toml").read_text("utf-8"), "utf-8")
-    with pytest.raises(DataFileError, match=r"dma\.csv: no such file"):
+    with refused("no-file", DataFileError, naming="dma.csv"):
         opened_study(study)

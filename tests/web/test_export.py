@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.errors import DataFileError, InputError, StudyError
+from refusals import refused
+from viscofric.errors import DataFileError, StudyError
 from viscofric.rheology.cards import read_card
 from viscofric.web.jobs import curve, export_card, export_run_file, export_study, open_run_file
 from viscofric.web.jobs.rubbers import made_rubber
@@ -74,7 +75,7 @@ def test_run_file_is_reported_with_its_cases_its_files_and_what_is_wrong(desk: D
     wrong = desk.run(export_run_file, {**SWEEPS, "indenter": {"shape": "bal", "radius": "9.525 mm"}})
     assert [one["field"] for one in wrong["problems"]] == ["indenter"]
     assert 'shape = "bal"' in wrong["text"]
-    with pytest.raises(DocumentError, match="did you mean 'ball'"):
+    with refused("union-tag-invalid", DocumentError, naming="'ball'"):
         desk.run(export_run_file, {**SWEEPS, "indenter": {"shape": "bal", "radius": "9.525 mm"}}, pack=True)
 
 
@@ -85,9 +86,9 @@ def test_run_file_that_was_taken_away_can_be_brought_back(desk: Desk) -> None:
     found = desk.run(open_run_file, {}, text="\ufeff" + moved)
     assert found["study"]["material"]["dma"] == ["dma.csv", "two.csv", "*.txt"]
     assert found["missing"] == ["two.csv", "*.txt"]
-    with pytest.raises(StudyError, match=r"study\.toml, line 2"):
+    with refused("not-toml", StudyError, naming="study.toml"):
         desk.run(open_run_file, {}, text="[material]\nthis is no TOML")
-    with pytest.raises(StudyError, match="too deeply for a run file"):
+    with refused("too-deep", StudyError):
         desk.run(open_run_file, {}, text=f"deep{'.x' * 20_000} = 1")
     for name, reported in [("/", ""), ("..", ".."), ("x" * 300, "x" * 300), ("a\\u0000b", "a\0b"), ("[", "[")]:
         assert desk.run(open_run_file, {}, text=f'material.dma = "{name}"')["missing"] == [reported]
@@ -106,9 +107,9 @@ def test_card_holds_the_rubber_of_the_page(form: str, desk: Desk) -> None:
 
 
 def test_what_a_program_cannot_take_is_reported_in_a_sentence(desk: Desk) -> None:
-    with pytest.raises(InputError, match=r"LS-DYNA takes at most 18 terms.*fit it with at most 17"):
+    with refused("too-many-modes", naming=("18", "17")):
         desk.run(export_card, BALL, format="ls-dyna", poisson_ratio=0.499, density="1800 kg/m^3")
-    with pytest.raises(InputError, match="density"):
+    with refused("wrong-unit", naming="density"):
         desk.run(export_card, BALL, format="abaqus", density="1800 kg")
     measured = desk.run(export_card, SWEEPS, format="abaqus")
     assert "“Shift law”" in " ".join(measured["notes"])
@@ -120,7 +121,7 @@ def test_what_a_program_cannot_take_is_reported_in_a_sentence(desk: Desk) -> Non
 
 def test_a_file_that_is_gone_is_named(desk: Desk) -> None:
     (desk.context.files / "dma.csv").unlink()
-    with pytest.raises(DataFileError, match=r"dma\.csv: is not one of the page's files"):
+    with refused("no-file", DataFileError, naming="dma.csv"):
         desk.run(export_study, SWEEPS)
 
 

@@ -9,6 +9,7 @@ import pytest
 
 import viscofric as vf
 from friction.synthetic_curves import planted_law, synthetic_curves
+from refusals import refused
 from viscofric.errors import StudyError, SuperpositionError
 from web.friction_workspace import NOISE, STUDY, column, done, workspace
 
@@ -73,15 +74,15 @@ def test_nothing_is_solved_twice(context: Context, agreement: dict[str, Any]) ->
 
 
 @pytest.mark.parametrize(
-    ("more", "words"),
+    ("more", "refusal"),
     [
-        ({"layer": {"thickness": "2 mm"}}, r"measurement: .*half-space.*\[layer\]"),
-        ({"indenter": {"shape": "cone", "angle": "5 deg"}}, "measurement: .*ball, but the indenter is a cone"),
-        ({"measurement": {"curves": "none.csv"}}, "'none.csv' is not one of the page's files"),
+        ({"layer": {"thickness": "2 mm"}}, ("contradiction",)),
+        ({"indenter": {"shape": "cone", "angle": "5 deg"}}, ("contradiction",)),
+        ({"measurement": {"curves": "none.csv"}}, ("file-not-here", "'none.csv'")),
     ],
 )
-def test_what_cannot_be_compared_is_refused(context: Context, more: dict[str, Any], words: str) -> None:
-    with pytest.raises(StudyError, match=f"(?i){words}"):
+def test_what_cannot_be_compared_is_refused(context: Context, more: dict[str, Any], refusal: tuple[str, ...]) -> None:
+    with refused(refusal[0], StudyError, naming=refusal[1:]):
         done("agreement", context, {**CURVES, **more})
 
 
@@ -118,5 +119,5 @@ def test_curves_that_do_not_overlap_are_shifted_by_the_rubber_alone(context: Con
     assert found["found"] is None
     assert "do not overlap" in found["refusal"]
     assert len(found["by_rubber"]["points"]) == 2
-    with pytest.raises(SuperpositionError, match="do not overlap"):
+    with refused("no-overlap", SuperpositionError):
         done("master", context, APART, beside=False)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from refusals import refused
 from viscofric.errors import DataFileError, InputError, StudyError
 from web.friction_workspace import STUDY, column, curves, done, workspace
 
@@ -112,31 +113,33 @@ def test_a_test_that_cannot_be_separated_says_what_to_do_on_the_page(context: Co
 def test_files_that_are_no_measurement_are_refused(
     context: Context, files: list[str], error: type[InputError], words: str
 ) -> None:
-    with pytest.raises(error) as refused:
+    with pytest.raises(error) as caught:
         done("measured", context, STUDY, files=files)
-    assert words in refused.value.words("page")
-    assert str(context.files) not in str(refused.value)
+    assert words in caught.value.words("page")
+    assert str(context.files) not in str(caught.value)
 
 
 @pytest.mark.parametrize(
-    ("table", "words"),
+    ("table", "refusal"),
     [
-        ({"mtm": "mtm.csv", "zero": "5 mm"}, "measurement.zero: '5 mm'"),
-        ({"mtm": "mtm.csv", "coulomb": "much"}, "measurement.coulomb: 'much'"),
-        ({"mtm": "/etc/hostname"}, "'/etc/hostname' is not one of the page's files"),
-        ({"mtm": "mtm.csv", "curves": "curves.csv"}, "measurement: mtm and curves are both given"),
-        ({}, "measurement: there is none"),
+        ({"mtm": "mtm.csv", "zero": "5 mm"}, ("wrong-unit", "measurement.zero", "'5 mm'")),
+        ({"mtm": "mtm.csv", "coulomb": "much"}, ("value", "'much'")),
+        ({"mtm": "/etc/hostname"}, ("file-not-here", "'/etc/hostname'")),
+        ({"mtm": "mtm.csv", "curves": "curves.csv"}, ("contradiction",)),
+        ({}, ("no-measurement",)),
     ],
 )
-def test_wrong_tables_are_reported_with_their_field(context: Context, table: dict[str, Any], words: str) -> None:
-    with pytest.raises(StudyError, match=words):
+def test_wrong_tables_are_reported_with_their_field(
+    context: Context, table: dict[str, Any], refusal: tuple[str, ...]
+) -> None:
+    with refused(refusal[0], StudyError, naming=refusal[1:]):
         done("measured", context, {"measurement": table})
 
 
 def refusal(call: Any) -> str:
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError) as caught:
         call()
-    return refused.value.words("page")
+    return caught.value.words("page")
 
 
 def test_the_librarys_advice_becomes_the_pages(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from refusals import refused
 from viscofric.study.run_file.study import load_study
 from viscofric.web.start import FIRST_STUDY, start
 from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
@@ -98,7 +99,7 @@ def test_what_no_run_file_of_the_page_can_hold_is_refused(
 def test_data_file_with_the_name_of_the_run_file_is_refused(name: str, tmp_path: Path) -> None:
     """Packed together, one would replace the other."""
     (tmp_path / name).write_text("1\n")
-    with pytest.raises(DocumentError, match=f"called {name}, as the run file itself"):
+    with refused("name-of-run-file", DocumentError, naming=name):
         study_of(changed(material={"file": name}), tmp_path)
 
 

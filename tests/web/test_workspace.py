@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from refusals import refused
 from viscofric.errors import InputError
 from viscofric.web import workspace as module
 from viscofric.web.child import make_room
@@ -56,9 +57,10 @@ def test_plain_names_are_kept(client: httpx.Client, name: str) -> None:
     ],
 )
 def test_other_names_are_refused_in_a_sentence(name: str) -> None:
-    with pytest.raises(InputError, match=r"\.$") as refused:
+    with pytest.raises(InputError) as caught:
         checked_name(name)
-    assert "\n" not in str(refused.value)
+    assert caught.value.code in ("not-a-name", "too-long")
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize("path", ["..%2f..%2fx", "%2e%2e", "a%00b", "a%5cb", "CON", "%ff%fe", "x%2fy"])
@@ -102,14 +104,14 @@ def test_number_and_size_of_files_have_bounds(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr(module, "_MOST_BYTES", 100)
     workspace.store("a", b"0" * 40)
     workspace.store("b", b"0" * 40)
-    with pytest.raises(InputError, match="All files together"):
+    with refused("no-space"):
         workspace.store("c", b"0" * 40)
     workspace.store("b", b"0" * 10)
     workspace.store("c", b"")
-    with pytest.raises(InputError, match="3 files already"):
+    with refused("too-many-files"):
         workspace.store("d", b"")
     workspace.store("c", b"1")
-    with pytest.raises(InputError, match="20 MB"):
+    with refused("too-large", naming="20 MB"):
         workspace.store("c", b"0" * 20_000_001)
     assert workspace.listing() == [("a", 40), ("b", 10), ("c", 1)]
     assert len(os.listdir(workspace.files)) == 3  # noqa: PTH208 - nothing half written stays
@@ -150,7 +152,7 @@ def test_workspace_with_a_job_at_work_makes_no_room(temporary: Path, monkeypatch
                 third = spaces.get("third-workspace").while_at_work(reported())
                 async with aclosing(third):
                     await anext(third)
-                    with pytest.raises(InputError, match="2 tabs are at work"):
+                    with refused("too-many-tabs"):
                         spaces.get("fourth-workspace")
             spaces.get("fourth-workspace")  # the job was let go of
             assert len([one for one in spaces.root.iterdir() if one.is_dir()]) == 2

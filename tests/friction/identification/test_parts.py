@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from friction.identification.planted import BALL, LOAD, RUBBER
 from friction.synthetic_curves import curves_of
-from viscofric.errors import InputError
+from refusals import refused
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.friction.identification.moduli import compliance, known_part, log_modulus
 from viscofric.friction.identification.points import moderated_variances, usable_points
@@ -204,7 +204,7 @@ def test_points_of_a_ball_at_two_loads_are_those_of_one() -> None:
     np.testing.assert_allclose(points.log_friction[:3], points.log_friction[3:])
     assert points.load == pytest.approx(np.sqrt(2.0 * 16.0))
     profile = vf.Profile(np.linspace(-1e-3, 1e-3, 101) ** 2, spacing=2e-5)
-    with pytest.raises(InputError, match="at different loads are not alike"):
+    with refused("several-loads"):
         usable_points(replace(both, load_unit="N/m"), profile, None, 1e-4)
 
 
@@ -212,11 +212,11 @@ def test_points_that_cannot_be_used_are_reported() -> None:
     speed = np.geomspace(0.02, 0.2, 8)
     curves = curves_of(speed, np.full(8, 300.0), np.full(8, 0.01), 1e-4)
     negative = replace(curves, viscoelastic=np.where(speed == speed[2], -1e-3, 0.01))
-    with pytest.raises(InputError, match=r"-0\.001 at 0\.0386 m/s and 26\.9 °C: must be above zero"):
+    with refused("friction-not-positive", naming=("-0.001", "0.0386 m/s", "26.9 °C")):
         usable_points(negative, BALL, None, 1e-4)
-    with pytest.raises(InputError, match="hold 3 usable points"):
+    with refused("too-few-points"):
         usable_points(curves.select(np.arange(3)), BALL, None, 1e-4)
-    with pytest.raises(InputError, match="takes a load in N/m"):
+    with refused("load-unit"):
         usable_points(curves, vf.Cylinder(radius=0.01), None, 1e-4)
     unknown = replace(curves, viscoelastic_error=np.where(speed == speed[2], np.inf, 1e-4))
     points = usable_points(unknown, BALL, None, 1e-4)
@@ -234,7 +234,7 @@ def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:
     assert points.error[0] == pytest.approx(0.02, rel=0.3)  # three and a half times those 9 %
     np.testing.assert_allclose(points.error, points.error[0])
     assert "have no standard errors; " in points.notes[0]
-    with pytest.raises(InputError, match="too few points at each temperature to find the scatter from"):
+    with refused("no-errors"):
         usable_points(bare.select(np.arange(0, 90, 5)), BALL, None, 1e-4)
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from friction.identification.planted import BALL, REFERENCE, RUBBER, closed_form_curves, planted_anchor
+from refusals import refused
 from viscofric.errors import ConvergenceError
 from viscofric.friction.identification import iteration
 from viscofric.friction.identification.forward import CorrectedFriction, Solved
@@ -79,12 +80,13 @@ def test_steps_that_promise_too_much_are_tried_nearer_by(monkeypatch: pytest.Mon
 def test_what_does_not_settle_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     bent = Bent(monkeypatch)
     monkeypatch.setattr(iteration, "STEPS", 3)
-    with pytest.raises(ConvergenceError, match=r"did not settle with contacts solved for 3 rubbers: the friction sh"):
+    with refused("not-converged", ConvergenceError):
         vf.identify_material(known_to_a_hundredth(), **SETTINGS)
     assert len(bent.squares) == 3
 
 
 def test_contacts_that_fail_everywhere_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     Bent(monkeypatch, failing=100)
-    with pytest.raises(ConvergenceError, match=r"^not solved\.$"):
+    with pytest.raises(ConvergenceError) as caught:
         vf.identify_material(known_to_a_hundredth(), **SETTINGS)
+    assert str(caught.value) == "not solved."  # as the solver said it
