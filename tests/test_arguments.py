@@ -337,10 +337,10 @@ CALLS: dict[str, Any] = {
     "separate": lambda: {"runs": vf.TractionRuns(**READINGS), "zero": None, "coulomb": None, "outliers": "keep",
         "speed_tolerance": 0.05, "temperature_tolerance": 1.0},
     "read_dma": lambda: {"paths": EXAMPLE / "dma.csv", "deformation": "tension", "temperature": None, "modulus_unit":
-        None},
-    "read_mtm": lambda: {"paths": EXAMPLE / "mtm.csv", "thermometer": "lube"},
+        None, "columns": None, "sheet": None},
+    "read_mtm": lambda: {"paths": EXAMPLE / "mtm.csv", "thermometer": "lube", "columns": None, "sheet": None},
     "read_master_curve": lambda: {"path": at("curve.csv"), "reference": 300.0, "deformation": "tension",
-        "poisson_ratio": 0.5, "modulus_unit": None},
+        "poisson_ratio": 0.5, "modulus_unit": None, "columns": None, "sheet": None},
     "open_card": lambda: card_settings(),
     "read_card": lambda: card_settings(),
     "write_card": lambda: {"material": shifted(), "path": at("card"), "format": "abaqus", "poisson_ratio": 0.49,

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on, numbers, sentences, text
 from viscofric.datasets import dataset
-from viscofric.errors import InputError
+from viscofric.errors import InputError, check_choice
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
 
 #: How a dynamic mechanical analyser deformed its sample.
-Deformation: TypeAlias = Literal["tension", "shear"]
+Deformation: TypeAlias = Literal["tension", "compression", "bending", "shear"]
+DEFORMATIONS: tuple[Deformation, ...] = ("tension", "compression", "bending", "shear")
 
 #: Larger whole numbers are not exact as floats.
 _LARGEST_WHOLE = 2**53
@@ -124,8 +125,8 @@ class IsothermalSweeps:
     ----------
     isotherms : tuple of Isotherm
         In ascending temperature.
-    deformation : {"tension", "shear"}
-        Whether the moduli are E (tension) or G (shear).
+    deformation : {"tension", "compression", "bending", "shear"}
+        Whether the moduli are G (shear) or E (all others).
     source : str
         Origin, such as a file's name.
     notes : tuple of str
@@ -151,8 +152,7 @@ class IsothermalSweeps:
     format: str = ""
 
     def __post_init__(self) -> None:
-        if self.deformation not in ("tension", "shear"):
-            raise InputError(f"deformation = {self.deformation!r}: must be 'tension' or 'shear'.", code="wrong-choice")
+        check_choice(self.deformation, "deformation", *DEFORMATIONS)
         insist_on(self.isotherms, "isotherms", tuple, list, right="a tuple of Isotherm")
         for one in self.isotherms:
             insist_on(one, "one of the isotherms", Isotherm)
@@ -171,7 +171,7 @@ class IsothermalSweeps:
 
     def in_tension(self, poisson_ratio: float) -> IsothermalSweeps:
         """Return the sweeps as tensile moduli, E = 2(1+ν)G if they were measured in shear."""
-        if self.deformation == "tension":
+        if self.deformation != "shear":
             return self
         factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
         isotherms = tuple(

@@ -44,6 +44,33 @@ def test_read_says_what_the_file_holds(tmp_path: Path) -> None:
     assert after.deformation == "tension"
 
 
+STRANGE_TABLE = "Chamber,v1,Alpha,Beta\n20,1,5,0.5\n20,10,6,0.7\n30,1,4,0.4\n30,10,5,0.6\n"
+COLUMNS = {"temperature": "Chamber (degC)", "frequency": "v1 (Hz)", "storage_modulus": "Alpha (MPa)"}
+
+
+def test_columns_that_are_not_understood_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "strange.csv"
+    path.write_text(STRANGE_TABLE, encoding="utf-8")
+    refused = call("read", path)
+    assert refused.exit_code == 1
+    assert "--column" in refused.output
+    words = [word for what, said in COLUMNS.items() for word in ("--column", f"{what}={said}")]
+    done = call("read", path, *words, "--column", "loss_modulus=#4 (MPa)", "--deformation", "bending")
+    assert done.exit_code == 0, done.output
+    assert "moduli in bending; 2 isotherms" in done.output
+    for wrong in ("frequency", "=f (Hz)", "frequency="):
+        assert call("read", path, "--column", wrong).exit_code == 2
+    assert call("read", path, "--column", "colour=red").exit_code == 1
+    assert "no-sheet" not in call("read", path, "--sheet", "a").output
+
+
+def test_the_command_of_a_fit_repeats_its_columns() -> None:
+    from viscofric.cli.material.fit import _command
+
+    said = _command((Path("a.csv"),), {"columns": {"frequency": "v1 (Hz)"}, "sheet": "run 1"})
+    assert said == "viscofric material fit a.csv --column 'frequency=v1 (Hz)' --sheet 'run 1'"
+
+
 @pytest.mark.slow
 def test_fit_writes_the_rubber_for_everyone(fitted: tuple[Path, str]) -> None:
     folder, printed = fitted

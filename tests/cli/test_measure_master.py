@@ -59,6 +59,18 @@ def test_measure_prints_each_condition_with_its_friction(tmp_path: Path) -> None
     assert float(zero[1]) == pytest.approx(ZERO_FORCE, abs=0.01)
 
 
+def test_columns_that_are_not_understood_are_named(tmp_path: Path) -> None:
+    path = runs(tmp_path / "runs.csv")
+    strange = tmp_path / "strange.csv"
+    strange.write_text(path.read_text(encoding="utf-8").replace("disc speed", "V1"), encoding="utf-8")
+    assert call("measure", strange).exit_code == 1
+    known = record("measure", path)
+    found = record("measure", strange, "--column", "disc_speed=V1 (mm/s)")
+    assert found["points"] == known["points"]
+    assert found["inputs"]["columns"] == {"disc_speed": "V1 (mm/s)"}
+    assert "columns" not in known["inputs"]
+
+
 def test_what_cannot_be_known_is_null_and_a_question_mark(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", signs=(1,), replicates=1)
     found = record("measure", path, "--zero", "0.3 N")

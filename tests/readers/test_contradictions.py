@@ -176,10 +176,73 @@ def test_a_sweep_of_the_amplitude_is_refused(tmp_path):
         read_dma(write(tmp_path, at_three, STRAIN))
 
 
-def test_sweeps_run_at_two_amplitudes_are_not_averaged(tmp_path):
-    twice = [(*row, amplitude) for amplitude in (0.1, 1.0) for row in rows()]
-    with refused("amplitude-sweep", None, "0.1", "1 %"):
-        read_dma(write(tmp_path, twice, STRAIN))
+def softened(row, amplitude):
+    """Return a row at another amplitude, which a filled rubber answers with a lower modulus."""
+    return (*row[:2], *(value / (1.0 + amplitude) for value in row[2:]), amplitude)
+
+
+def test_of_sweeps_at_several_amplitudes_the_smallest_are_used(tmp_path):
+    single = read_dma(write(tmp_path, [softened(row, 0.1) for row in rows()], STRAIN))
+    mixed = [softened(row, amplitude) for amplitude in (1.0, 0.1) for row in rows()]
+    sweeps = read_dma(write(tmp_path, mixed, STRAIN))
+    assert len(sweeps) == len(single)
+    for one, other in zip(sweeps.isotherms, single.isotherms, strict=True):
+        assert np.array_equal(one.storage_modulus, other.storage_modulus)
+    assert len(notes_with(sweeps, "other-amplitudes", "0.1 to 1 %", "points at about 0.1 % are used")) == len(single)
+
+
+def test_an_amplitude_sweep_before_the_frequency_sweep_is_left_out(tmp_path):
+    frequency = [softened(row, 0.5) for row in rows()]
+    warm = max(row[0] for row in rows())
+    strain = [softened((warm, 1.0, 7.0, 0.9), amplitude) for amplitude in AMPLITUDES]
+    sweeps = read_dma(write(tmp_path, [*strain, *frequency], STRAIN))
+    alone = read_dma(write(tmp_path, frequency, STRAIN))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx(alone.isotherms[0].storage_modulus)
+    assert len(sweeps.isotherms[-1]) == len(alone.isotherms[-1])
+    assert np.ptp(sweeps.isotherms[-1].strain_amplitude) < 1e-3  # 0.1 %
+    assert notes_with(sweeps, "other-amplitudes", "points at about 0.", "% are used") != []
+
+
+@pytest.mark.parametrize(
+    ("header", "asked", "kind"),
+    [
+        ("E' (MPa),E'' (MPa)", "bending", "bending"),
+        ("E' (MPa),E'' (MPa)", "compression", "compression"),
+        ("E' (MPa),E'' (MPa)", None, "tension"),
+        ("storage modulus (MPa),loss modulus (MPa)", "bending", "bending"),
+        ("E' (MPa),E'' (MPa)", "shear", None),
+        ("G' (MPa),G'' (MPa)", "bending", None),
+    ],
+)
+def test_moduli_in_compression_and_bending_are_those_reported(tmp_path, header, asked, kind):
+    lines = [f"T_C,f_Hz,{header}", *(",".join(map(str, row)) for row in rows())]
+    path = tmp_path / "held.csv"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    if kind is None:
+        with refused("deformation-contradicts"):
+            read_dma(path, deformation=asked)
+        return
+    sweeps = read_dma(path, deformation=asked)
+    assert sweeps.deformation == kind
+    assert len(notes_with(sweeps, f"{kind}-assumed")) == (kind != "tension")
+    assert sweeps.in_tension(0.5) is sweeps
+
+
+@pytest.mark.parametrize(
+    ("clamp", "kind"),
+    [
+        ("Dual Cantilever", "bending"),
+        ("3-Point Bending", "bending"),
+        ("Dreipunktbiegung: Biegehalter", "bending"),
+        ("Compression plates", "compression"),
+        ("Tension: Film", "tension"),
+    ],
+)
+def test_a_clamp_separates_bending_and_compression_from_tension(tmp_path, clamp, kind):
+    lines = [f"# Clamp: {clamp}", "T_C,f_Hz,E' (MPa),E'' (MPa)", *(",".join(map(str, row)) for row in rows())]
+    path = tmp_path / "held.csv"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    assert read_dma(path).deformation == kind
 
 
 def test_an_amplitude_that_changes_along_a_sweep_is_reported(tmp_path):

@@ -177,7 +177,7 @@ def test_without_a_word_in_the_file_the_deformation_is_asked_for(tmp_path):
     assert not trace_dma(path).deformation_known  # shown with the question
     assert trace_dma(path, deformation="shear").deformation_known
     with refused("wrong-choice", None, "'tension'", "'shear'"):
-        read_dma(path, deformation="bending")
+        read_dma(path, deformation="torsion")
 
 
 @pytest.mark.parametrize(

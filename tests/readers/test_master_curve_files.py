@@ -105,7 +105,7 @@ def test_a_value_that_is_missing_or_not_above_zero_is_refused(tmp_path, row, ref
 
 def test_arguments_that_make_no_sense_are_refused(tmp_path):
     path = write(tmp_path, "f (Hz),E' (MPa),E'' (MPa)", *ROWS)
-    for wrong in ({"deformation": "bending"}, {"poisson_ratio": 0.6}, {"modulus_unit": "mm"}):
+    for wrong in ({"deformation": "torsion"}, {"poisson_ratio": 0.6}, {"modulus_unit": "mm"}):
         with pytest.raises(InputError):
             read_master_curve(path, 298.15, **wrong)
     with refused("no-number", None, "reference"):

@@ -125,8 +125,8 @@ def test_columns_stand_in_any_order(tmp_path, order, layout):
     ("geometry", "deformation", "said_by"),
     [
         ("Tension fixture (rectangle)", "tension", "{} 'Tension fixture (rectangle)'"),
-        ("35 mm dual cantilever", "tension", "{} '35 mm dual cantilever'"),
-        ("15 mm compression clamp", "tension", "{} '15 mm compression clamp'"),
+        ("35 mm dual cantilever", "bending", "{} '35 mm dual cantilever'"),
+        ("15 mm compression clamp", "compression", "{} '15 mm compression clamp'"),
         ("Shear sandwich", "shear", "{} 'Shear sandwich'"),
         ("25 mm parallel plate", "shear", "{} '25 mm parallel plate'"),
         ("25 mm parallel plate, axial", None, ""),  # plates shear in rotation and compress in axial oscillation

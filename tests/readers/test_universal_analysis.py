@@ -98,10 +98,10 @@ def test_rows_of_negative_time_are_events_and_no_points(tmp_path):
     [
         ("Clamp: Tension: Film", "tension"),
         ("Clamp: Shear Sandwich", "shear"),
-        ("Clamp: Dual Cantilever", "tension"),
-        ("Clamp: Single Cantilever", "tension"),
-        ("Clamp: 3-Point Bending", "tension"),
-        ("Clamp: Compression", "tension"),
+        ("Clamp: Dual Cantilever", "bending"),
+        ("Clamp: Single Cantilever", "bending"),
+        ("Clamp: 3-Point Bending", "bending"),
+        ("Clamp: Compression", "compression"),
         ("no word of it", None),
     ],
 )

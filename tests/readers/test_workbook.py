@@ -57,7 +57,7 @@ UNITS = ["°C", "rad/s", "MPa", "MPa"]
     [
         ([["Filename", "a.tri"], ["Geometry name", "25mm parallel plate, Peltier plate Steel"]], [], "shear"),
         ([["Measuring System:", "PP25-SN12345"]], [], "shear"),
-        ([["Clamp: dual cantilever"]], [], "tension"),
+        ([["Clamp: dual cantilever"]], [], "bending"),
         ([["Filename", "a.tri"]], [("Oscillation torque", "µN.m")], "shear"),
         ([["Filename", "a.tri"]], [("Torque", "mN·m")], "shear"),
         ([["Filename", "a.tri"]], [("Shear strain", "%")], "shear"),

@@ -54,6 +54,22 @@ def test_given_factors_are_used_as_they_are(sweeps: Path, tmp_path: Path) -> Non
     assert made.fit.quality.joint < 0.01
 
 
+def test_headings_and_sheet_are_keys_of_the_run_file(sweeps: Path, tmp_path: Path) -> None:
+    strange = tmp_path / "strange.csv"
+    strange.write_text(sweeps.read_text(encoding="utf-8").replace("frequency", "v1"), encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        rubber(dma=str(strange), **REFERENCE)
+    assert caught.value.field == "material.columns"
+    columns = {"frequency": "v1 (Hz)"}
+    found, known = rubber(dma=str(strange), columns=columns, **REFERENCE), rubber(dma=str(sweeps), **REFERENCE)
+    assert np.array_equal(found.material.spectrum.C, known.material.spectrum.C)
+    with pytest.raises(InputError) as caught:
+        rubber(dma=str(sweeps), sheet="run 1", **REFERENCE)
+    assert caught.value.code == "no-sheet"
+    with pytest.raises(InputError):
+        rubber(catalogue="synthetic fluoroelastomer", columns=columns)
+
+
 def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
     made = rubber(dma=str(sweeps), shift_by="storage", **REFERENCE)
     assert "shifted-by" in codes(made.notes)

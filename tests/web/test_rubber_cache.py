@@ -107,7 +107,7 @@ def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspa
     [
         ({}, ("contradiction", "material")),
         ({"dma": "dma.csv"}, ("contradiction", "reference_temperature")),
-        ({**SWEEPS, "deformation": "bending"}, ("literal-error", "material.deformation", "'bending'")),
+        ({**SWEEPS, "deformation": "torsion"}, ("literal-error", "material.deformation", "'torsion'")),
         ({**SWEEPS, "dma": "/etc/passwd"}, ("file-not-here", "material.dma", "'/etc/passwd'")),
         ({**SWEEPS, "dma": "../dma.csv"}, ("file-not-here", "material.dma", "'../dma.csv'")),
         ({**SWEEPS, "dma": ["dma.csv", "b.csv"]}, ("file-not-here", "material.dma", "'b.csv'")),

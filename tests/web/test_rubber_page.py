@@ -156,6 +156,33 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow  # a browser
+def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> None:
+    rows = [f"{T},{f},{2e6 * f**0.2 * 10 ** (-0.01 * T)},{3e5}" for T in (20, 30, 40) for f in (0.1, 0.3, 1, 3, 10)]
+    strange = tmp_path / "strange.csv"
+    strange.write_text("\n".join(["T (degC),v1,E' (Pa),Beta", *rows, ""]))
+    tab.step("sweeps")
+    tab.page.check("input[name=material-source][value=dma]")
+    tab.page.set_input_files(_DROP, strange)
+    step = tab.page.locator("#step-sweeps")
+    step.get_by_label("Column of the frequency").select_option(label="v1")
+    step.get_by_label("Unit of the frequency").fill("Hz")
+    step.get_by_label("Column of the loss modulus").select_option(label="Beta")
+    step.get_by_label("Unit of the loss modulus").fill("Pa")
+    tab.screenshot("rubber-columns")
+    assert tab.findings() == []
+    step.get_by_role("button", name="Read with these columns").click()
+    drawn(tab, "isotherms-storage", 3)
+    assert tab.value("page.state.state.get('material')") == {
+        "dma": "strange.csv",
+        "reference_temperature": "30 degC",
+        "columns": {"frequency": "v1 (Hz)", "loss_modulus": "Beta (Pa)"},
+    }
+    assert "frequency: v1 (Hz)" in tab.text("#step-sweeps")
+    step.get_by_role("button", name="Forget the named columns").click()
+    step.get_by_label("Column of the frequency").wait_for()
+
+
+@pytest.mark.slow  # a browser
 @pytest.mark.exhaustive
 def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     rows = [f"{10.0**k},{2e6 * 10.0 ** (0.1 * k)},{2e5}" for k in range(-5, 6)]

@@ -48,7 +48,8 @@ def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves
     from viscofric.friction.measurement.tribometry import separate
     from viscofric.readers import read_mtm
 
-    runs, settings = read_mtm(*paths), dict(settings)
+    settings = dict(settings)
+    runs = read_mtm(*paths, columns=settings.pop("columns", None), sheet=settings.pop("sheet", None))
     steps = settings.pop("except_steps")
     return _plain(separate(runs if steps is None else runs.select(except_steps=steps), **settings))
 

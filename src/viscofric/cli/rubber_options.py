@@ -43,7 +43,7 @@ _MATERIAL = (
     ),
     click.option(
         "--deformation",
-        type=click.Choice(["tension", "shear"]),
+        type=click.Choice(["tension", "compression", "bending", "shear"]),
         help="With --dma: deformation of the test, if no file states it.",
     ),
     click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, not measured."),
@@ -175,9 +175,39 @@ def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
     return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
 
 
+def _headings(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> dict[str, str]:
+    """Return the headings of `--column NAME=HEADING` by name."""
+    found: dict[str, str] = {}
+    for one in value:
+        name, equals, said = one.partition("=")
+        if not equals or not name.strip() or not said.strip():
+            raise click.BadParameter(f"{one!r}: must be NAME=HEADING, such as 'frequency=f in Hz'.")
+        found[name.strip()] = said.strip()
+    return found
+
+
+def column_options(example: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return a decorator that adds the options of a table whose header is not understood."""
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        function = click.option("--sheet", metavar="NAME", help="The only sheet of a workbook to read.")(function)
+        return click.option(
+            "--column",
+            "columns",
+            metavar="NAME=HEADING",
+            multiple=True,
+            callback=_headings,
+            help=f"Heading of a column whose header is not understood, e.g. {example}; repeatable. "
+            "A unit may follow in brackets; '#2 (Hz)' is the second column.",
+        )(function)
+
+    return add
+
+
 def reading_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options for what a DMA file may not say itself."""
     for one in (
+        column_options("'frequency=f in Hz'"),
         click.option("--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa."),
         click.option(
             "--temperature",
@@ -187,7 +217,7 @@ def reading_options(function: Callable[..., Any]) -> Callable[..., Any]:
         ),
         click.option(
             "--deformation",
-            type=click.Choice(["tension", "shear"]),
+            type=click.Choice(["tension", "compression", "bending", "shear"]),
             help="Deformation of the test, if the file does not state it.",
         ),
     ):

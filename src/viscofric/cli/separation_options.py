@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.rubber_options import column_options
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -48,6 +50,8 @@ _SEPARATION = (
 
 #: Settings of a separation of which nothing was chosen.
 _DEFAULTS: dict[str, Any] = {
+    "columns": {},
+    "sheet": None,
     "zero": None,
     "coulomb": None,
     "outliers": "keep",
@@ -56,16 +60,14 @@ _DEFAULTS: dict[str, Any] = {
     "except_steps": None,
 }
 #: Setting -> its option, where that is not its name.
-_TYPED = {"outliers": "leave-out-outliers"}
-#: Options of the separation, by the names that click gives them.
-SEPARATION_NAMES = ("zero_error", "coulomb_error", "leave_out_outliers", *(set(_DEFAULTS) - {"outliers"}))
+_TYPED = {"outliers": "leave-out-outliers", "columns": "column"}
 
 
 def separation_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the settings of `viscofric.friction.measurement.tribometry.separate`."""
     for option in reversed(_SEPARATION):
         function = option(function)
-    return function
+    return column_options("'disc_speed=V1 (mm/s)'")(function)
 
 
 def settings_of(parameters: dict[str, Any]) -> dict[str, Any]:
@@ -85,7 +87,7 @@ def settings_of(parameters: dict[str, Any]) -> dict[str, Any]:
             coulomb = (coulomb, parameters["coulomb_error"])
     elif parameters["coulomb_error"] is not None:
         raise click.UsageError("--coulomb-error goes with a number, not with 'constant'.")
-    return {
+    return {name: parameters[name] for name in ("columns", "sheet") if parameters[name]} | {
         "zero": parameters["zero"]
         if parameters["zero_error"] is None
         else (parameters["zero"], parameters["zero_error"]),

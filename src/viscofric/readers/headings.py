@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from viscofric.errors import InputError, brief
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Sequence
 
 
 # "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
@@ -69,6 +70,8 @@ class Vocabulary:
         Headings of such a table, for errors.
     key : str
         Path of the run file's key with the user's own headings.
+    offered : tuple of (str, str)
+        Quantities that a form asks for, each with an example of its unit.
     """
 
     kind: str
@@ -76,6 +79,7 @@ class Vocabulary:
     needed: tuple[tuple[str, ...], ...]
     example: str = ""
     key: str = "material.columns"
+    offered: tuple[tuple[str, str], ...] = ()
     asked: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
 
     @cached_property
@@ -98,32 +102,45 @@ class Vocabulary:
         named = set(found)
         return [one[0] for one in self.needed if not named & set(one)]
 
-    def checked(self, columns: Mapping[str, str] | None) -> dict[str, str]:
+    def checked(self, columns: Mapping[Any, Any] | None) -> dict[str, str]:
         """Return the user's own headings by quantity, which he may write with underscores, or raise `InputError`."""
         asked: dict[str, str] = {}
-        try:
-            pairs: dict[Any, Any] = dict(columns or {})
-        except (TypeError, ValueError):
+        if columns is not None and not isinstance(columns, Mapping):
             raise InputError(
                 f"columns = {brief(columns)}: must map quantities to headings, such as {{'frequency': 'f in Hz'}}.",
                 code="wrong-columns",
-            ) from None
-        for key, said in pairs.items():
+                field=self.key,
+            )
+        given = columns or {}
+        for key, said in given.items():
             what = " ".join(re.split(r"[\s_-]+", str(key).strip().lower()))
             if what not in self.quantities:
                 known = ", ".join(one.replace(" ", "_") for one in self.quantities)
-                raise InputError(
-                    f"columns: {brief(key)} is not a quantity of {self.kind}; known are {known}.",
-                    code="unknown-quantity",
-                )
+                problem = f"columns: {brief(key)} is not a quantity of {self.kind}; known are {known}."
+                raise InputError(problem, code="unknown-quantity", field=self.key)
             if not isinstance(said, str) or not said.strip():
-                raise InputError(f"columns: {what} = {brief(said)}: must be a heading as text.", code="wrong-columns")
+                problem = f"columns: {what} = {brief(said)}: must be a heading as text."
+                raise InputError(problem, code="wrong-columns", field=self.key)
             asked[what] = " ".join(said.split())
         return asked
 
     def asking(self, columns: Mapping[str, str]) -> Vocabulary:
         """Return the vocabulary with the user's own headings, as `checked` returns them."""
         return replace(self, asked=dict(columns))
+
+    def header_values(self, columns: Sequence[Column], missing: Iterable[str]) -> dict[str, Any]:
+        """Return the values of an error about a header, from which a form can ask for the columns.
+
+        ``headings`` found, quantities ``missing``, those ``known`` with their headings, what a form ``offered`` to name
+        with examples of units, and the ``key`` of the run file.
+        """
+        return {
+            "headings": [column.heading for column in columns],
+            "missing": list(missing),
+            "known": {column.quantity: column.heading for column in columns if column.quantity},
+            "offered": [list(one) for one in self.offered],
+            "key": self.key,
+        }
 
     def columns(self, cells: Sequence[str]) -> tuple[Column, ...]:
         """Return the columns under a row of headings, each with the quantity that it names or that the user says."""
@@ -138,6 +155,10 @@ class Vocabulary:
                 column = found[place]
                 found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True)
         return tuple(found)
+
+
+#: The vocabulary of a table whose columns are found by names alone.
+NO_WORDS = Vocabulary("a table", {}, (), key="")
 
 
 def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:

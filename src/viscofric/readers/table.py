@@ -6,14 +6,14 @@ import csv
 import math
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import Column, heading
+from viscofric.readers.headings import NO_WORDS, Column, Vocabulary, heading
 from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from viscofric.arrays import Array, Integers
-    from viscofric.readers.headings import Vocabulary
 
     #: Cells of one row, with its number in the file.
     NumberedRow = tuple[int, Sequence[str]]
@@ -47,7 +46,7 @@ class Table:
     decimal_comma: bool
     above: tuple[tuple[str, ...], ...] = ()  # cells of the rows above the header, and of other sheets
     empty_rows: int = 0  # left out, with none of the quantities that make a header
-    key: str = ""  # of the run file, for the user's own headings
+    vocabulary: Vocabulary = NO_WORDS
 
     def headings(self) -> str:
         """Return the headings as one readable list, for error messages."""
@@ -124,8 +123,7 @@ class Table:
         self, code: str, problem: str, remedy: Remedy | None = None, missing: Iterable[str] = ()
     ) -> DataFileError:
         """Return an error about the header, whose values let a program ask for the columns; see `header_values`."""
-        known = {column.quantity: column.heading for column in self.columns if column.quantity}
-        values = header_values([column.heading for column in self.columns], missing, known, self.key)
+        values = self.vocabulary.header_values(self.columns, missing)
         return DataFileError(self.path, Note(code, problem, remedy=remedy, values=values))
 
     def unused(self, used: Collection[int]) -> list[Column]:
@@ -158,7 +156,9 @@ class Table:
         if len(found) > 1:
             both = " and ".join(repr(self.columns[place].heading) for place in found)
             problem = f"{both} could each be the {what}; keep one of them"
-            raise self.refused("ambiguous-columns", problem, or_name_it(self.key, what, self.columns[found[0]].heading))
+            raise self.refused(
+                "ambiguous-columns", problem, or_name_it(self.vocabulary.key, what, self.columns[found[0]].heading)
+            )
         return found[0] if found else None
 
 
@@ -207,7 +207,7 @@ def make_table(
     numbered: Sequence[NumberedRow],
     *,
     comma_is_free: bool = True,
-    vocabulary: Vocabulary | None = None,
+    vocabulary: Vocabulary = NO_WORDS,
 ) -> Table:
     """Return a table of numbered rows under their headings; `comma_is_free`: a comma may be a decimal comma.
 
@@ -218,7 +218,7 @@ def make_table(
     DataFileError
         If there is no row, a row differs in length from the header, or commas may separate decimals or thousands.
     """
-    needed = {what for some in vocabulary.needed for what in some} if vocabulary else set()
+    needed = {what for some in vocabulary.needed for what in some}
     places = [place for place, column in enumerate(columns) if column.quantity in needed]
     rows, lines, empty = [], [], 0
     for number, row in numbered:
@@ -245,22 +245,14 @@ def make_table(
     ]
     printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
     comma = comma_is_free and decimal_comma(path, printed)
-    key = vocabulary.key if vocabulary else ""
-    return Table(path, columns, tuple(rows), np.array(lines, dtype=np.int64), comma, empty_rows=empty, key=key)
-
-
-def header_values(
-    headings: Sequence[str], missing: Iterable[str] = (), known: dict[str, str] | None = None, key: str = ""
-) -> dict[str, Any]:
-    """Return the values of an error about a header: headings found, quantities missing, those recognised, and the key.
-
-    ``{"headings": ["f in Hz", …], "missing": ["frequency"], "known": {"temperature": "T"}, "key": "material.columns"}``
-    """
-    return {"headings": list(headings), "missing": list(missing), "known": dict(known or {}), "key": key}
+    numbers = np.array(lines, dtype=np.int64)
+    return Table(path, columns, tuple(rows), numbers, comma, empty_rows=empty, vocabulary=vocabulary)
 
 
 def or_name_it(key: str, what: str, said: str) -> Remedy:
-    """Return the end of a sentence: the column can be named by the user, for each reader."""
+    """Return the end of a sentence: the column can be named by the user, for each reader; "." without a key for it."""
+    if not key:
+        return Remedy(".")
     name = what.replace(" ", "_")
     shown = repr(said)
     return Remedy(

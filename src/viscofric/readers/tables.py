@@ -5,14 +5,14 @@ from __future__ import annotations
 import csv
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
 from viscofric.readers.headings import place_of
 from viscofric.readers.source import decimal_comma
-from viscofric.readers.table import MISSING, header_values, make_table, split_cells
+from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
 
 if TYPE_CHECKING:
@@ -116,12 +116,8 @@ def _no_header_in_workbook(source: Source, words: Vocabulary) -> DataFileError:
 def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheets: Sequence[str] = ()) -> DataFileError:
     """Return the error of a header without the needed words, or without the headings that the user names."""
     columns = words.columns(headings)
-    values: dict[str, Any] = header_values(
-        headings,
-        words.missing(column.quantity for column in columns),
-        {column.quantity: column.heading for column in columns if column.quantity},
-        words.key,
-    )
+    missing = words.missing(column.quantity for column in columns)
+    values = words.header_values(columns, missing)
     shown = listed_headings(headings)
     among = f" in any of its sheets ({', '.join(map(repr, sheets))})" if sheets else ""
     if sheets:
@@ -130,13 +126,10 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
     if absent:
         problem = f"no row has a column {' and '.join(map(repr, absent))}{among}; this file has {shown}."
         return DataFileError(path, Note("no-column", problem, values=values))
-    missing = " or ".join(values["missing"])
-    problem = f"no row names columns for {missing}{among}; {words.example}, this file has {shown}"
+    problem = f"no row names columns for {' or '.join(missing)}{among}; {words.example}, this file has {shown}"
     if not headings:
         return DataFileError(path, Note("missing-columns", f"{problem}.", values=values))
-    return DataFileError(
-        path, Note("missing-columns", problem, remedy=name_columns(words.key, values["missing"]), values=values)
-    )
+    return DataFileError(path, Note("missing-columns", problem, remedy=name_columns(words.key, missing), values=values))
 
 
 def listed_headings(headings: Sequence[str]) -> str:

@@ -145,6 +145,8 @@ def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
         deformation=table.deformation,
         temperature=table.temperature,
         modulus_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
     )
     try:
         fit = _superposed(table, sweeps)
@@ -177,6 +179,8 @@ def _from_master_curve(table: MaterialTable, liquids: bool) -> Rubber:
         deformation=table.deformation,
         poisson_ratio=table.poisson_ratio,
         modulus_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
     )
     shift: ShiftLaw | None = None
     if table.shift_factors is not None:

@@ -125,7 +125,7 @@ def write_program_card(material: Material, folder: Path, form: CardFormat, law: 
 
 def write_sweeps(sweeps: IsothermalSweeps, path: str | Path) -> Path:
     """Write sweeps (moduli as measured, MPa, headed E or G) as a table for `read_dma`, without strain amplitudes."""
-    letter = "E" if sweeps.deformation == "tension" else "G"
+    letter = "G" if sweeps.deformation == "shear" else "E"
     headings = ["temperature (degC)", "frequency (Hz)", f"{letter}' (MPa)", f"{letter}'' (MPa)"]
     rows = (
         (celsius(one.temperature), frequency / (2 * math.pi), storage / 1e6, loss / 1e6)

@@ -202,6 +202,7 @@ def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
             "message": words,
             "field": shown.field,
             "problems": problems or [{"field": shown.field, "message": words}],
+            "values": dict(shown.note.values),
         }
     if isinstance(error, MemoryError):
         return {"message": _NO_MEMORY, "field": None}

@@ -171,7 +171,7 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
             raise click.BadParameter("holds one temperature twice.", param_hint="--fix")
     defaults = {option.name: option.default for option in command.params}
     for name, value in parameters.items():
-        if name not in ("reference", "fix", "master_curve") and value not in (None, (), defaults.get(name)):
+        if name not in ("reference", "fix", "master_curve") and value not in (None, (), {}, defaults.get(name)):
             values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
     return material_of(values)
 
@@ -191,11 +191,14 @@ def _command(files: tuple[Path, ...], parameters: dict[str, Any]) -> str:
     options = {option.name: option for option in command.params}
     words = ["viscofric", "material", "fit", *map(str, files)]
     for name, value in parameters.items():
-        if value in (None, (), False, options[name].default if name in options else None):
+        if value in (None, (), {}, False, options[name].default if name in options else None):
             continue
         option = f"--{name.replace('_', '-')}"
         if value is True:
             words.append(option)
+            continue
+        if name == "columns":
+            words += [word for what, said in value.items() for word in ("--column", f"{what}={said}")]
             continue
         if name in options and options[name].nargs > 1:
             words += [option, *map(str, value)]

@@ -30,6 +30,8 @@ def command(
     deformation: Deformation | None,
     temperature: tuple[str, ...],
     modulus_unit: str | None,
+    columns: dict[str, str],
+    sheet: str | None,
     table: Path | None,
 ) -> None:
     """Print the format, isotherms and doubtful data of DMA FILES.
@@ -41,7 +43,14 @@ def command(
     if table is not None:
         refuse_to_overwrite(table, files)
     with reported_errors():
-        sweeps = read_dma(*files, deformation=deformation, temperature=temperature or None, modulus_unit=modulus_unit)
+        sweeps = read_dma(
+            *files,
+            deformation=deformation,
+            temperature=temperature or None,
+            modulus_unit=modulus_unit,
+            columns=columns,
+            sheet=sheet,
+        )
         click.echo(f"{sweeps.format}; moduli in {sweeps.deformation}; {len(sweeps)} isotherms")
         for line in _isotherms(sweeps):
             click.echo(line)
@@ -55,7 +64,7 @@ def command(
 def _isotherms(sweeps: IsothermalSweeps) -> list[str]:
     from viscofric.units import celsius
 
-    letter = "E" if sweeps.deformation == "tension" else "G"
+    letter = "G" if sweeps.deformation == "shear" else "E"
     lines = [f"{'T (°C)':>8}  {'points':>6}  {'f (Hz)':>19}  {letter + chr(39) + ' (MPa)':>19}  {'tan δ':>15}"]
     for one in sweeps.isotherms:
         tangent = one.loss_modulus / one.storage_modulus

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.data import Isotherm, IsothermalSweeps
-from viscofric.errors import DataFileError, InputError, short_notes
+from viscofric.data import DEFORMATIONS, Isotherm, IsothermalSweeps
+from viscofric.errors import DataFileError, InputError, check_choice, short_notes
 from viscofric.notes import Note, note_of
 from viscofric.readers.dma.checks import usable
 from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
 from viscofric.readers.dma.readings import Sorted, at, joined, listed
-from viscofric.readers.dma.sweep_checks import insist_on_one_amplitude, notes_on
+from viscofric.readers.dma.sweep_checks import notes_on, of_one_amplitude
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -68,7 +68,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
         If the files contradict each other or `deformation`, too few points are usable, the temperatures form a
         ramp, or the points belong to an amplitude sweep.
     InputError
-        If there is no file, or `deformation` is neither "tension" nor "shear".
+        If there is no file, or `deformation` is none of `viscofric.data.DEFORMATIONS`.
     """
     if not readings:
         raise InputError("at least one file of DMA sweeps is needed.", code="no-file")
@@ -77,15 +77,15 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     points = joined(readings)
     keep, on_left_out = usable(points, source)
     groups, on_groups = isotherm_groups(points, keep, source)
-    for rows in groups:
-        insist_on_one_amplitude(points, rows, source)
-    sweeps = [_isotherm(points, rows) for rows in groups]
+    single = [of_one_amplitude(points, rows, source) for rows in groups]
+    sweeps = [_isotherm(points, rows) for rows, _ in single]
     notes: list[Note] = [
         *_on_formats(readings),
         *on_deformation,
         *_own_notes(readings),
         *on_left_out,
         *on_groups,
+        *(note for _, some in single for note in some),
         *_on_order(points, keep, sweeps, len(readings)),
         *notes_on(points, sweeps),
     ]
@@ -127,38 +127,61 @@ def _own_notes(readings: Sequence[Readings]) -> list[Note]:
 
 
 def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[Note]]:
-    """Decide between tension and shear: by the files, else by the caller."""
-    if asked not in (None, "tension", "shear"):
-        raise InputError(f"deformation = {asked!r}: must be 'tension' or 'shear'.", code="wrong-choice")
+    """Decide between shear and the deformations that give E: by the files, else by the caller."""
+    if asked is not None:
+        check_choice(asked, "deformation", *DEFORMATIONS)
     said = [one for one in readings if one.deformation is not None]
     if not said:
         if asked is not None:
             note = f"The moduli were read as measured in {asked}, as requested; the file does not state it."
-            return asked, [Note("deformation-given", note)]
+            return asked, [Note("deformation-given", note), *_assumed(asked)]
         note = Note(
             "deformation-unknown",
             "The file does not state whether its moduli are tensile or shear; shown as tensile until this is known.",
         )
         return "tension", [note]
-    kind = said[0].deformation or "tension"
-    by = f" ({said[0].said_by})" if said[0].said_by else ""
-    other = next((one for one in said if one.deformation != kind), None)
+    # headings with E say no more than that it is not shear
+    first = next((one for one in said if one.deformation != "tension"), said[0])
+    kind = first.deformation or "tension"
+    by = f" ({first.said_by})" if first.said_by else ""
+    other = next((one for one in said if (one.deformation == "shear") != (kind == "shear")), None)
     if other is not None:
         other_by = f" ({other.said_by})" if other.said_by else ""
-        problem = f"states {other.deformation}{other_by}, but {said[0].source} states {kind}{by}; read them separately."
+        problem = f"states {other.deformation}{other_by}, but {first.source} states {kind}{by}; read them separately."
         raise DataFileError(other.source, problem, code="deformation-contradicts")
-    if asked not in (None, kind):
+    if asked is not None and (asked == "shear") != (kind == "shear"):
         raise DataFileError(
-            said[0].source,
+            first.source,
             f"the header states {kind}{by}, but deformation={asked!r} was requested.",
             code="deformation-contradicts",
         )
     notes = [Note("deformation", f"The file's header states that the moduli were measured in {kind}{by}.")]
+    if asked not in (None, kind):
+        kind = asked
+        notes = [Note("deformation-given", f"The file states moduli E{by}; measured in {kind}, as requested.")]
+    notes += _assumed(kind)
     silent = [one for one in readings if one.deformation is None]
     if silent:
         text = f"{_names(silent)}: no statement whether the moduli are tensile or shear; read as {kind}."
         notes.append(Note("deformation-not-said", text))
     return kind, notes
+
+
+def _assumed(kind: Deformation) -> list[Note]:
+    """Return what is assumed of moduli that the instrument computed from forces in compression or bending."""
+    if kind == "compression":
+        said = (
+            "Moduli in compression are used as the instrument reports them, as Young's moduli: the specimen is assumed "
+            "to slide freely on its plates; a flat specimen that sticks to them appears stiffer than its material."
+        )
+        return [Note("compression-assumed", said)]
+    if kind == "bending":
+        said = (
+            "Moduli in bending are used as the instrument reports them, as Young's moduli: its beam formula is assumed "
+            "to correct for shear and, in cantilevers, for the clamps."
+        )
+        return [Note("bending-assumed", said)]
+    return []
 
 
 def _isotherm(points: Points, rows: Indices) -> Sorted:

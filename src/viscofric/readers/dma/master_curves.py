@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.data import MasterCurve
-from viscofric.errors import DataFileError, InputError
+from viscofric.data import DEFORMATIONS, MasterCurve
+from viscofric.errors import DataFileError, check_choice
 from viscofric.files import read_bytes
 from viscofric.notes import setting
 from viscofric.readers.dma.names import DMA, NOT_SAID
@@ -56,7 +56,7 @@ def read_master_curve(
         such as the ``master_curve.csv`` that ``viscofric material fit`` writes, or a .tts file of RepTate.
     reference : float, str or quantity
         Reference temperature of the curve, K if a plain number.
-    deformation : {"tension", "shear"}, optional
+    deformation : {"tension", "compression", "bending", "shear"}, optional
         Kind of the moduli, if the file does not state it.
     poisson_ratio : float
         ν of E = 2(1+ν)G, for moduli in shear.
@@ -91,8 +91,8 @@ def read_master_curve(
     array([3100000., 3600000., 5200000.])
     """
     kelvin = positive(reference, "K", "reference")
-    if deformation not in (None, "tension", "shear"):
-        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.", code="wrong-choice")
+    if deformation is not None:
+        check_choice(deformation, "deformation", *DEFORMATIONS)
     ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
@@ -106,7 +106,7 @@ def read_master_curve(
         _insist_on_reference(source, _stated_reference(source), kelvin)
         frequency, storage, loss, temperature = _of_table(table, source, kelvin)
     kind = _kind(source, said, deformation)
-    factor = 1.0 if kind == "tension" else 2.0 * (1.0 + ratio)
+    factor = 1.0 if kind != "shear" else 2.0 * (1.0 + ratio)
     order = np.argsort(frequency, kind="stable")
     return MasterCurve(frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin)
 
@@ -181,7 +181,7 @@ def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> 
 
 def _kind(source: Source, said: Deformation | None, asked: Deformation | None) -> Deformation:
     """Return the kind of the moduli; nothing is assumed."""
-    if said is not None and asked not in (None, said):
+    if said is not None and asked is not None and (said == "shear") != (asked == "shear"):
         raise DataFileError(
             source.path,
             f"the file states {said}, but deformation={asked!r} was requested.",

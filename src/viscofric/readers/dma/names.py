@@ -107,6 +107,14 @@ DMA = Vocabulary(
     ),
     example="a DMA table has e.g. 'temperature (degC)', 'frequency (Hz)', 'storage modulus (MPa)', "
     "'loss modulus (MPa)'",
+    offered=(
+        ("temperature", "degC"),
+        ("frequency", "Hz"),
+        ("storage modulus", "MPa"),
+        ("loss modulus", "MPa"),
+        ("tan delta", ""),
+        ("strain amplitude", "%"),
+    ),
 )
 
 # "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.
@@ -157,9 +165,11 @@ _PLATES = re.compile(
 _SHEARING = re.compile(
     rf"\b(torsion|cone|kegel|concentric|couette|double gap|(CP|CC|DG) ?-?\d)|{_SHEAR_WORDS}", re.IGNORECASE
 )
+_BENDING = re.compile(r"cantilever|\bbend|flexion|flexural|\bbiege|(three|3)[ -]?point|\bTPB\b", re.IGNORECASE)
+_COMPRESSING = re.compile(r"compress|kompression|\bdruck", re.IGNORECASE)
 _STRETCHING = re.compile(
     r"\b(tension|tensile|traction|films?\b|fib(er|re)|extension|axial|(TPB|UXF|SER)\b)"
-    r"|compress|kompression|cantilever|\bbend|flexion|\b(zug|biege|druck)",
+    r"|compress|kompression|cantilever|\bbend|flexion|flexural|(three|3)[ -]?point|\b(zug|biege|druck)",
     re.IGNORECASE,
 )
 #: Labels of lines and sheets, outside the table, that name the sample holder.
@@ -187,20 +197,27 @@ def deformation_of(name: str) -> Deformation | None:
 
 
 def tool_says(texts: Iterable[tuple[str, str]], *, axial: bool = False) -> Said:
-    """Return the deformation that the sample holder implies (bending and compression give E too).
+    """Return the deformation that the sample holder implies.
 
     `texts` are label and value from the head of a file, such as ``("Geometry name", "Shear sandwich")``.  `axial`: the
     columns show an axial oscillation, in which plates do not shear.
     """
-    said: dict[Deformation, str] = {}
+    said: dict[bool, Said] = {}  # whether it is shear
     for label, value in texts:
         words = f"{label} {value.strip()[:80]!r}"
         shears = _SHEARING.search(value) or (not axial and _PLATES.search(value))
         if shears:
-            said.setdefault("shear", words)
+            said.setdefault(True, ("shear", words))
         if _STRETCHING.search(value):
-            said.setdefault("tension", words)
-    return next(iter(said.items())) if len(said) == 1 else (None, "")
+            said.setdefault(False, (_stretched(value), words))
+    return next(iter(said.values())) if len(said) == 1 else (None, "")
+
+
+def _stretched(holder: str) -> Deformation:
+    """Return the deformation in a sample holder that does not shear."""
+    if _BENDING.search(holder):
+        return "bending"
+    return "compression" if _COMPRESSING.search(holder) else "tension"
 
 
 def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
@@ -215,16 +232,23 @@ def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
     return found
 
 
+def held(kind: Deformation, heading: str, tools: Iterable[tuple[str, str]]) -> Said:
+    """Return what a heading states; where it is E, the sample holder separates compression and bending from tension."""
+    holder = tool_says(tools, axial=True) if kind == "tension" else (None, "")
+    return holder if holder[0] in ("compression", "bending") else (kind, f"the heading {heading[:80]!r}")
+
+
 def said_by_columns(moduli: Iterable[str], columns: Iterable[str], tools: Iterable[tuple[str, str]] = ()) -> Said:
     """Decide between E and G by headings and sample holder.
 
-    The headings of the moduli come first, then the sample holder (see `tools_in`), then a column of shear strain,
-    stress or rate, then a torque without a force.  `columns` are the headings of all columns that hold numbers.
+    The headings of the moduli come first (with E, the holder separates compression and bending from tension), then the
+    sample holder (see `tools_in`), then a column of shear strain, stress or rate, then a torque without a force.
+    `columns` are the headings of all columns that hold numbers.
     """
     for heading in moduli:
         kind = deformation_of(heading)
         if kind is not None:
-            return kind, f"the heading {heading[:80]!r}"
+            return held(kind, heading, tools)
     plain = {" ".join(column.lower().split()): column for column in columns}
     torques = [column for name, column in plain.items() if _TORQUE.fullmatch(name)]
     forces = [column for name, column in plain.items() if _FORCE.fullmatch(name)]

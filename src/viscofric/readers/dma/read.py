@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.data import DEFORMATIONS
+from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.files import read_bytes
 from viscofric.notes import Remedy
 from viscofric.readers.dma.instruments import (
@@ -124,8 +125,10 @@ def read_dma(
     ----------
     *paths : str or path, or a list of them
         One or many files of one specimen; units may differ between them, the kind of deformation may not.
-    deformation : {"tension", "shear"}, optional
-        Kind of the moduli, if the files do not state it by headings (E' or G'), by the sample holder or by a torque.
+    deformation : {"tension", "compression", "bending", "shear"}, optional
+        Kind of the test, if the files do not state it by headings (E' or G'), by the sample holder or by a torque.  In
+        compression and bending (three points, cantilevers) the moduli are Young's moduli as the instrument reports
+        them; a note says what is assumed.
     temperature : float, str or quantity, or a list with one (or None) per file, optional
         For files without temperatures, K if a plain number.  The default is the temperature in the file's name
         (``foam_-25C.csv``), with a note.
@@ -189,8 +192,8 @@ def trace_dma(
 
     If nothing decides between tension and shear, this raises no error, so that the page can show the sweeps and ask.
     """
-    if deformation not in (None, "tension", "shear"):
-        raise InputError(f"deformation = {deformation!r}: must be 'tension' or 'shear'.", code="wrong-choice")
+    if deformation is not None:
+        check_choice(deformation, "deformation", *DEFORMATIONS)
     files = _files(paths)
     given = _temperatures(temperature, len(files))
     if modulus_unit is not None:

@@ -184,9 +184,45 @@ HELD_FREQUENCY = 0.05
 AMPLITUDE_SWEEP, SWEPT_AMPLITUDE = 3, 2.0
 
 
-def insist_on_one_amplitude(points: Points, rows: Indices, source: str) -> None:
-    """Raise `DataFileError` if the strain amplitude, not the frequency, was swept at one temperature."""
-    rows = rows[points.strain_amplitude[rows] > 0.0]
+def of_one_amplitude(points: Points, rows: Indices, source: str) -> tuple[Indices, list[Note]]:
+    """Return the rows of one isotherm of one strain amplitude, and a note on those at others that are left out.
+
+    Points at frequencies that were measured at several amplitudes are those of repeated sweeps, or of an amplitude
+    sweep before the frequency sweep: the amplitude that covers most frequencies, of several the smallest, is kept.
+
+    Raises
+    ------
+    DataFileError
+        If the strain amplitude, not the frequency, was swept.
+    """
+    known = rows[points.strain_amplitude[rows] > 0.0]
+    held, swept = _swept(points, known)
+    if len(swept) < AMPLITUDE_SWEEP:
+        return rows, []
+    amplitude, kelvin = points.strain_amplitude[swept], float(np.mean(points.temperature[rows]))
+    span = f"{100 * amplitude.min():.3g} to {100 * amplitude.max():.3g} %"
+    levels = np.unique(points.strain_amplitude[known])
+    near = np.abs(np.log(points.strain_amplitude[known] / levels[:, None])) < np.log(AMPLITUDES_DIFFER)
+    covered = np.array([len(np.unique(held[one])) for one in near])
+    best = int(np.argmax(covered))
+    if covered[best] < AMPLITUDE_SWEEP or covered[best] <= np.median(np.unique(held, return_counts=True)[1]):
+        problem = (
+            f"{at([kelvin])} the strain amplitude runs from {span} at one frequency ({points.named(swept)}); frequency "
+        )
+        raise DataFileError(
+            source, problem + "sweeps at one amplitude are needed, not an amplitude sweep.", code="amplitude-sweep"
+        )
+    beside = np.isin(known, swept) & ~near[best]
+    out = known[beside]
+    said = (
+        f"The strain amplitude runs from {span} {at([kelvin])}; points at about {100 * levels[best]:.3g} % are used, "
+    )
+    left = f"{len(out)} at other amplitudes are left out ({points.named(out.tolist())})."
+    return np.setdiff1d(rows, out, assume_unique=True), [Note("other-amplitudes", said + left)]
+
+
+def _swept(points: Points, rows: Indices) -> tuple[Array, list[int]]:
+    """Return the numbers of the frequencies of points, and the points whose frequency has several amplitudes."""
     held = np.round(np.log(points.angular_frequency[rows]) / HELD_FREQUENCY)
     swept: list[int] = []
     for one in np.unique(held):
@@ -194,16 +230,7 @@ def insist_on_one_amplitude(points: Points, rows: Indices, source: str) -> None:
         amplitude = points.strain_amplitude[same]
         if amplitude.max() > SWEPT_AMPLITUDE * amplitude.min():
             swept += same.tolist()
-    if len(swept) < AMPLITUDE_SWEEP:
-        return
-    amplitude, kelvin = points.strain_amplitude[swept], float(np.mean(points.temperature[rows]))
-    span = f"{100 * amplitude.min():.3g} to {100 * amplitude.max():.3g} %"
-    problem = (
-        f"{at([kelvin])} the strain amplitude runs from {span} at one frequency ({points.named(swept)}); frequency "
-    )
-    raise DataFileError(
-        source, problem + "sweeps at one amplitude are needed, not an amplitude sweep.", code="amplitude-sweep"
-    )
+    return held, swept
 
 
 def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:

@@ -41,6 +41,14 @@ TRACTION = Vocabulary(
     example="a table of traction runs has e.g. 'temperature (degC)', 'disc speed (mm/s)', 'ball speed (mm/s)', "
     "'load (N)', 'traction force (N)'",
     key="measurement.columns",
+    offered=(
+        ("temperature", "degC"),
+        ("disc speed", "mm/s"),
+        ("ball speed", "mm/s"),
+        ("load", "N"),
+        ("traction force", "N"),
+        ("replicate", ""),
+    ),
 )
 #: Quantity -> SI unit; the optional ones may have empty cells.
 REQUIRED = {"disc speed": "m/s", "ball speed": "m/s", "traction force": "N", "load": "N", "temperature": "K"}
@@ -111,7 +119,7 @@ def _columns(table: Table) -> dict[str, int]:
     missing = [name for name, place in places.items() if place is None]
     if missing:
         problem = f"no column for {' or '.join(missing)}; {TRACTION.example}, this one has {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(table.key, missing), missing)
+        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing), missing)
     return {name: place for name, place in places.items() if place is not None}
 
 

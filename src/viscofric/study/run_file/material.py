@@ -15,6 +15,7 @@ from viscofric.study.run_file.tables import (
     Count,
     FileName,
     FileNames,
+    Headings,
     Number,
     Table,
     Temperature,
@@ -39,6 +40,8 @@ _HOW = (
     "deformation",
     "temperature",
     "modulus_unit",
+    "columns",
+    "sheet",
     "poisson_ratio",
     "vertical_shift",
     "shift_by",
@@ -88,7 +91,7 @@ class MaterialTable(Table):
     )
 
     name: Words = Field("", description="Name of the material; required for several materials.")
-    deformation: Literal["tension", "shear"] | None = Field(
+    deformation: Literal["tension", "compression", "bending", "shear"] | None = Field(
         None, description="Deformation in the sweeps, if the file does not state it; E = 2(1+ν)G."
     )
     temperature: (
@@ -100,6 +103,10 @@ class MaterialTable(Table):
     modulus_unit: Annotated[Words, AfterValidator(_unit_of_modulus)] | None = Field(
         None, description="Unit of moduli in files that do not state it, such as 'MPa'."
     )
+    columns: Headings = Field(
+        {}, description="Headings of tables that are not understood: { frequency = 'f in Hz' }; '#2 (Hz)' is column 2."
+    )
+    sheet: Words | None = Field(None, description="Name of the only sheet of a workbook to read.")
     poisson_ratio: Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, independent of frequency.")
     reference_temperature: Temperature | None = Field(
         None, description="Temperature at which the shift factor is one; required for sweeps and master curves."

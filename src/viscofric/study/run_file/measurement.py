@@ -15,10 +15,12 @@ from viscofric.study.run_file.tables import (
     FileName,
     FileNames,
     Force,
+    Headings,
     Number,
     SignedForce,
     Table,
     TemperatureStep,
+    Words,
     listed,
     one_or_more,
 )
@@ -44,6 +46,10 @@ class MeasurementTable(Table):
 
     mtm: FileNames = Field((), description="Traction runs: a file, a list, or a pattern such as 'run*.txt'.")
     curves: FileName | None = Field(None, description="Instead: separated friction curves.")
+    columns: Headings = Field(
+        {}, description="Headings of traction tables that are not understood: { disc_speed = 'V1 (mm/s)' }."
+    )
+    sheet: Words | None = Field(None, description="Name of the sheet of a workbook of traction runs.")
     zero: SignedForce | None = Field(None, description="Reading of the force cell without traction, if known.")
     zero_error: Force | None = Field(None, description="Standard error of zero.")
     coulomb: Annotated[

@@ -187,6 +187,8 @@ FileNames = Annotated[
 ]
 #: A few words on one line.
 Words = Annotated[str, Field(max_length=300, pattern=r"^[^\x00-\x1f\x7f]*$")]
+#: Quantity -> heading of its column, where a file's header is not understood.
+Headings = Annotated[dict[Words, Words], Field(max_length=50)]
 
 
 # Branches of a choice between types; they appear in pydantic's locations, and cannot be keys.

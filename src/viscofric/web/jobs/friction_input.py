@@ -110,7 +110,7 @@ def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
     from viscofric.readers import read_mtm
     from viscofric.report.texts.friction import runs_lines
 
-    runs = read_mtm(*table.mtm)
+    runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
     lines = [("files" if len(table.mtm) > 1 else "file", ", ".join(path.name for path in table.mtm))]
     lines += [("recognised as", _kinds(table.mtm)), *runs_lines(runs)]
     steps = [(step.number, without_folder(str(step), folders)) for step in runs.steps]
@@ -192,7 +192,11 @@ def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[s
         _insist_on_upload(folders.files / name, folders.files)
     tables = [name for name in names if holds_friction_curves(folders.files / name)]
     if not tables:
-        before = {key: value for key, value in study.get("measurement", {}).items() if key != "curves"}
+        before = {
+            key: value
+            for key, value in study.get("measurement", {}).items()
+            if key not in ("curves", "columns", "sheet")
+        }
         return {**before, "mtm": names[0] if len(names) == 1 else list(names)}
     if len(names) > 1:
         other = next((name for name in names if name not in tables), None)

@@ -67,6 +67,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             deformation=table.deformation,
             temperature=None if table.temperature is None else _one_or_each(table.temperature),
             modulus_unit=table.modulus_unit,
+            columns=table.columns,
+            sheet=table.sheet,
         )
     except InputError as error:
         raise _asking(named_without_folder(error, context)) from None

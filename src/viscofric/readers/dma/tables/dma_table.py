@@ -54,7 +54,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
         missing.insert(0, "temperature")
     if missing:
         problem = f"no column for {' or '.join(missing)}; {names.DMA.example}, this one has {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(table.key, missing), missing)
+        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing), missing)
     return places
 
 
@@ -172,15 +172,16 @@ def deformation(table: Table, places: dict[str, int]) -> Said:
     if {"tension", "shear"} <= {kind for kind, _ in said}:
         problem = "one modulus is tensile (E) by its heading, the other shear (G)."
         raise DataFileError(table.path, problem, code="deformation-contradicts")
+    tools = names.tools_in(table.above)
     for kind, place in said:
         if kind is not None:
-            return kind, f"the heading {table.columns[place].heading!r}"
+            return names.held(kind, table.columns[place].heading, tools)
     filled = [
         column.name
         for place, column in enumerate(table.columns)
         if any(row[place].strip().lower() not in MISSING for row in table.rows)
     ]
-    return said_by_columns((), filled, names.tools_in(table.above))
+    return said_by_columns((), filled, tools)
 
 
 #: Frequency range of the sweeps of any instrument; master curves exceed it.

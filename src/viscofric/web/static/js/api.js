@@ -4,8 +4,8 @@
  * runJob(kind, {study, options}, {onProgress, onPart, signal}) -> Promise<result>
  *   At most four jobs are streamed at once over all tabs; others wait.  `signal` (of an AbortController) cancels: the
  *   promise rejects with an AbortError, and the process that computed is free again.  What is wrong rejects with a
- *   JobError, {message, field, problems}: a sentence, the path in the study that it is about, or null, and a list of
- *   such {message, field} of all that is wrong.
+ *   JobError, {message, field, problems, values}: a sentence, the path in the study that it is about, or null, a list of
+ *   such {message, field} of all that is wrong, and what a form can ask for, such as the headings of a file.
  * uploadFiles(files) -> Promise<names>, listFiles(), removeFile(name), useExample(), getStart(), getStatus(),
  * downloadUrl(name), workspace
  */
@@ -21,12 +21,14 @@ export class JobError extends Error {
    * @param {string} message
    * @param {string | null} field
    * @param {{message: string, field: string | null}[]} [problems]
+   * @param {object} [values]
    */
-  constructor(message, field = null, problems = [{ message, field }]) {
+  constructor(message, field = null, problems = [{ message, field }], values = {}) {
     super(message);
     this.name = "JobError";
     this.field = field;
     this.problems = problems;
+    this.values = values;
   }
 }
 
@@ -84,11 +86,13 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
       if (message.event === "progress") onProgress?.(message);
       else if (message.event === "part") onPart?.(own(message.part));
       else if (message.event === "result") return own(message.result);
-      else if (message.event === "error") throw new JobError(message.message, message.field, message.problems);
+      else if (message.event === "error") throw jobError(message);
     }
     throw new JobError("The program behind this page ended before it answered; restart it with: viscofric web");
   });
 }
+
+const jobError = ({ message, field, problems, values }) => new JobError(message, field, problems, values);
 
 /** The JSON objects of a stream, one a line. */
 async function* messages(stream) {

@@ -69,7 +69,7 @@ export function mount(section, app) {
     } catch (error) {
       if (running !== mine || error.name === "AbortError") return;
       show(null);
-      form.ask(error.field?.replace("material.", ""));
+      form.ask(error.field?.replace("material.", ""), error.values);
       problem.set([app.explain(error, "sweeps")]);
     } finally {
       if (running === mine) wait.finish();

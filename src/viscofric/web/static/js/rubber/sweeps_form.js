@@ -1,8 +1,9 @@
 // The form of the rubber's source: its kind, its files, and what these leave to the user.
 
+import { columnsForm } from "../columns_form.js";
 import { FIRST_REFERENCE, SOURCES, sourceOf } from "./made.js";
 
-const OF_FILES = ["deformation", "modulus_unit", "temperature", "fixed_shift_factors", "shift_factors"];
+const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "fixed_shift_factors", "shift_factors"];
 const READY = ["name", "reference_temperature"];
 
 /** [material] of other files: what says how a rubber is made stays, what belonged to the old files goes. */
@@ -113,6 +114,8 @@ export function sourceForm(app, onError) {
       options: [
         [null, "– please select –"],
         ["tension", "tension: E′, E″"],
+        ["compression", "compression: E′, E″"],
+        ["bending", "bending: E′, E″"],
         ["shear", "shear: G′, G″"],
       ],
       help: "Not stated in the file; the moduli differ by a factor of three.",
@@ -130,6 +133,15 @@ export function sourceForm(app, onError) {
       help: "Not stated in the file.",
     }),
   };
+  asks.sheet = fields.textField({
+    path: "material.sheet",
+    label: "Sheet",
+    help: "Name of the only sheet of the workbook to read.",
+  });
+  const columns = columnsForm(app, {
+    choose: (named) => state.set("material.columns", named),
+    chosen: () => state.get("material.columns"),
+  });
   const useExample = async () => {
     try {
       await api.useExample();
@@ -221,11 +233,15 @@ export function sourceForm(app, onError) {
     listFiles();
     showPanel(sourceOf(state.get("material")) ?? shown);
   };
-  const questions = h("div", { class: "panel questions" }, asks.deformation, asks.modulus_unit, asks.temperature);
+  const questions = h("div", { class: "panel questions" }, ...Object.values(asks));
   const several = fields.note([], "several");
-  const element = card("Material", several, group, questions, ...Object.values(panels), making);
-  element.ask = (key) => asks[key] && (asks[key].hidden = false);
+  const element = card("Material", several, group, questions, columns, ...Object.values(panels), making);
+  element.ask = (key, values) => {
+    if (asks[key]) asks[key].hidden = false;
+    columns.ask(values);
+  };
   element.show = (answer) => {
+    columns.ask(null);
     for (const [key, field] of Object.entries(asks))
       field.hidden = !answer?.asks?.includes(key) && state.get(`material.${key}`) === undefined;
   };

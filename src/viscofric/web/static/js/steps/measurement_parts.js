@@ -33,7 +33,7 @@ export function repeated(app, kind, { label, done, failed }) {
       app.fields.showError(error, kind);
       const message = error.message.charAt(0).toUpperCase() + error.message.slice(1);
       errors.set([app.explain({ ...error, message }, "measurement")]);
-      failed?.(error.message);
+      failed?.(error);
     }
   }
 

@@ -1,5 +1,6 @@
 // Where measured friction comes from: files, what was recognised in them, and how they are separated.
 
+import { columnsForm } from "../columns_form.js";
 import { computedFrom, keyOf, shows } from "../inputs.js";
 import { checkList, definitions, folded, repeated } from "./measurement_parts.js";
 
@@ -40,6 +41,7 @@ function separationFields({ quantityField, textField, numberField, choiceField, 
       write: (value) => [value ?? []].flat().join(", "),
       help: "For example unsteady steps.",
     }),
+    textField({ path: at("sheet"), label: "Sheet", help: "Name of the sheet of a workbook to read." }),
     choiceField({
       path: at("outliers"),
       label: "Outliers",
@@ -74,6 +76,7 @@ export function source(app, { done, gone }) {
   const { state, fields } = app;
   const { h, button, note } = fields;
   let current = null; // the table that the shown measurement is of
+  let dropped = null; // names of the files that were brought last
   const facts = definitions(app);
   const checks = checkList(app);
   const refusal = note([], "error");
@@ -91,9 +94,16 @@ export function source(app, { done, gone }) {
     onClick: () => state.set("measurement", undefined),
   });
   const job = repeated(app, "measured", { label: "Reading and separating", done: show, failed: forget });
+  const columns = columnsForm(app, {
+    choose: (named) => {
+      const { curves, ...before } = state.get("measurement") ?? {};
+      state.set("measurement", { ...before, mtm: dropped ?? before.mtm, columns: named });
+    },
+    chosen: () => state.get("measurement.columns"),
+  });
   const drop = fields.fileDrop({
     label: "Drop the files of a traction test",
-    accept: ".txt,.csv,.tsv,.dat",
+    accept: ".txt,.csv,.tsv,.dat,.xlsx,.xls",
     help: "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.",
     onFiles: (files) => take(() => app.api.uploadFiles(files)),
   });
@@ -106,13 +116,14 @@ export function source(app, { done, gone }) {
     "Measured friction",
     drop,
     h("div", { class: "row" }, example, csv, remove),
-    ...[job.bar, job.errors, refusal, badge, facts, checks, doubts, stepsOfTest, more],
+    ...[job.bar, job.errors, columns, refusal, badge, facts, checks, doubts, stepsOfTest, more],
   );
 
   /** Read files that were just brought. */
   async function take(bring) {
     try {
       const files = await bring();
+      dropped = files;
       await job.run(state.study, { files });
     } catch (error) {
       job.errors.set([error.message]);
@@ -122,10 +133,12 @@ export function source(app, { done, gone }) {
   function show(result) {
     const study = { ...state.study, measurement: result.table };
     current = keyOf("measured", study);
+    dropped = null;
     computedFrom(result, "measured", study);
     state.setResult("measured", result);
     const origin = result.synthetic ? { data_origin: "synthetic" } : {};
     state.change({ measurement: result.table, ...origin });
+    columns.ask(null);
     badge.hidden = !result.synthetic;
     for (const one of [facts, checks, refusal, notes, steps]) shows(one, result);
     facts.set([...result.recognised, ...(result.lines ?? [])]);
@@ -147,8 +160,9 @@ export function source(app, { done, gone }) {
   }
 
   /** Nothing is known of the measurement; its settings can still be mended. */
-  function forget() {
+  function forget(error) {
     current = null;
+    columns.ask(error?.values);
     state.setResult("measured", null);
     for (const one of [facts, checks, refusal, notes]) one.set([]);
     for (const one of [badge, doubts, stepsOfTest, csv]) one.hidden = true;
