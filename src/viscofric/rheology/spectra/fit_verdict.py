@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -15,12 +15,16 @@ from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.step_tests import StepMasterCurve
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.data import MasterCurve
-    from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
+    from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
 
+
+#: What a spectrum is fitted to.
+Curve: TypeAlias = "MasterCurve | StepMasterCurve"
 
 #: An end of the master curve is a plateau if the modulus is within this of its limit …
 PLATEAU = 0.05
@@ -31,6 +35,8 @@ ROUNDING = 1e-6
 STIFFEST_GLASS = 2e10  # Pa
 #: A spectrum with a rubber plateau fits a measured curve over its lowest decade to this …
 MISSED = 0.05  # decades, rms of E' and E''
+#: … or a creep compliance, which bends less on its way to a plateau, to this over its last decade …
+MISSED_OVER_TIME = 0.01  # decades
 #: … or one that flows is not better by this factor; else the material is a liquid.
 BETTER = 2.0
 #: A mode slower than the lowest frequency by this factor equals flow, 1/(iωη), to 1e-4.
@@ -41,43 +47,46 @@ END = math.sqrt(10.0)
 POINTS_OF_A_SLOPE = 4
 
 
-def solid_modes(misfit: ModulusMisfit, tau: Array, master_curve: MasterCurve) -> Modes:
+def solid_modes(misfit: Misfit, tau: Array, curve: Curve) -> Modes:
     """Fit non-negative modes with a rubber plateau, and raise `LiquidError` where only flow describes the low end.
 
-    The slowest retardation time that a mode may have (`ModulusMisfit.ends`) is added to `tau` (n,) in s where the
+    The slowest retardation time that a mode may have (`Misfit.ends`) is added to `tau` (n,) in s where the
     curve's low end is missed without it: whether a fixed lattice has a time near it is chance.
     """
+    enough = MISSED_OVER_TIME if isinstance(curve, StepMasterCurve) else MISSED
     solid = nonnegative_modes(misfit, tau)
-    if _missed_at_low_end(misfit, solid) <= MISSED:
+    if _missed_at_low_end(misfit, solid) <= enough:
         return solid
     solid = nonnegative_modes(misfit, np.append(tau, math.exp(misfit.ends[1])))
     missed = _missed_at_low_end(misfit, solid)
-    if missed <= MISSED:
+    if missed <= enough:
         return solid
-    flowing = nonnegative_modes(misfit, np.append(solid.tau, FLOW / misfit.angular_frequency[0]))
+    flowing = nonnegative_modes(misfit, np.append(solid.tau, FLOW / misfit.rates[0]))
     left = _missed_at_low_end(misfit, flowing)
     if missed <= BETTER * left:
         return solid
-    low = master_curve.angular_frequency[0]
+    if isinstance(curve, StepMasterCurve):
+        where, missing = f"longest time, {curve.time[-1]:.3g} s", "the last decade"
+    else:
+        where = f"lowest frequency, {misfit.rates[0]:.3g} rad/s (tan δ = {curve.loss_tangent[0]:.3g})"
+        missing = "E' and E'' of the lowest decade"
     raise LiquidError(
-        f"the material flows like a liquid at its lowest frequency, {low:.3g} rad/s (tan δ = "
-        f"{master_curve.loss_tangent[0]:.3g}): a spectrum with a rubber plateau misses E' and E'' of the lowest decade "
+        f"the material flows like a liquid at its {where}: a spectrum with a rubber plateau misses {missing} "
         f"by {missed:.2g} decades (rms), one with E0 = 0 by {left:.2g}, and contacts need E0 above zero; leave out the "
         "hottest isotherms to fit what lies above the flow.",
         code="liquid",
     )
 
 
-def _missed_at_low_end(misfit: ModulusMisfit, modes: Modes) -> float:
-    """Return the rms error of log10 E' and log10 E'' over the lowest decade of frequency."""
-    low = misfit.angular_frequency <= 10.0 * misfit.angular_frequency[0]
-    away = misfit.residual(misfit.columns(modes.tau) @ np.append(modes.glass, modes.C)).reshape(2, -1)[:, low]
+def _missed_at_low_end(misfit: Misfit, modes: Modes) -> float:
+    """Return the rms error of log10 E' and log10 E'', or of log10 J, over the lowest decade of rate."""
+    away = misfit.misses(modes)[misfit.at_rates(0.0, 10.0 * misfit.rates[0])]
     return float(np.sqrt(np.mean(away**2))) / math.log(10.0)
 
 
 def judged(
     spectrum: RetardationSpectrum,
-    master_curve: MasterCurve,
+    curve: Curve,
     *,
     method: str = "",
     tau_ratio: float | None = None,
@@ -85,48 +94,98 @@ def judged(
     notes: tuple[str, ...] = (),
 ) -> RetardationSpectrum:
     """Return the spectrum with its `fit` judged against a master curve at the same temperature; see `SpectrumFit`."""
-    omega, measured = master_curve.angular_frequency, master_curve.complex_modulus
-    modulus = spectrum.complex_modulus(omega)
-    seen = modulus.imag > 0.0
-    rms_storage = float(np.sqrt(np.mean(np.log10(modulus.real / measured.real) ** 2)))
-    rms_loss = math.inf
-    if np.any(seen):
-        rms_loss = float(np.sqrt(np.mean(np.log10(modulus.imag[seen] / measured.imag[seen]) ** 2)))
-    low_loss, high_loss = _loss_tangent_at_ends(omega, master_curve.loss_tangent)
-    fall = float(modulus.real[0]) / spectrum.E0 - 1.0
-    rise = spectrum.E_inf / float(modulus.real[-1]) - 1.0
-    softest, stiffest = float(measured.real.min()), float(measured.real.max())
+    seen = _seen_over_time(spectrum, curve) if isinstance(curve, StepMasterCurve) else _seen(spectrum, curve)
+    fall = seen.fitted[0] / spectrum.E0 - 1.0
+    rise = spectrum.E_inf / seen.fitted[1] - 1.0
+    softest, stiffest = seen.moduli
     at_limit = spectrum.E_inf >= (1.0 - ROUNDING) * STIFFEST * stiffest
     fit = SpectrumFit(
-        rms_storage,
-        rms_loss,
-        E0_extrapolated=fall > PLATEAU or low_loss > PLATEAU_LOSS_TANGENT,
-        E_inf_extrapolated=at_limit or rise > PLATEAU or high_loss > PLATEAU_LOSS_TANGENT,
-        frequency_range=(float(omega[0]), float(omega[-1])),
+        *seen.rms[:2],
+        E0_extrapolated=fall > PLATEAU or seen.loss[0] > PLATEAU_LOSS_TANGENT,
+        E_inf_extrapolated=at_limit or rise > PLATEAU or seen.loss[1] > PLATEAU_LOSS_TANGENT,
+        frequency_range=seen.rates,
         method=method,
         modes=len(spectrum),
         tau_ratio=tau_ratio,
         regularisation=regularisation,
-        measured_storage=(softest, stiffest),
+        measured_storage=seen.moduli,
         E_inf_at_limit=at_limit,
         E0_missed=spectrum.E0 / softest > 1.0 + PLATEAU,
         E_inf_missed=spectrum.E_inf < stiffest * (1.0 - PLATEAU),
+        rms_step=seen.rms[2],
     )
-    rubber = _about_rubber(spectrum, master_curve, fit, softest, low_loss)
-    glass = _about_glass(spectrum, fit, stiffest, high_loss)
-    return RetardationSpectrum(
-        spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, replace(fit, notes=(*rubber, *glass, *notes))
+    notes = (*_about_rubber(spectrum, fit, seen), *_about_glass(spectrum, fit, seen), *notes)
+    return RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, replace(fit, notes=notes))
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """The two ends of a curve: rates (1/s), moduli (Pa), loss tangents; and their words."""
+
+    quantity: str  # such as "E'"
+    tests: str
+    rates: tuple[float, float]
+    moduli: tuple[float, float]  # smallest and largest measured
+    fitted: tuple[float, float]  # at the lowest and the highest rate
+    loss: tuple[float, float]
+    ends: tuple[str, str]
+    rms: tuple[float | None, float | None, float | None]  # of log10 E', log10 E'', and log10 J or log10 E(t)
+    slopes: tuple[float, float] | None  # of log E' and log E'' at the low end
+
+
+def _seen(spectrum: RetardationSpectrum, curve: MasterCurve) -> _Seen:
+    omega, measured = curve.angular_frequency, curve.complex_modulus
+    modulus = spectrum.complex_modulus(omega)
+    seen = modulus.imag > 0.0
+    rms_loss = math.inf
+    if np.any(seen):
+        rms_loss = float(np.sqrt(np.mean(np.log10(modulus.imag[seen] / measured.imag[seen]) ** 2)))
+    low, high = _loss_tangent_at_ends(omega, curve.loss_tangent)
+    return _Seen(
+        "E'",
+        "sweeps",
+        (float(omega[0]), float(omega[-1])),
+        (float(measured.real.min()), float(measured.real.max())),
+        (float(modulus.real[0]), float(modulus.real[-1])),
+        (low, high),
+        (
+            f"at the lowest frequency, {omega[0]:.3g} rad/s, tan δ is {low:.2f}",
+            f"at the highest frequency, {omega[-1]:.3g} rad/s, tan δ is {high:.2f}",
+        ),
+        (float(np.sqrt(np.mean(np.log10(modulus.real / measured.real) ** 2))), rms_loss, None),
+        _slopes_at_low_end(curve),
     )
 
 
-def _about_rubber(
-    spectrum: RetardationSpectrum, master_curve: MasterCurve, fit: SpectrumFit, softest: float, loss_tangent: float
-) -> list[Note]:
+def _seen_over_time(spectrum: RetardationSpectrum, curve: StepMasterCurve) -> _Seen:
+    """Return the ends of a creep or relaxation curve; loss tangents are those of the fit at the rates 1/t."""
+    time, measured = curve.time[[-1, 0]], curve.modulus
+    creep = curve.kind == "creep"
+    response = spectrum.creep_compliance(curve.time) if creep else spectrum.relaxation_modulus(curve.time)
+    fitted = 1.0 / response if creep else response
+    low, high = (float(one) for one in spectrum.loss_tangent(1.0 / time))
+    return _Seen(
+        "1/J" if creep else "E(t)",
+        "tests",
+        (float(1.0 / time[0]), float(1.0 / time[1])),
+        (float(measured.min()), float(measured.max())),
+        (float(fitted[-1]), float(fitted[0])),
+        (low, high),
+        (
+            f"at the longest time, {time[0]:.3g} s, tan δ of the fit is {low:.2f}",
+            f"at the shortest time, {time[1]:.3g} s, tan δ of the fit is {high:.2f}",
+        ),
+        (None, None, float(np.sqrt(np.mean(np.log10(response / curve.response) ** 2)))),
+        None,
+    )
+
+
+def _about_rubber(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) -> list[Note]:
+    softest, end = seen.moduli[0], seen.ends[0]
     where = (
-        f"E0 = {shown_modulus(spectrum.E0)} lies {_beside(spectrum.E0, softest)} the smallest measured E' "
-        f"({shown_modulus(softest)})"
+        f"E0 = {shown_modulus(spectrum.E0)} lies {_beside(spectrum.E0, softest)} the smallest measured "
+        f"{seen.quantity} ({shown_modulus(softest)})"
     )
-    end = f"at the lowest frequency, {fit.frequency_range[0]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
     if fit.E0_missed:
         also = f" {end[0].upper()}{end[1:]}: the rubber plateau was not measured." if fit.E0_extrapolated else ""
         notes = [Note("plateau-missed", f"{where}: the fit does not follow the softest points.{also}")]
@@ -139,8 +198,8 @@ def _about_rubber(
         ]
     else:
         return []
-    slopes = _slopes_at_low_end(master_curve)
-    if slopes is not None and loss_tangent > 1.0:
+    slopes = seen.slopes
+    if slopes is not None and seen.loss[0] > 1.0:
         notes.append(
             Note(
                 "plateau-doubtful",
@@ -151,19 +210,20 @@ def _about_rubber(
     return notes
 
 
-def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, stiffest: float, loss_tangent: float) -> list[Note]:
+def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) -> list[Note]:
+    stiffest, end = seen.moduli[1], seen.ends[1]
     where = (
-        f"E_inf = {shown_modulus(spectrum.E_inf)} lies {_beside(spectrum.E_inf, stiffest)} the largest measured E' "
-        f"({shown_modulus(stiffest)})"
+        f"E_inf = {shown_modulus(spectrum.E_inf)} lies {_beside(spectrum.E_inf, stiffest)} the largest measured "
+        f"{seen.quantity} ({shown_modulus(stiffest)})"
     )
-    end = f"at the highest frequency, {fit.frequency_range[1]:.3g} rad/s, tan δ is {loss_tangent:.2f}"
     notes = []
     if fit.E_inf_at_limit:
         notes.append(
             Note(
                 "glass-doubtful",
                 f"E_inf = {shown_modulus(spectrum.E_inf)} is the largest that the fit allows, {STIFFEST:g} times the "
-                f"largest measured E' ({shown_modulus(stiffest)}), and no result: {end}, and the sweeps do not "
+                f"largest measured {seen.quantity} ({shown_modulus(stiffest)}), and no result: {end}, and the "
+                f"{seen.tests} do not "
                 "reach the glass.",
             )
         )

@@ -1,17 +1,21 @@
-"""The objective of every fit of a spectrum: the errors of ln E' and ln E'', and their derivatives by the modes."""
+"""The objective of every fit of a spectrum: the errors of what was measured, and their derivatives by the modes."""
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.arrays import Array, ComplexArray
+    from numpy.typing import NDArray
+
+    from viscofric.arrays import Array, ComplexArray, Mask
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 #: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out cannot be separated from
@@ -31,31 +35,106 @@ class Modes:
     tau: Array
 
 
-class ModulusMisfit:
-    """Differences of ln E' and ln E'', without unit, between modes and a measurement.
+class Misfit(ABC):
+    """Differences of logarithms, without unit, between modes and the m quantities measured at N rates.
 
-    `angular_frequency` (N,) ascends, in rad/s; `measured` (N,) is E' + iE'' in Pa.
+    What modes make of them follows from a compliance that is linear in 1/E_inf and C: S(iω), J(t), or S(s) at complex
+    s.  It has P values for N rates, and is real or complex.
     """
 
-    def __init__(self, angular_frequency: Array, measured: ComplexArray) -> None:
-        self.angular_frequency = angular_frequency
-        self.measured = measured
-        self.target = np.concatenate([np.log(measured.real), np.log(measured.imag)])
-        self.least_glass = 1.0 / (STIFFEST * float(np.max(measured.real)))
+    #: Angular frequencies, or 1/t, ascending (N,), 1/s.
+    rates: Array
+    #: Size of the modulus at each rate (N,), Pa.
+    sizes: Array
+    #: Logarithms of what was measured, quantity by quantity (mN,).
+    target: Array
+    #: 1/E_inf is not below this, 1/Pa.
+    least_glass: float
 
     @property
     def ends(self) -> tuple[float, float]:
         """Logarithms of the shortest and the longest retardation time that a mode may have."""
         edge = math.log(EDGE)
-        return -math.log(self.angular_frequency[-1]) - edge, edge - math.log(self.angular_frequency[0])
+        return -math.log(self.rates[-1]) - edge, edge - math.log(self.rates[0])
+
+    def size_at(self, tau: Array) -> Array:
+        """Return the size of the modulus at the rates 1/τ, Pa."""
+        return np.asarray(np.interp(-np.log(tau), np.log(self.rates), self.sizes))
+
+    def at_rates(self, low: float, high: float) -> Mask:
+        """Say which of the residuals (mN,) belong to rates from one to another."""
+        inside = (self.rates >= low) & (self.rates <= high)
+        return np.tile(inside, len(self.target) // len(self.rates))
+
+    def columns(self, tau: Array) -> NDArray[Any]:
+        """Return the compliance of a glass and of modes, each of strength one, (P, 1 + n)."""
+        relaxed = self.relaxed(tau)
+        return np.concatenate([np.ones((len(relaxed), 1), dtype=relaxed.dtype), relaxed], axis=1)
+
+    def compliance(self, spectrum: RetardationSpectrum) -> NDArray[Any]:
+        """Return the compliance (P,) of a spectrum."""
+        return np.asarray(self.columns(np.array(spectrum.tau)) @ np.append(1.0 / spectrum.E_inf, spectrum.C))
+
+    def misses(self, modes: Modes) -> Array:
+        """Return the residual (mN,) of modes."""
+        return self.residual(self.columns(modes.tau) @ np.append(modes.glass, modes.C))
+
+    @abstractmethod
+    def relaxed(self, tau: Array) -> NDArray[Any]:
+        """Return the compliance of modes of strength one, (P, n)."""
+
+    @abstractmethod
+    def moved(self, relaxed: NDArray[Any], C: Array, tau: Array) -> NDArray[Any]:
+        """Return the change of the compliance of modes C with ln τ, (P, n), which is that with the ln of the rate."""
+
+    @abstractmethod
+    def residual(self, compliance: NDArray[Any]) -> Array:
+        """Return logarithms measured less computed, (mN,); infinite where there is no logarithm."""
+
+    @abstractmethod
+    def jacobian(self, compliance: NDArray[Any], change: NDArray[Any]) -> Array:
+        """Return the change of the computed logarithms, (mN, k), for changes of the compliance, (P, k)."""
+
+    @abstractmethod
+    def relative(self, tau: Array) -> tuple[Array, Array]:
+        """Return rows (…, 1 + n) and what strengths should make of them for a start: relative errors of compliances."""
+
+    @abstractmethod
+    def of(self, rates: Array, logarithms: Array) -> Misfit:
+        """Return the same for other rates and natural logarithms (N, m)."""
+
+
+class ModulusMisfit(Misfit):
+    """Differences of ln E' and ln E'' between modes and a measurement.
+
+    `angular_frequency` (N,) ascends, in rad/s; `measured` (N,) is E' + iE'' in Pa.
+    """
+
+    def __init__(self, angular_frequency: Array, measured: ComplexArray) -> None:
+        self.rates = self.angular_frequency = angular_frequency
+        self.measured = measured
+        self.sizes = np.abs(measured)
+        self.target = np.concatenate([np.log(measured.real), np.log(measured.imag)])
+        self.least_glass = 1.0 / (STIFFEST * float(np.max(measured.real)))
+
+    def of(self, rates: Array, logarithms: Array) -> ModulusMisfit:
+        """Return the same for other angular frequencies, ln E' and ln E''."""
+        moduli = np.exp(logarithms)
+        return ModulusMisfit(rates, moduli[:, 0] + 1j * moduli[:, 1])
 
     def relaxed(self, tau: Array) -> ComplexArray:
         """Return 1/(1 + iωτ), the compliance of modes of strength one, (N, n)."""
         return np.asarray(1.0 / (1.0 + 1j * np.outer(self.angular_frequency, tau)))
 
-    def columns(self, tau: Array) -> ComplexArray:
-        """Return the compliance of a glass and of modes, each of strength one, (N, 1 + n)."""
-        return np.concatenate([np.ones((len(self.measured), 1), dtype=complex), self.relaxed(tau)], axis=1)
+    def moved(self, relaxed: NDArray[Any], C: Array, tau: Array) -> NDArray[Any]:
+        """Return the change of the compliance of modes with ln τ, (N, n)."""
+        return np.asarray(relaxed * C * (relaxed - 1.0))
+
+    def relative(self, tau: Array) -> tuple[Array, Array]:
+        """Return rows whose products with the strengths should be 1, and 0: S/S_measured, real and imaginary."""
+        weighted = self.columns(tau) * self.measured[:, None]
+        rows = np.concatenate([weighted.real, weighted.imag])
+        return rows, np.repeat([1.0, 0.0], len(self.measured))
 
     def residual(self, compliance: ComplexArray) -> Array:
         """Return measured minus computed ln E' and ln E'', (2N,); infinite where a modulus is not above zero."""

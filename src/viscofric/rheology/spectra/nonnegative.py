@@ -3,30 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.rheology.spectra.modulus_misfit import Modes
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
+    from numpy.typing import NDArray
+
+    from viscofric.arrays import Array
+    from viscofric.rheology.spectra.modulus_misfit import Misfit
 
 
 ITERATIONS = 30
 CONVERGED = 1e-6  # relative fall of the misfit
 
 
-def lattice(misfit: ModulusMisfit, ratio: float) -> Array:
+def lattice(misfit: Misfit, ratio: float) -> Array:
     """Return times on the fixed lattice ratio^k: frequencies shifted by the ratio give the same fit."""
     low, high = (end / math.log(ratio) for end in misfit.ends)
     return np.asarray(ratio ** np.arange(math.ceil(low), math.floor(high) + 1, dtype=float))
 
 
-def nonnegative_modes(
-    misfit: ModulusMisfit, tau: Array, start: Modes | None = None, *, converged: float = CONVERGED
-) -> Modes:
+def nonnegative_modes(misfit: Misfit, tau: Array, start: Modes | None = None, *, converged: float = CONVERGED) -> Modes:
     """Fit 1/E_inf ≥ 0 and C ≥ 0 at retardation times (n,) in s, until the relative fall of the misfit is `converged`.
 
     The compliance is linear in 1/E_inf and C, so that relative errors of S (equally of E) are minimised by
@@ -35,24 +35,22 @@ def nonnegative_modes(
     steps, each a non-negative least-squares problem.
     """
     columns = misfit.columns(tau)
-    strengths = _relative_start(columns, misfit.measured) if start is None else np.append(start.glass, start.C)
+    strengths = _relative_start(misfit, tau) if start is None else np.append(start.glass, start.C)
     strengths = _refined(misfit, columns, strengths, converged)
     return Modes(max(float(strengths[0]), misfit.least_glass), strengths[1:], tau)
 
 
-def _relative_start(columns: ComplexArray, measured: ComplexArray) -> Array:
+def _relative_start(misfit: Misfit, tau: Array) -> Array:
     """Minimise Σ |S/S_measured − 1|²."""
     from scipy.optimize import nnls
 
-    weighted = columns * measured[:, None]
-    scale = np.linalg.norm(weighted, axis=0)  # columns of equal norm, independent of units
-    rows = np.concatenate([weighted.real, weighted.imag]) / scale
-    target = np.concatenate([np.ones(len(measured)), np.zeros(len(measured))])
-    strengths, _ = nnls(rows, target, maxiter=50 * columns.shape[1])
+    rows, target = misfit.relative(tau)
+    scale = np.linalg.norm(rows, axis=0)  # columns of equal norm, independent of units
+    strengths, _ = nnls(rows / scale, target, maxiter=50 * rows.shape[1])
     return np.asarray(strengths / scale)
 
 
-def _refined(misfit: ModulusMisfit, columns: ComplexArray, strengths: Array, converged: float) -> Array:
+def _refined(misfit: Misfit, columns: NDArray[Any], strengths: Array, converged: float) -> Array:
     """Minimise Σ (ln E'/E'_measured)² + (ln E''/E''_measured)² by non-negative Gauss–Newton steps."""
     from scipy.optimize import nnls
 

@@ -48,6 +48,9 @@ class SpectrumFit:
     E_inf_at_limit : bool
         Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the sweeps do not reach it,
         and it is no result.
+    rms_step : float or None
+        Root mean square of the difference of log10 of a creep compliance or relaxation modulus, decades, where the
+        spectrum was fitted to one.
     E0_missed, E_inf_missed : bool
         Whether E0 lies above the softest measured E', or E_inf below the stiffest, by more than 5 %: the fit does not
         follow these points.
@@ -67,6 +70,7 @@ class SpectrumFit:
     E_inf_at_limit: bool = False
     E0_missed: bool = False
     E_inf_missed: bool = False
+    rms_step: float | None = None
 
     def shifted(self, alpha: float, b: float) -> SpectrumFit:
         """Return the same for the spectrum at another temperature; the notes describe the original fit."""

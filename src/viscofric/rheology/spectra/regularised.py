@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit, descend
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Modes, descend
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
+    from viscofric.rheology.spectra.modulus_misfit import Misfit
 
 
 #: Strengths tried, from too strong to too weak; each fit starts from the one before.
@@ -21,7 +22,7 @@ CONVERGED = 1e-5  # relative fall of the objective
 FIRST_STRENGTH_ITERATIONS = 200
 
 
-def smooth_modes(misfit: ModulusMisfit, tau: Array, strength: float, start: Modes | None = None) -> Modes:
+def smooth_modes(misfit: Misfit, tau: Array, strength: float, start: Modes | None = None) -> Modes:
     """Minimise the misfit plus the roughness of the spectrum, at retardation times (n,) in geometric progression, s.
 
     With c = ln C, which keeps every C above zero, ⟨r²⟩ + λ² ∫ (d²c / d(ln τ)²)² d ln τ is minimised; ⟨r²⟩ is the mean
@@ -48,7 +49,7 @@ def smooth_modes(misfit: ModulusMisfit, tau: Array, strength: float, start: Mode
     def normal(point: Array, now: Array) -> tuple[Array, Array]:
         values = compliances(point)
         modes = relaxed * values[1:]
-        change = np.concatenate([np.full((len(relaxed), 1), values[0], dtype=complex), modes], axis=1)
+        change = np.concatenate([np.full((len(relaxed), 1), values[0], dtype=relaxed.dtype), modes], axis=1)
         jacobian = misfit.jacobian(values[0] + modes.sum(axis=1), change) / np.sqrt(points)
         return jacobian.T @ jacobian + penalty, jacobian.T @ now[:points] + roughness.T @ now[points:]
 
@@ -63,11 +64,11 @@ def _curvature(tau: Array) -> Array:
     return np.concatenate([np.zeros((len(second), 1)), second], axis=1)
 
 
-def _even(misfit: ModulusMisfit, tau: Array) -> Array:
+def _even(misfit: Misfit, tau: Array) -> Array:
     """Return logarithms of the measured compliances at each mode's own frequency."""
-    seen = np.interp(-np.log(tau), np.log(misfit.angular_frequency), np.log(np.abs(misfit.measured)))
+    seen = np.interp(-np.log(tau), np.log(misfit.rates), np.log(misfit.sizes))
     spacing = min(1.0, float(np.mean(np.diff(np.log(tau)))))
-    return np.append(-np.log(misfit.measured.real.max()), np.log(0.3 * spacing) - seen)
+    return np.append(np.log(STIFFEST * misfit.least_glass), np.log(0.3 * spacing) - seen)
 
 
 def _continued(start: Modes) -> Array:
@@ -75,7 +76,7 @@ def _continued(start: Modes) -> Array:
     return np.append(np.log(start.glass), np.interp(times, times[known], np.log(start.C[known])))
 
 
-def path(misfit: ModulusMisfit, tau: Array) -> list[Modes]:
+def path(misfit: Misfit, tau: Array) -> list[Modes]:
     """Return the fits at all `STRENGTHS`."""
     fits: list[Modes] = []
     for strength in STRENGTHS:
@@ -83,13 +84,12 @@ def path(misfit: ModulusMisfit, tau: Array) -> list[Modes]:
     return fits
 
 
-def mean_square(misfit: ModulusMisfit, modes: Modes) -> float:
+def mean_square(misfit: Misfit, modes: Modes) -> float:
     """Return the mean square of the errors of ln E' and ln E''."""
-    away = misfit.residual(misfit.columns(modes.tau) @ np.append(modes.glass, modes.C))
-    return float(np.mean(away**2))
+    return float(np.mean(misfit.misses(modes) ** 2))
 
 
-def corner(misfit: ModulusMisfit, fits: list[Modes]) -> int:
+def corner(misfit: Misfit, fits: list[Modes]) -> int:
     """Return the index of the L-curve's corner: the largest curvature of ln misfit over ln roughness.
 
     References
@@ -105,7 +105,7 @@ def corner(misfit: ModulusMisfit, fits: list[Modes]) -> int:
     return 2 + int(np.argmin(bend[2:-2]))  # towards more roughness the curve turns clockwise
 
 
-def cross_validated(misfit: ModulusMisfit, tau: Array, isotherm: Array) -> int:
+def cross_validated(misfit: Misfit, tau: Array, isotherm: Array) -> int:
     """Return the index of the strength that best predicts isotherms left out of the fit.
 
     The isotherms, identified by the temperature (N,) of each point, are distributed over `FOLDS` folds in turn; single
@@ -115,13 +115,14 @@ def cross_validated(misfit: ModulusMisfit, tau: Array, isotherm: Array) -> int:
     """
     names, number = np.unique(isotherm, return_inverse=True)
     fold = (number if len(names) >= FOLDS else np.arange(len(isotherm))) % FOLDS
+    logarithms = misfit.target.reshape(-1, len(misfit.rates)).T
     error = np.zeros(len(STRENGTHS))
     for left_out in range(FOLDS):
         used = fold != left_out
-        ends = misfit.angular_frequency[used][[0, -1]]
-        held = ~used & (misfit.angular_frequency >= ends[0]) & (misfit.angular_frequency <= ends[1])
-        part = ModulusMisfit(misfit.angular_frequency[used], misfit.measured[used])
+        ends = misfit.rates[used][[0, -1]]
+        held = ~used & (misfit.rates >= ends[0]) & (misfit.rates <= ends[1])
+        part = misfit.of(misfit.rates[used], logarithms[used])
         if held.any():
-            check = ModulusMisfit(misfit.angular_frequency[held], misfit.measured[held])
+            check = misfit.of(misfit.rates[held], logarithms[held])
             error += [held.sum() * mean_square(check, modes) for modes in path(part, tau)]
     return int(np.argmin(error))

@@ -12,7 +12,7 @@ from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
+    from viscofric.rheology.spectra.modulus_misfit import Misfit
 
 
 ITERATIONS = 40
@@ -25,24 +25,24 @@ STRIDES = 5
 SAME = 1e-3  # of ln τ
 
 
-def joint_error(misfit: ModulusMisfit, modes: Modes) -> float:
+def joint_error(misfit: Misfit, modes: Modes) -> float:
     """Return √((rms E'² + rms E''²)/2) of the errors of log10 E' and log10 E'', decades."""
-    away = misfit.residual(misfit.columns(modes.tau) @ np.append(modes.glass, modes.C))
+    away = misfit.misses(modes)
     return float(np.sqrt(np.mean(away**2))) / math.log(10.0)
 
 
-def few_modes(misfit: ModulusMisfit, number: int) -> Modes:
+def few_modes(misfit: Misfit, number: int) -> Modes:
     """Fit a number of modes whose retardation times are free.
 
-    They start evenly spaced over the measured frequencies, and stay within the limits of `ModulusMisfit.ends`.
+    They start evenly spaced over the measured frequencies, and stay within the limits of `Misfit.ends`.
     """
-    low, high = -math.log(misfit.angular_frequency[-1]), -math.log(misfit.angular_frequency[0])
+    low, high = -math.log(misfit.rates[-1]), -math.log(misfit.rates[0])
     ends = np.linspace(low, high, number + 1)
     start = nonnegative_modes(misfit, np.exp(0.5 * (ends[1:] + ends[:-1])))
     return moved_modes(misfit, start)
 
 
-def moved_modes(misfit: ModulusMisfit, start: Modes, *, tidy: bool = True, converged: float = CONVERGED) -> Modes:
+def moved_modes(misfit: Misfit, start: Modes, *, tidy: bool = True, converged: float = CONVERGED) -> Modes:
     """Refine the compliances and the retardation times of modes near the optimum.
 
     A mode's compliance begins at no less than a hundredth of 1/|E*| at its frequency.  `tidy` sorts the modes, joins
@@ -51,7 +51,7 @@ def moved_modes(misfit: ModulusMisfit, start: Modes, *, tidy: bool = True, conve
     """
     number = len(start.tau)
     low, high = misfit.ends
-    floor = 1e-2 / np.abs(np.interp(-np.log(start.tau), np.log(misfit.angular_frequency), np.abs(misfit.measured)))
+    floor = 1e-2 / misfit.size_at(start.tau)
     begin = np.concatenate(
         [[math.log(start.glass)], np.log(np.maximum(start.C, floor)), np.clip(np.log(start.tau), low, high)]
     )
@@ -68,7 +68,8 @@ def moved_modes(misfit: ModulusMisfit, start: Modes, *, tidy: bool = True, conve
         glass, C, tau = unpacked(point)
         relaxed = misfit.relaxed(tau)
         modes = relaxed * C
-        change = np.concatenate([np.full((len(relaxed), 1), glass, dtype=complex), modes, modes * (relaxed - 1.0)], 1)
+        glasses = np.full((len(relaxed), 1), glass, dtype=relaxed.dtype)
+        change = np.concatenate([glasses, modes, misfit.moved(relaxed, C, tau)], 1)
         jacobian = misfit.jacobian(glass + modes.sum(axis=1), change)
         return jacobian.T @ jacobian, jacobian.T @ now
 
@@ -76,19 +77,18 @@ def moved_modes(misfit: ModulusMisfit, start: Modes, *, tidy: bool = True, conve
     return _tidied(misfit, found) if tidy else found
 
 
-def _tidied(misfit: ModulusMisfit, modes: Modes) -> Modes:
+def _tidied(misfit: Misfit, modes: Modes) -> Modes:
     """Sort modes, join those of one time, and leave out those without compliance."""
     order = np.argsort(modes.tau, kind="stable")
     C, tau = modes.C[order], modes.tau[order]
     groups = np.concatenate([[0], np.cumsum(np.diff(np.log(tau)) > SAME)])
     joined = np.asarray(np.bincount(groups, weights=C), dtype=float)
     tau = np.exp(np.bincount(groups, weights=C * np.log(tau)) / joined)
-    measured = np.interp(-np.log(tau), np.log(misfit.angular_frequency), np.abs(misfit.measured))
-    keep = joined * measured > NEGLIGIBLE
+    keep = joined * misfit.size_at(tau) > NEGLIGIBLE
     return Modes(modes.glass, joined[keep], tau[keep])
 
 
-def fewest_modes(misfit: ModulusMisfit, largest_error: float, most: int) -> Modes:
+def fewest_modes(misfit: Misfit, largest_error: float, most: int) -> Modes:
     """Return the fit of fewest modes whose joint error is not above a given one, or of `most` modes if none is.
 
     The error falls with the number of modes.  The search begins at one mode per decade, where it falls most steeply,
@@ -100,7 +100,7 @@ def fewest_modes(misfit: ModulusMisfit, largest_error: float, most: int) -> Mode
         fits[number] = few_modes(misfit, number)
         return joint_error(misfit, fits[number]) <= largest_error
 
-    decades = math.log10(misfit.angular_frequency[-1] / misfit.angular_frequency[0])
+    decades = math.log10(misfit.rates[-1] / misfit.rates[0])
     number = min(max(round(decades), 1), most)
     stride = max(1, number // STRIDES)
     low, high = 0, most + 1  # too few, and enough

@@ -11,15 +11,18 @@ from viscofric.arguments import whole_number
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice
 from viscofric.rheology.spectra import regularised, sparse
-from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
-from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
+from viscofric.rheology.spectra.fit_verdict import Curve, judged, solid_modes
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.step_misfit import by_rate, misfit_of
+from viscofric.step_tests import StepMasterCurve
 from viscofric.threads import one_blas_thread
 from viscofric.units import positive
 
 if TYPE_CHECKING:
+    from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
     from viscofric.rheology.superposition.result import Superposition
+    from viscofric.rheology.superposition.step_result import StepSuperposition
 
 
 Method: TypeAlias = Literal["non-negative", "regularised", "sparse"]
@@ -34,7 +37,7 @@ POINTS_PER_MODE = 3
 
 @one_blas_thread
 def fit_retardation_spectrum(
-    master_curve: MasterCurve | Superposition,
+    master_curve: MasterCurve | StepMasterCurve | Superposition | StepSuperposition,
     *,
     tau_ratio: float = math.e,
     method: Method = "non-negative",
@@ -46,8 +49,8 @@ def fit_retardation_spectrum(
 
     Parameters
     ----------
-    master_curve : MasterCurve or Superposition
-        At least four points; of a `Superposition` its master curve is taken.
+    master_curve : MasterCurve, StepMasterCurve, Superposition or StepSuperposition
+        At least four points; of a superposition its master curve is taken.
     tau_ratio : float
         Ratio of neighbouring retardation times, above 1; e in the paper.  Without effect on sparse modes.
     method : {"non-negative", "regularised", "sparse"}
@@ -80,7 +83,9 @@ def fit_retardation_spectrum(
     Notes
     -----
     All methods minimise the sum of squares of the errors of ln E' and ln E'': relative errors, so that the
-    rubber counts as much as the glass, and no unit matters.
+    rubber counts as much as the glass, and no unit matters.  Of creep and relaxation tests they minimise those of
+    ln J(t) or ln E(t), in the same retardation modes: J(t) is linear in them, and E(t) follows by inversion of its
+    Laplace transform 1/(s S(s)) (J. A. C. Weideman, SIAM J. Numer. Anal. 44 (2006) 2342, doi:10.1137/050625837).
 
     Examples
     --------
@@ -95,7 +100,7 @@ def fit_retardation_spectrum(
     """
     master_curve = _curve_of(master_curve)
     _check(master_curve, method, tau_ratio, modes, regularisation, largest_error)
-    misfit = ModulusMisfit(master_curve.angular_frequency, master_curve.complex_modulus)
+    misfit = misfit_of(master_curve)
     dense = solid_modes(misfit, lattice(misfit, min(tau_ratio, math.e)), master_curve)
     if method == "sparse":
         fitted, notes = _sparse(misfit, tau_ratio, modes, largest_error)
@@ -109,12 +114,12 @@ def fit_retardation_spectrum(
     )
 
 
-def _curve_of(given: object) -> MasterCurve:
+def _curve_of(given: object) -> Curve:
     curve = getattr(given, "master_curve", given)
-    if not isinstance(curve, MasterCurve):
+    if not isinstance(curve, (MasterCurve, StepMasterCurve)):
         raise InputError(
-            "a spectrum is fitted to a MasterCurve, or to the Superposition that superpose(…) returns, not to "
-            f"{type(given).__name__}.",
+            "a spectrum is fitted to a MasterCurve or StepMasterCurve, or to the Superposition that superpose(…) "
+            f"returns, not to {type(given).__name__}.",
             code="wrong-type",
         )
     return curve
@@ -128,13 +133,13 @@ def as_spectrum(modes: Modes) -> RetardationSpectrum:
 
 
 def _sparse(
-    misfit: ModulusMisfit, tau_ratio: float, modes: int | None, largest_error: float | None
+    misfit: Misfit, tau_ratio: float, modes: int | None, largest_error: float | None
 ) -> tuple[Modes, tuple[str, ...]]:
     if modes is not None and largest_error is None:
         return sparse.few_modes(misfit, modes), ()
     dense = nonnegative_modes(misfit, lattice(misfit, tau_ratio))
     limit = ALLOWANCE * sparse.joint_error(misfit, dense) if largest_error is None else largest_error
-    enough = max(1, min(max(int(np.count_nonzero(dense.C)), 2), len(misfit.measured) // POINTS_PER_MODE))
+    enough = max(1, min(max(int(np.count_nonzero(dense.C)), 2), len(misfit.rates) // POINTS_PER_MODE))
     fitted = sparse.fewest_modes(misfit, limit, enough if modes is None else modes)
     error = sparse.joint_error(misfit, fitted)
     if error <= limit:
@@ -147,7 +152,7 @@ def _sparse(
 
 
 def _regularised(
-    misfit: ModulusMisfit, tau_ratio: float, master_curve: MasterCurve, regularisation: float | str | None
+    misfit: Misfit, tau_ratio: float, master_curve: Curve, regularisation: float | str | None
 ) -> tuple[Modes, float, tuple[str, ...]]:
     tau = lattice(misfit, tau_ratio)
     if len(tau) < LEAST_SMOOTH:
@@ -162,7 +167,7 @@ def _regularised(
     if regularisation == "l-curve":
         place = regularised.corner(misfit, fits)
     else:
-        place = regularised.cross_validated(misfit, tau, master_curve.temperature)
+        place = regularised.cross_validated(misfit, tau, by_rate(master_curve))
     strength = float(regularised.STRENGTHS[place])
     if 0 < place < len(fits) - 1:
         return fits[place], strength, ()
@@ -171,7 +176,7 @@ def _regularised(
 
 
 def _check(
-    master_curve: MasterCurve,
+    master_curve: Curve,
     method: str,
     tau_ratio: float,
     modes: int | None,

@@ -12,6 +12,7 @@ from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 
 if TYPE_CHECKING:
+    from viscofric.rheology.spectra.modulus_misfit import Misfit
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
@@ -50,7 +51,7 @@ class Refit:
             C[np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).argmin(axis=1)] = self.start.C
             self.start = Modes(self.start.glass, C, tau)
 
-    def __call__(self, misfit: ModulusMisfit) -> Modes:
+    def __call__(self, misfit: Misfit) -> Modes:
         """Return the fitted modes, always the same number, zeros included."""
         if not self.on_lattice:
             return sparse.moved_modes(misfit, self.start, tidy=False, converged=CONVERGED)

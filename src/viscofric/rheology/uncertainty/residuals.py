@@ -23,15 +23,15 @@ MOST_ALIKE = 0.95
 
 
 class Residuals:
-    """Residuals of ln E' and ln E'' about a fit, and errors drawn with the same statistics.
+    """Residuals of ln E' and ln E'', or of ln of a step response, about a fit; errors drawn with the same statistics.
 
     Errors are drawn from a normal distribution, with each isotherm's own scatter, correlated between E' and E'' as the
     residuals are, and between neighbouring points of an isotherm by an autoregression of first order.  Residuals
     themselves are not resampled, in blocks or otherwise: the fit has removed all that is smooth from them, the part of
     the errors that it follows.
 
-    Rows are points, isotherm by isotherm in ascending frequency: `values` (N, 2) of E' and E''; `isotherm` (N,), the
-    isotherm's number, ascending from 0 without gaps; `leverage` (N, 2), the part of each point's error that the fit has
+    Rows are points, isotherm by isotherm in ascending frequency: `values` (N, m) of E' and E''; `isotherm` (N,), the
+    isotherm's number, ascending from 0 without gaps; `leverage` (N, m), the part of each point's error that the fit has
     followed, 0 to 1, by which residuals are smaller than errors.
 
     The scatter of each isotherm is shrunk towards the common one, unless they differ by more than chance: G. K. Smyth,
@@ -51,15 +51,18 @@ class Residuals:
         #: Correlation of neighbours along an isotherm, of E' and of E'', (2,); below zero is chance.
         self.alike = np.clip(np.sum((unit[1:] * unit[:-1])[follows], axis=0) / total, 0.0, MOST_ALIKE)
         #: Correlation of E' with E'' in one point.
-        self.together = float(np.sum(unit[:, 0] * unit[:, 1]) / np.sqrt(np.prod(total)))
+        self.together = 0.0
+        if len(total) > 1:
+            self.together = float(np.sum(unit[:, 0] * unit[:, 1]) / np.sqrt(np.prod(total)))
         starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
         self._steps = [starts[counts > step] + step for step in range(1, int(counts.max()))]
 
     def draw(self, random: np.random.Generator, samples: int) -> Array:
         """Return errors of ln E' and ln E'', (samples, N, 2), in the order of the residuals."""
         errors = random.standard_normal((samples, *self.scale.shape))
-        rest = np.sqrt(max(1.0 - self.together**2, 0.0))
-        errors[..., 1] = self.together * errors[..., 0] + rest * errors[..., 1]
+        if errors.shape[-1] > 1:
+            rest = np.sqrt(max(1.0 - self.together**2, 0.0))
+            errors[..., 1] = self.together * errors[..., 0] + rest * errors[..., 1]
         if np.any(self.alike > 0.0):
             fresh = np.sqrt(1.0 - self.alike**2)
             for rows in self._steps:
@@ -106,8 +109,9 @@ class SystematicMisfit:
     ----------
     log10_frequency : (n,) array
         log10 of the reduced angular frequencies, ascending.
-    size : (n, 2) array
-        Of log10 E' and of log10 E'' there, decades; beyond the ends it keeps its value.
+    size : (n, m) array
+        Of log10 E' and of log10 E'' there, or of log10 of a step response (m = 1), decades; beyond the ends it keeps
+        its value.
     """
 
     log10_frequency: Array
@@ -117,7 +121,7 @@ class SystematicMisfit:
         return f"SystematicMisfit(up to {float(self.size.max()):.2g} decades)"
 
     def at(self, log10_frequency: Array) -> Array:
-        """Return the size at frequencies, in their shape and (2,), decades."""
+        """Return the size at frequencies, in their shape and (m,), decades."""
         return np.stack([np.interp(log10_frequency, self.log10_frequency, one) for one in self.size.T], axis=-1)
 
     @property
@@ -127,7 +131,7 @@ class SystematicMisfit:
         largest = float(self.size[worst])
         if largest < WORTH_A_NOTE:
             return ()
-        modulus = ("E'", "E''")[worst[1]]
+        modulus = ("E'", "E''")[worst[1]] if self.size.shape[1] > 1 else "the response"
         sentence = (
             f"The fit misses the measured moduli by more than noise, {modulus} by up to {largest:.2g} decades "
             f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, alike "
@@ -140,7 +144,7 @@ class SystematicMisfit:
 def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integers) -> SystematicMisfit:
     """Return the part of residuals that neighbouring points have in common.
 
-    `log10_frequency` (N,) is log10 of the reduced angular frequency; `residual` (N, 2) is measured minus fitted log10
+    `log10_frequency` (N,) is log10 of the reduced angular frequency; `residual` (N, m) is measured minus fitted log10
     E' and log10 E'', decades; `isotherm` (N,) the number of each point's isotherm.
 
     The variance of the noise follows from second differences along each isotherm, in which a smooth misfit vanishes (J.
@@ -161,7 +165,7 @@ def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integer
         squares[rows] = means**2
         noise[rows] = np.mean(np.diff(values, 2, axis=0) ** 2, axis=0) / 6.0 / count[:, None]
     grid = np.arange(log10_frequency.min(), log10_frequency.max() + 0.5 * WINDOW, 0.5 * WINDOW)
-    size = np.zeros((len(grid), 2))
+    size = np.zeros((len(grid), residual.shape[1]))
     for place, centre in enumerate(grid):
         near = np.abs(log10_frequency - centre) <= WINDOW
         if np.any(near):

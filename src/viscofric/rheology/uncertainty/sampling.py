@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import insist_on, text, whole_number
+from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
-from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
+from viscofric.rheology.spectra.step_misfit import by_rate, misfit_of, moduli_of, rates_of
 from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.refit import Refit
 from viscofric.rheology.uncertainty.residuals import Residuals, SystematicMisfit, systematic_misfit
@@ -26,9 +28,11 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array, Integers
-    from viscofric.data import MasterCurve
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+    from viscofric.rheology.spectra.fit_verdict import Curve
+    from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
 
+Fit: TypeAlias = Superposition | StepSuperposition
 
 FEWEST_SAMPLES = 20
 #: Relative tolerance of the ranges that a spectrum states of its master curve; files round.
@@ -39,7 +43,7 @@ SCATTER = 1e-7, 10.0
 
 @one_blas_thread
 def sample_materials(
-    fit: Superposition,
+    fit: Superposition | StepSuperposition,
     spectrum: RetardationSpectrum | None = None,
     *,
     samples: int = 200,
@@ -52,7 +56,7 @@ def sample_materials(
 
     Parameters
     ----------
-    fit : Superposition
+    fit : Superposition or StepSuperposition
         From `superpose`.
     spectrum : RetardationSpectrum, optional
         From `fit_retardation_spectrum` on its master curve; fitted here with non-negative modes if not given.
@@ -106,7 +110,7 @@ def sample_materials(
     >>> bool((band.lower.real < band.upper.real).all())
     True
     """
-    insist_on(fit, "fit", Superposition, right="what superpose(…) returned")
+    insist_on(fit, "fit", Superposition, StepSuperposition, right="what superpose(…) returned")
     insist_on(spectrum, "spectrum", RetardationSpectrum, type(None), right="a RetardationSpectrum or None")
     whole_number(samples, "samples", FEWEST_SAMPLES, 10**6)
     whole_number(seed, "seed", 0)
@@ -131,27 +135,26 @@ def sample_materials(
         tuple(materials),
         np.array([modes.C for modes in fitted]),
         np.array([modes.tau for modes in fitted]),
-        (float(curve.angular_frequency[0]), float(curve.angular_frequency[-1])),
+        (float(rates_of(curve)[0]), float(rates_of(curve)[-1])),
         _misfit(curve, shifts, spectrum),
     )
 
 
-def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> None:
+def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: Curve) -> None:
     """Raise InputError if a spectrum was fitted to another curve, or moved to another temperature since.
 
-    Compared are the ranges of frequency and of storage modulus that it was fitted to.
+    Compared are the ranges of frequency and of modulus that it was fitted to.
     """
     if spectrum.fit is None:
         return  # `Refit` refuses it
-    frequencies, moduli = spectrum.fit.frequency_range, spectrum.fit.measured_storage
-    omega, storage = curve.angular_frequency, curve.storage_modulus
-    if not np.allclose(frequencies, (omega[0], omega[-1]), rtol=SAME, atol=0.0):
-        ranges = (
-            f"from {frequencies[0]:.3g} to {frequencies[1]:.3g} rad/s, the curve from {omega[0]:.3g} to {omega[-1]:.3g}"
-        )
-    elif moduli is not None and not np.allclose(moduli, (storage.min(), storage.max()), rtol=SAME, atol=0.0):
-        ends = f"the curve from {storage.min():.3g} to {storage.max():.3g}"
-        ranges = f"with E' from {moduli[0]:.3g} to {moduli[1]:.3g} Pa, {ends}"
+    fitted, moduli = spectrum.fit.frequency_range, spectrum.fit.measured_storage
+    rates, measured = rates_of(curve), moduli_of(curve)
+    quantity, unit = ("E'", "rad/s") if isinstance(curve, MasterCurve) else ("moduli", "1/s")
+    if not np.allclose(fitted, (rates[0], rates[-1]), rtol=SAME, atol=0.0):
+        ranges = f"from {fitted[0]:.3g} to {fitted[1]:.3g} {unit}, the curve from {rates[0]:.3g} to {rates[-1]:.3g}"
+    elif moduli is not None and not np.allclose(moduli, (measured.min(), measured.max()), rtol=SAME, atol=0.0):
+        ends = f"the curve from {measured.min():.3g} to {measured.max():.3g}"
+        ranges = f"with {quantity} from {moduli[0]:.3g} to {moduli[1]:.3g} Pa, {ends}"
     else:
         return
     raise InputError(
@@ -161,48 +164,48 @@ def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: MasterCurve) -> 
     )
 
 
-def _misfit(curve: MasterCurve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -> SystematicMisfit:
+def _misfit(curve: Curve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -> SystematicMisfit:
     """Return the misfit of the spectrum to the master curve beyond noise."""
-    ratio = curve.complex_modulus, spectrum.complex_modulus(curve.angular_frequency)
-    residual = np.stack([np.log10(ratio[0].real / ratio[1].real), np.log10(ratio[0].imag / ratio[1].imag)], axis=1)
-    return systematic_misfit(np.log10(curve.angular_frequency), residual, _isotherm_of_points(curve, shifts))
+    misfit = misfit_of(curve)
+    residual = misfit.residual(misfit.compliance(spectrum)).reshape(-1, len(misfit.rates)).T / np.log(10.0)
+    return systematic_misfit(np.log10(misfit.rates), residual, _isotherm_of_points(curve, shifts))
 
 
 def _refitted(
-    random: np.random.Generator, fit: Superposition, spectrum: RetardationSpectrum, moved: Array, levels: Array
+    random: np.random.Generator, fit: Fit, spectrum: RetardationSpectrum, moved: Array, levels: Array
 ) -> list[Modes]:
     """Fit the spectrum to samples of the master curve; see `sample_materials`.
 
-    `moved` (samples, isotherms) are errors of log10 α, `levels` (samples, isotherms, 2) errors of log10 E' and log10
-    E'' that all points of an isotherm share.
+    `moved` (samples, isotherms) are errors of log10 α, `levels` (samples, isotherms, m) errors of log10 E' and log10
+    E'' (or of log10 of a step response) that all points of an isotherm share.
     """
     curve, isotherm = fit.master_curve, _isotherm_of_points(fit.master_curve, fit.shift_factors)
-    # By isotherm, frequencies ascending in each: errors are correlated along isotherms.
-    order = np.lexsort((curve.angular_frequency, isotherm))
-    isotherm, omega = isotherm[order], curve.angular_frequency[order]
-    modulus = spectrum.complex_modulus(omega)
-    logarithms = np.stack([np.log(modulus.real), np.log(modulus.imag)], axis=1)
-    misfit = ModulusMisfit(omega, curve.complex_modulus[order])
-    away = misfit.residual(1.0 / modulus).reshape(2, -1).T
+    whole = misfit_of(curve)
+    # By isotherm, rates ascending in each: errors are correlated along isotherms.
+    order = np.lexsort((whole.rates, isotherm))
+    isotherm, rates = isotherm[order], whole.rates[order]
+    misfit = whole.of(rates, whole.target.reshape(-1, len(rates)).T[order])
+    compliance = misfit.compliance(spectrum)
+    away = misfit.residual(compliance)
+    logarithms = (misfit.target - away).reshape(-1, len(rates)).T
+    away = away.reshape(-1, len(rates)).T
     fitted_shift = fit.shift_factors.standard_errors[isotherm] > 0.0
-    leverage = _leverage(misfit, spectrum, np.where(fitted_shift, isotherm, -1)).reshape(2, -1).T
+    leverage = _leverage(misfit, spectrum, np.where(fitted_shift, isotherm, -1)).reshape(-1, len(rates)).T
     if fit.offsets is not None:
         away = _without_offsets(away, isotherm, np.log(10.0) * fit.offsets.standard_deviations)
     residuals = Residuals(away, np.unique(isotherm, return_inverse=True)[1], leverage)
-    frequencies = np.log(omega) + np.log(10.0) * moved[:, isotherm]
-    refit = Refit(spectrum, float(np.exp(frequencies.min())), float(np.exp(frequencies.max())))
+    drawn = np.log(rates) + np.log(10.0) * moved[:, isotherm]
+    refit = Refit(spectrum, float(np.exp(drawn.min())), float(np.exp(drawn.max())))
     errors = residuals.draw(random, len(moved)) + np.log(10.0) * levels[:, isotherm]
     fitted = []
-    for frequency, error in zip(frequencies, errors, strict=True):
-        moduli = np.exp(logarithms + error)
-        ascending = np.argsort(frequency, kind="stable")
-        measured = moduli[ascending, 0] + 1j * moduli[ascending, 1]
-        fitted.append(refit(ModulusMisfit(np.exp(frequency[ascending]), measured)))
+    for rate, error in zip(drawn, errors, strict=True):
+        ascending = np.argsort(rate, kind="stable")
+        fitted.append(refit(misfit.of(np.exp(rate[ascending]), (logarithms + error)[ascending])))
     return fitted
 
 
 def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Array:
-    """Return residuals (N, 2) minus the part of each isotherm's mean that is its offset, of standard deviation (2,).
+    """Return residuals (N, m) minus the part of each isotherm's mean that is its offset, of standard deviation (m,).
 
     Offsets are drawn separately; in the residuals they would be taken for noise that is correlated along isotherms.
     """
@@ -213,26 +216,28 @@ def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Arra
     return np.asarray(residual - (mean * offset**2 / (offset**2 + noise + 1e-300))[number])
 
 
-def _leverage(misfit: ModulusMisfit, spectrum: RetardationSpectrum, isotherm: Integers) -> Array:
-    """Return the part of each error that modes and shifts follow, (2N,): the diagonal of the linear fit's hat matrix.
+def _leverage(misfit: Misfit, spectrum: RetardationSpectrum, isotherm: Integers) -> Array:
+    """Return the part of each error that modes and shifts follow, (mN,): the diagonal of the linear fit's hat matrix.
 
     `isotherm` (N,) is the number of each point's isotherm, −1 where its shift was not fitted.
     """
-    relaxed = misfit.relaxed(np.array(spectrum.tau))
-    modes = relaxed * spectrum.C
-    changes = [np.full((len(isotherm), 1), 1.0 / spectrum.E_inf, dtype=complex), modes]
+    tau = np.array(spectrum.tau)
+    relaxed = misfit.relaxed(tau)
+    moved = misfit.moved(relaxed, np.array(spectrum.C), tau)
+    changes = [np.full((len(relaxed), 1), 1.0 / spectrum.E_inf, dtype=relaxed.dtype), relaxed * spectrum.C]
     if spectrum.fit is not None and spectrum.fit.tau_ratio is None:
-        changes.append(modes * (relaxed - 1.0))
-    slope = np.sum(modes * (relaxed - 1.0), axis=1)
-    changes.append(slope[:, None] * (isotherm[:, None] == np.unique(isotherm[isotherm >= 0])))
-    jacobian = misfit.jacobian(spectrum.compliance(misfit.angular_frequency), np.concatenate(changes, axis=1))
+        changes.append(moved)
+    belongs = isotherm[:, None] == np.unique(isotherm[isotherm >= 0])
+    belongs = np.repeat(belongs, len(relaxed) // len(isotherm), axis=0)
+    changes.append(np.sum(moved, axis=1)[:, None] * belongs)
+    jacobian = misfit.jacobian(misfit.compliance(spectrum), np.concatenate(changes, axis=1))
     left, _ = np.linalg.qr(jacobian / (np.linalg.norm(jacobian, axis=0) + 1e-300))
     return np.asarray(np.sum(left**2, axis=1))
 
 
-def _isotherm_of_points(curve: MasterCurve, shifts: ShiftFactors) -> Integers:
-    """Return the index of every point's temperature among those of the shift factors."""
-    place = np.abs(curve.temperature[:, None] - shifts.temperatures).argmin(axis=1)
+def _isotherm_of_points(curve: Curve, shifts: ShiftFactors) -> Integers:
+    """Return the index of every point's temperature among those of the shift factors, rates ascending."""
+    place = np.abs(by_rate(curve)[:, None] - shifts.temperatures).argmin(axis=1)
     return np.asarray(place, dtype=np.int64)
 
 
@@ -247,11 +252,11 @@ def normal_deviates(random: np.random.Generator, covariance: Array, samples: int
 
 
 def _tables(
-    random: np.random.Generator, fit: Superposition, samples: int
+    random: np.random.Generator, fit: Fit, samples: int
 ) -> tuple[list[ShiftFactors], Sequence[VerticalShift | None], Array]:
     """Draw shift factors, vertical shifts where they were measured, and offsets together: their errors are correlated.
 
-    Offsets are those of log10 E' and log10 E'', (samples, isotherms, 2).
+    Offsets are those of log10 E' and log10 E'', or of log10 of a step response, (samples, isotherms, m).
     """
     shifts, vertical = fit.shift_factors, fit.vertical_shift
     size = len(shifts.temperatures)
@@ -265,7 +270,7 @@ def _tables(
         shared = fit.offsets.with_shifts[:count]
         covariance = np.block([[covariance, shared], [shared.T, np.kron(fit.offsets.covariance, np.eye(size))]])
     errors = normal_deviates(random, covariance, samples)
-    offsets = np.zeros((samples, size, 2))
+    offsets = np.zeros((samples, size, 2 if isinstance(fit, Superposition) else 1))
     if fit.offsets is not None:
         errors = fit.offsets.resized(random.spawn(1)[0], errors)
         offsets = fit.offsets.of_moduli(errors[:, count:])
