@@ -45,6 +45,7 @@ ROOMS = {
         "serving",
         "lazy",
         "datasets",
+        "checks",
         "arrays",
     ),
     "readers": ("readers",),

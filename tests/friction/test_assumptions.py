@@ -13,7 +13,7 @@ from friction.made_runs import friction_curves
 from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction import warming
-from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, assumptions_dataset
+from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, assumption_checks_of, assumptions_dataset
 from viscofric.friction.coupling import coupling
 from viscofric.friction.warming import bulk_temperature, flash_temperature, shared_flash_temperature
 from viscofric.notes import Note, Remedy, codes
@@ -321,8 +321,8 @@ def test_checks_make_a_data_set() -> None:
     """What is not known is NaN, what cannot be judged −1; sentences are in the words of their reader."""
     layer = Remedy("layer=Layer(…)", run_file="[layer]")
     checks = (
-        AssumptionCheck("half-space", 0.5, 0.25, False, Note("too-thin", "Thin: ", remedy=layer)),
-        AssumptionCheck("linearity", None, 0.06, None, "Unknown."),
+        AssumptionCheck.of("half-space", False, Note("too-thin", "Thin: ", remedy=layer), 0.5, 0.25),
+        AssumptionCheck.of("linearity", None, "Unknown.", None, 0.06),
     )
     data = assumptions_dataset(checks, "run_file")
     assert data["assumption_name"].values.tolist() == ["half-space", "linearity"]
@@ -330,4 +330,5 @@ def test_checks_make_a_data_set() -> None:
     np.testing.assert_array_equal(data["limit"], [0.25, 0.06])
     np.testing.assert_array_equal(data["holds"], [0, -1])
     assert data["sentence"].values.tolist() == ["Thin: [layer]", "Unknown."]
+    assert assumption_checks_of(data) == [replace(checks[0], sentence="Thin: [layer]"), checks[1]]
     assert checks[0].to_dataset()["sentence"].item() == "Thin: layer=Layer(…)"

@@ -83,7 +83,7 @@ def test_failures_fail(make_tree: Callable[..., xr.DataTree]) -> None:
 
 def words(tree: xr.DataTree, name: str) -> str:
     (check,) = [check for check in all_checks(tree) if check.name == name]
-    return check.words.replace("\N{NO-BREAK SPACE}", " ")
+    return check.sentence.replace("\N{NO-BREAK SPACE}", " ")
 
 
 def test_ball_of_unknown_radius_has_its_strain_unchecked_and_says_so(tree: xr.DataTree) -> None:

@@ -51,7 +51,7 @@ def with_friction_shifts(tree: xr.DataTree, p_value: float = 0.6) -> xr.DataTree
 
 def check(tree: xr.DataTree, name: str) -> tuple[str, str]:
     (found,) = [check for check in all_checks(tree) if check.name == name]
-    return found.verdict, found.words
+    return found.verdict, found.sentence
 
 
 @pytest.mark.parametrize(("p_value", "verdict"), [(0.6, "passed"), (0.001, "warning")])
@@ -107,6 +107,8 @@ def test_assumptions_are_plain_checks(tree: xr.DataTree) -> None:
     words = {
         "assumption_name": names,
         "holds": [-1, 0, 0, 1],
+        "value": [np.nan, 0.2, 0.1, 0.01],
+        "limit": [0.25, 0.1, 0.06, 0.05],
         "sentence": [f"A sentence about {name}." for name in names],
     }
     tree["assumptions"] = xr.DataTree(xr.Dataset({key: column(values, "a") for key, values in words.items()}))
@@ -114,7 +116,7 @@ def test_assumptions_are_plain_checks(tree: xr.DataTree) -> None:
     assert check(tree, "Linear viscoelasticity")[0] == "warning"
     assert check(tree, "Isothermal")[0] == "passed"
     # Small contacts are counted case by case, from the contacts themselves.
-    assert not any("small contact" in one.words for one in all_checks(tree))
+    assert not any("small contact" in one.sentence for one in all_checks(tree))
 
 
 def test_bands_are_in_the_tables_and_the_captions_say_what_they_are(tree: xr.DataTree) -> None:

@@ -102,8 +102,8 @@ def test_failed_and_interpolated_cases_are_marked(make_study: Callable[..., xr.D
     assert checks["All cases solved"].verdict == "failed"
     # Every second case of the maker, the first of all failed; each with an error of 4e-4.
     assert checks["Accuracy"].verdict == "passed"
-    assert " 42 of 83 " in checks["Accuracy"].words
-    assert "0.040" in checks["Accuracy"].words
+    assert " 42 of 83 " in checks["Accuracy"].sentence
+    assert "0.040" in checks["Accuracy"].sentence
     assert counted(list(checks.values())).startswith(f"{len(checks)} checks: 1 failed, ")
 
 
@@ -111,7 +111,7 @@ def test_errors_above_the_accuracy_are_pointed_out(make_study: Callable[..., xr.
     tree = make_study(STUDIES["loads"], accuracy=1e-4)
     (check,) = [check for check in all_checks(tree) if check.name == "Accuracy"]
     assert check.verdict == "warning"
-    assert " 84 of 84 " in check.words
+    assert " 84 of 84 " in check.sentence
 
 
 def test_highest_friction_of_each_load_is_reported_at_a_glance(make_study: Callable[..., xr.DataTree]) -> None:

@@ -49,7 +49,7 @@ def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> Non
     left_out = tuple(but)
     for check in all_checks(tree):
         if check.verdict in ("warning", "failed") and not check.name.startswith(left_out):
-            click.echo(f"Warning: {check.name}: {check.words}", err=True)
+            click.echo(f"Warning: {check.name}: {check.sentence}", err=True)
 
 
 def print_notes(notes: Iterable[str], reader: Reader = "shell") -> None:

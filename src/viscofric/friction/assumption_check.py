@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from viscofric.checks import Check
 from viscofric.contact.free.scale import Scale
 from viscofric.notes import note_of
 from viscofric.units import plain, shown_celsius, shown_speed
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class AssumptionCheck:
+class AssumptionCheck(Check):
     """One assumption behind predicted friction, checked.
 
     Attributes
@@ -33,24 +34,20 @@ class AssumptionCheck:
         The number compared with the limit, an upper bound; None where something needed was not given.
     limit : float
         Largest value at which the assumption holds well.
+    verdict : {"passed", "warning", "noted"}
+        The last where `holds` is unknown.
     holds : bool or None
         Whether it holds; None where that is unknown.
     sentence : str
         The check in words, with lengths in mm and temperatures in °C.
     """
 
-    name: str
-    value: float | None
-    limit: float
-    holds: bool | None
-    sentence: str
-
     def to_dataset(self) -> xarray.Dataset:
         """Return the check as a labelled data set along ``assumption``; see `assumptions_dataset`."""
         return assumptions_dataset((self,))
 
     def __str__(self) -> str:
-        return self.sentence
+        return str(self.sentence)
 
 
 def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "python") -> xarray.Dataset:
@@ -78,6 +75,18 @@ def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "pyt
             "sentence": ([note_of(check.sentence).words(reader) for check in checks], "1", "the check in words"),
         },
     )
+
+
+def assumption_checks_of(data: xarray.Dataset) -> list[AssumptionCheck]:
+    """Return the checks that `assumptions_dataset` put into a data set."""
+    columns = (data[name].values.tolist() for name in ("assumption_name", "holds", "sentence", "value", "limit"))
+    return [
+        AssumptionCheck.of(name, _HOLDS[holds], sentence, None if math.isnan(value) else value, limit)
+        for name, holds, sentence, value, limit in zip(*columns, strict=True)
+    ]
+
+
+_HOLDS = {1: True, 0: False, -1: None}
 
 
 def verdict(low: float, high: float, limit: float) -> bool | None:

@@ -130,7 +130,7 @@ def check_assumptions(
         isothermal = _one_temperature(curves, [size.where for size in sizes], warming, rubber, counterbody)
     except InputError as error:  # the shift factors end where their slope is needed
         sentence = f"The effect of warming on friction is unknown: {error}"
-        isothermal = AssumptionCheck("one temperature", None, CHANGE, None, sentence)
+        isothermal = AssumptionCheck.of("one temperature", None, sentence, None, CHANGE)
     coupled = check_coupling(curves, material.poisson_ratio, thick, sizes)
     return (
         check_half_space(material, curves, sizes, thick, CHANGE),
@@ -159,7 +159,7 @@ def _small_contact(size: ContactSize, noun: str) -> AssumptionCheck:
     sentence = (
         f"{size}, {ratio} of the {noun} radius; half-space and parabolic {noun} are valid up to {SMALL_STRAIN:g}{rest}"
     )
-    return AssumptionCheck("small contact", high, SMALL_STRAIN, holds, sentence)
+    return AssumptionCheck.of("small contact", holds, sentence, high, SMALL_STRAIN)
 
 
 def _linearity(size: ContactSize) -> AssumptionCheck:
@@ -172,7 +172,7 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
         f"The strain of the rubber is {strain} (0.2 a/R, {size.where}), {compared} the limit of linear contact theory, "
         f"{100 * limit:.2g} %; filled rubber may soften above 0.1 % (Payne effect), which only a strain sweep shows."
     )
-    return AssumptionCheck("linearity", high, limit, holds, sentence)
+    return AssumptionCheck.of("linearity", holds, sentence, high, limit)
 
 
 def _one_temperature(
@@ -194,4 +194,4 @@ def _one_temperature(
         f"and {counterbody.name} are assumed). This shifts the speed by {decades:.2g} decades and friction by "
         f"{plain(100 * change, 2)} %, {limit}"
     )
-    return AssumptionCheck("one temperature", change, CHANGE, holds, sentence)
+    return AssumptionCheck.of("one temperature", holds, sentence, change, CHANGE)

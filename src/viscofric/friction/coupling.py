@@ -91,4 +91,4 @@ def check_coupling(
         False: f"which is doubtful above {LARGEST:g}: viscoelastic friction may change by a fraction of that order, "
         "and with the direction of slip; reduce slip or Coulomb friction (PTFE, lubricant), or use thicker rubber.",
     }[holds]
-    return AssumptionCheck("uncoupled", high, LARGEST, holds, Note("tangential-coupling", said))
+    return AssumptionCheck.of("uncoupled", holds, Note("tangential-coupling", said), high, LARGEST)

@@ -76,7 +76,7 @@ def check_half_space(
             f"{widest}. The half-space assumption needs a thickness of at least {radii}, and about {_mm(enough)} "
             f"for friction on a bonded layer to agree within {percent}{there}; no thickness was given."
         )
-        return AssumptionCheck("half-space", None, limit, None, said)
+        return AssumptionCheck.of("half-space", None, said, None, limit)
     holds = verdict(widest.smallest / given, widest.largest / given, 1.0 / THICK)
     compared = {True: f", although at least {radii},", None: "", False: f", less than {radii},"}[holds]
     rubber, felt = f"{_mm(given)} of rubber", f"{_effect(effect, given, worst)}{there}"
@@ -97,7 +97,7 @@ def check_half_space(
             + f") or use thicker rubber: at least {radii}, and about {_mm(enough)} for friction within {percent}.",
         )
         holds = False
-    return AssumptionCheck("half-space", widest.largest / given, limit, holds, said)
+    return AssumptionCheck.of("half-space", holds, said, widest.largest / given, limit)
 
 
 def _effect(effect: ThicknessEffect, thickness: float, worst: _OnLayers) -> str:

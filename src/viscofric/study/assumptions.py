@@ -90,7 +90,7 @@ def _keep_worst(found: dict[str, AssumptionCheck], checks: Iterable[AssumptionCh
 
 
 def _share(check: AssumptionCheck) -> float:
-    return (check.value or 0.0) / check.limit
+    return (check.value or 0.0) / (check.limit or 1.0)
 
 
 # The compliance of a wave as long as a bonded or sliding layer is thick is that of a half-space within 1 %.
@@ -111,7 +111,7 @@ def _surface_checks(study: Study, cases: Sequence[SurfaceCase]) -> list[Assumpti
         "thick; "
         + ("the rubber is a half-space for it." if holds else "give the rubber's thickness as a [layer] instead.")
     )
-    return [AssumptionCheck("half-space", value, _THICKEST_WAVE, holds, sentence)]
+    return [AssumptionCheck.of("half-space", holds, sentence, value, _THICKEST_WAVE)]
 
 
 def _grid(case: SurfaceCase) -> tuple[tuple[int, int], tuple[float, float]]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.checks import Check
 from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.friction.assumption_check import assumption_checks_of
 from viscofric.report.results import (
     SAME_TEMPERATURE,
     group,
@@ -36,23 +38,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from viscofric.arrays import Array
-
-
-Verdict: TypeAlias = Literal["passed", "noted", "warning", "failed"]
-
-
-@dataclass(frozen=True)
-class Check:
-    """One check: its name, whether it passed, and a sentence with the numbers."""
-
-    name: str
-    verdict: Verdict
-    words: str
-
-    @classmethod
-    def of(cls, name: str, sound: bool, words: str) -> Check:
-        """Return a check that passed, or one with a warning."""
-        return cls(name, "passed" if sound else "warning", words)
 
 
 def all_checks(tree: xr.DataTree) -> list[Check]:
@@ -128,6 +113,8 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
             f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
             f"{_decades(loss)} in the loss modulus (rms; good if ≤ {_decades(_OVERLAP)})."
             + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
+            max(storage, loss),
+            _OVERLAP,
         )
     yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
     whole = group(tree, "superposition")
@@ -151,7 +138,7 @@ def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
         words = f"{far}; the measured shift factors are used, not this law."
         yield Check("Shift law", "noted", words)
     else:
-        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (good if ≤ {_LAW:g}).")
+        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (good if ≤ {_LAW:g}).", rms, _LAW)
 
 
 def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
@@ -165,6 +152,8 @@ def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
             max(storage, loss) <= _FIT,
             f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
             f"measured loss modulus (rms; good if ≤ {_decades(_FIT)}).",
+            max(storage, loss),
+            _FIT,
         )
 
 
@@ -184,7 +173,6 @@ _ASSUMPTIONS = {
     "uncoupled": "Pressure independent of shear",
     "one temperature": "Isothermal",
 }
-_VERDICTS: dict[int, Verdict] = {1: "passed", 0: "warning", -1: "noted"}
 
 
 def friction_checks(tree: xr.DataTree) -> Iterator[Check]:
@@ -220,6 +208,8 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
             "Friction is calculated twice: from the contact pressure, and from the energy dissipated in the material. "
             f"The two differ by {percent(energy)} at most (good if ≤ {percent(limit)}, {_ENERGY_BALANCE:g} times "
             "the requested accuracy). The more accurate of the two is reported; it must reach the accuracy.",
+            energy,
+            limit,
         )
     violation = largest("complementarity")
     if math.isfinite(violation):
@@ -229,6 +219,8 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
             f"No overlap, no suction, no pressure across a gap: violated by {significant(violation, 2)} of the "
             f"{'rms height' if is_rough(tree) else 'indentation'} at most (good if ≤ "
             f"{significant(_COMPLEMENTARITY, 1)}).",
+            violation,
+            _COMPLEMENTARITY,
         )
 
 
@@ -250,6 +242,8 @@ def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
         wide == 0,
         f"The contact extends to {significant(float(reaches.max()), 2)} ball radii from the axis at most; above "
         f"{SMALL_STRAIN:g} linear theory of a half-space is doubtful.{many}",
+        float(reaches.max()),
+        SMALL_STRAIN,
     )
 
 
@@ -257,12 +251,9 @@ def _assumptions(tree: xr.DataTree) -> Iterator[Check]:
     found = group(tree, "assumptions")
     if found is None:
         return
-    for name, holds, sentence in zip(
-        *(found[column].values for column in ("assumption_name", "holds", "sentence")), strict=True
-    ):
-        if str(name) in _ASSUMPTIONS:  # the others are those of small strain, which counts the cases
-            verdict = _VERDICTS[int(holds)]
-            yield Check(_ASSUMPTIONS[str(name)], verdict, str(sentence))
+    for check in assumption_checks_of(found):
+        if check.name in _ASSUMPTIONS:  # the others are those of small strain, which counts the cases
+            yield replace(check, name=_ASSUMPTIONS[check.name])
 
 
 def _frequencies(tree: xr.DataTree) -> Iterator[Check]:

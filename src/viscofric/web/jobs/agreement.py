@@ -157,7 +157,7 @@ def _reply(tree: xarray.DataTree) -> dict[str, Any]:
         "sentences": texts(said),
         "key": [number._asdict() for number in about],
         "table": table_record(agreement_table(tree)),
-        "checks": [{"name": one.name, "verdict": one.verdict, "words": one.words} for one in friction_checks(tree)],
+        "checks": [one.record("page") for one in friction_checks(tree)],
         "band": lines.has_band,
         **{name: texts(notes(tree.attrs, name)) for name in ("warnings", "failures")},
     }

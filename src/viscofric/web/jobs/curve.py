@@ -10,7 +10,6 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
-from viscofric.notes import note_of
 from viscofric.study.assumptions import assumption_checks
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, doubts
@@ -91,16 +90,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "failures": [str(one) for one in requested.failures],
         "warnings": [*_of_rubbers(contacts, known=True), *doubts((requested,), contacts.rubbers)],
         "notes": _notes(contacts, checked),
-        "checks": [
-            {
-                "name": one.name,
-                "value": plain(one.value),
-                "limit": one.limit,
-                "holds": one.holds,
-                "sentence": note_of(one.sentence).words("page"),
-            }
-            for one in assumption_checks(contacts, requested, at_points)
-        ],
+        "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points)]),
     }
 
 

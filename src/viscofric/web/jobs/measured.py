@@ -82,14 +82,14 @@ def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "residual")]
 
 
-def _checks(curves: FrictionCurves) -> list[dict[str, str]]:
+def _checks(curves: FrictionCurves) -> list[dict[str, Any]]:
     """Judge whether the four sign configurations agree with each other."""
     from viscofric.report.texts.checks import consistency_check
 
     if curves.consistency is None or curves.consistency_error is None:
         return []
     check = consistency_check(curves.consistency, curves.consistency_error)
-    return [] if check is None else [{"name": check.name, "verdict": check.verdict, "words": check.words}]
+    return [] if check is None else [check.record("page")]
 
 
 def _written(curves: FrictionCurves, context: Context) -> str:

@@ -181,8 +181,8 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
         : [],
     );
     notes.set(result.notes);
-    const marks = { true: "✓ ", false: "Warning: ", null: "Unknown: " };
-    checks.set(result.checks.map((one) => `${marks[one.holds]}${one.sentence}`));
+    const marks = { passed: "✓ ", warning: "Warning: ", noted: "Unknown: " };
+    checks.set(result.checks.map((one) => `${marks[one.verdict]}${one.words}`));
     checked.hidden = result.checks.length + result.notes.length === 0;
     state.setResult("curve", result);
     draw();

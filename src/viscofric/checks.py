@@ -1,0 +1,58 @@
+"""A check: what was tested, the verdict, the number with its limit, and a sentence for people."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from viscofric.notes import note_of
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from viscofric.notes import Reader
+
+Verdict: TypeAlias = Literal["passed", "noted", "warning", "failed"]
+_VERDICTS: dict[bool | None, Verdict] = {True: "passed", False: "warning", None: "noted"}
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check.
+
+    Attributes
+    ----------
+    name : str
+    verdict : {"passed", "noted", "warning", "failed"}
+        "noted" where it cannot be judged.
+    sentence : str or Note
+        The check in words, with its numbers.
+    value, limit : float or None
+        The number that was compared and the largest that passes, where there are such numbers.
+    """
+
+    name: str
+    verdict: Verdict
+    sentence: str
+    value: float | None = None
+    limit: float | None = None
+
+    @classmethod
+    def of(
+        cls, name: str, holds: bool | None, sentence: str, value: float | None = None, limit: float | None = None
+    ) -> Self:
+        """Return a check that passed, one with a warning, or one that cannot be judged (None)."""
+        return cls(name, _VERDICTS[None if holds is None else bool(holds)], sentence, value, limit)
+
+    @property
+    def holds(self) -> bool | None:
+        """Whether it passed; None where it cannot be judged."""
+        return None if self.verdict == "noted" else self.verdict == "passed"
+
+    def record(self, reader: Reader) -> dict[str, Any]:
+        """Return the check as JSON, its sentence in the words of a reader."""
+        words = note_of(self.sentence).words(reader)
+        return {"name": self.name, "verdict": self.verdict, "value": self.value, "limit": self.limit, "words": words}
+
+    def __str__(self) -> str:
+        return str(self.sentence)
