@@ -90,7 +90,7 @@ CHECKS = (
         "wang-knothe",
         "Two equal viscoelastic cylinders in rolling contact",
         _GROUP,
-        "G. Wang, K. Knothe, J. Appl. Mech. 60 (1993) 310, doi:10.1115/1.2900794, as computed by CONTACT",
+        "G. Wang, K. Knothe, J. Appl. Mech. 60 (1993) 310, as computed by CONTACT",
         "Pressures: piecewise constant on 56 to 80 elements, an error of the order 1/56² at the top. Widths: whole "
         "elements of 0.16 mm, and the accuracy of the edges here.",
         _two_cylinders,
