@@ -6,11 +6,13 @@ import json
 import shutil
 import sys
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.errors import reported_errors
+from viscofric.cli.verify_test import compare_test
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -24,17 +26,40 @@ _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
 
 @click.command(name="verify")
 @click.option("--published", is_flag=True, help="Compare with published results and other programs instead.")
+@click.option(
+    "--test",
+    "folder",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path),
+    help="Predict a friction test instead, and compare it point by point.",
+)
 @click.option("--only", "names", metavar="NAME", multiple=True, help="Run this check or group only; may be repeated.")
 @click.option("--list", "listed", is_flag=True, help="List the checks and exit.")
 @click.option("--details", is_flag=True, help="Print every comparison, and the reasons of the bounds.")
 @click.option("--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON.")
-def command(published: bool, names: tuple[str, ...], listed: bool, details: bool, backend: str, as_json: bool) -> None:
+def command(
+    published: bool,
+    folder: Path | None,
+    names: tuple[str, ...],
+    listed: bool,
+    details: bool,
+    backend: str,
+    as_json: bool,
+) -> None:
     """Verify the contact engine on this machine, in less than a minute.
 
     Each check compares computed values with a closed form, a reference value, or an equivalent computation. Its
     line shows the worst comparison. Exit status 1 if any check fails.
+
+    With --test, FOLDER holds sweeps, measured friction, and a run file with citation and licence. The comparison is
+    printed and written as a page.
     """
+    if folder is not None:
+        if published or names or listed or details or backend != "scipy":
+            raise click.UsageError("--test takes a folder and --json only.")
+        compare_test(folder, as_json)
+        return
     with reported_errors():
         from viscofric.verification import CHECKS, run_checks, select
         from viscofric.verification.published import PUBLISHED

@@ -214,6 +214,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
     tree.attrs = {
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
+        **{name: text for name, text in (("citation", study.citation), ("licence", study.licence)) if text},
         "notes": _listed([*notes, *study.notes, *(measured.notes if measured else ())]),
         "warnings": _listed(
             [

@@ -125,6 +125,7 @@ def inputs(tree: xr.DataTree) -> list[Input]:
                 listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
         listed.append(Input("cases", str(math.prod(friction.sizes.values()))))
     accuracy = number(attrs, "accuracy")
+    listed += [Input(name, str(attrs.get(name, ""))) for name in ("citation", "licence")]
     listed.append(Input("requested accuracy", f"{short(100 * accuracy)} %" if math.isfinite(accuracy) else ""))
     return [item for item in listed if item.value not in ("", ABSENT)]
 

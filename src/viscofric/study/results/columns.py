@@ -43,6 +43,8 @@ _DECIMALS = 9
 # Attribute -> its name in the lines above a table.
 _NAMED = {
     "data_origin": "data",
+    "citation": "citation",
+    "licence": "licence",
     "indenter": "indenter",
     "accuracy": "accuracy",
     "seed": "seed",

@@ -24,6 +24,8 @@ _PREDICTION = "prediction"
 _ABOUT = (
     "title",
     "data_origin",
+    "citation",
+    "licence",
     "accuracy",
     "seed",
     "indenter",

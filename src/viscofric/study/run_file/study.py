@@ -60,6 +60,8 @@ class Study(Table):
     ----------
     title : str
     data_origin : {"measured", "synthetic"}
+    citation, licence : str or None
+        Of the data.
     materials : tuple of MaterialTable
         [material], or each of several [[material]].
     indenter : BallTable, CylinderTable, EllipsoidTable or ConeTable, or None
@@ -80,6 +82,8 @@ class Study(Table):
     data_origin: Literal["measured", "synthetic"] = Field(
         "measured", description="Origin of the data; report and figures label synthetic data."
     )
+    citation: str | None = Field(None, max_length=1000, description="Publication or origin of the data, with its DOI.")
+    licence: str | None = Field(None, max_length=300, description="Licence of the data, such as 'CC BY 4.0'.")
     materials: Annotated[
         tuple[MaterialTable, ...], Field(min_length=1, max_length=_MOST_MATERIALS), BeforeValidator(_several)
     ] = Field(alias="material", description="The material; [[material]] for each of several, with different names.")
