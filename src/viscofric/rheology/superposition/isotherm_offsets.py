@@ -66,7 +66,7 @@ class IsothermOffsets:
     sizes : OffsetSizes
         Which sizes offsets may have; `covariance` is the mean over them.
     onto_moduli : (2, m) array
-        What offsets of the quantities make of log E' and log E''; (1, 1) for step tests.
+        Offsets of log E' and log E'' per offset of each quantity; (1, 1) for step tests.
     """
 
     covariance: Array

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.quantity import Quantities
 
 
-#: What was measured at one temperature.
+#: A measurement at one temperature.
 Tested = TypeVar("Tested", Isotherm, StepTest)
 #: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
 LARGEST_MISFIT = 0.15

@@ -1,4 +1,4 @@
-"""Which quantities of the isotherms are brought onto common curves: E' and E'', one of them, or tan δ."""
+"""Choice of the quantities that are shifted onto common curves: E' and E'', one of them, or tan δ."""
 
 from __future__ import annotations
 
@@ -28,31 +28,15 @@ _SEEN: dict[str, tuple[list[list[float]], str]] = {
 
 @dataclass(frozen=True, eq=False)
 class Quantities:
-    """The m quantities of an isotherm that a fit of shifts compares.
-
-    Parameters
-    ----------
-    by : {"both", "storage", "loss", "loss-tangent"}
-        Their choice.
-    seen : (m, 2) array
-        Each as a combination of log E' and log E''; (1, 1) for step tests, which have one quantity.
-    weights : (m,) array
-        Of their squared residuals; their mean is 1.
-    """
+    """The m quantities of an isotherm that a fit of shifts compares."""
 
     by: ShiftBy
-    seen: Array
-    weights: Array
+    seen: Array  # (m, 2), each as a combination of log E' and log E''; (1, 1) for step tests, which have one quantity
+    weights: Array  # (m,), of their squared residuals; their mean is 1
 
     @classmethod
     def chosen(cls, by: str = "both", weights: Any = None) -> Quantities:
-        """Check and return a choice.
-
-        Raises
-        ------
-        InputError
-            If there is no such choice, or the weights are not two positive numbers for E' and E''.
-        """
+        """Return a choice; InputError if unknown, or if the weights are not two positive numbers for E' and E''."""
         check_choice(by, "by", *_SEEN)
         seen = np.array(_SEEN[by][0])
         if weights is None:
@@ -85,7 +69,7 @@ class Quantities:
 
     @property
     def onto_moduli(self) -> Array:
-        """What offsets of the quantities make of log E' and log E'', at the least (2, m)."""
+        """Smallest offsets of log E' and log E'' per offset of each quantity, (2, m)."""
         return np.asarray(np.linalg.pinv(self.seen))
 
     def of(self, sweeps: list[LogSweep]) -> list[LogSweep]:
@@ -93,7 +77,7 @@ class Quantities:
         return [LogSweep(one.frequency, one.moduli @ self.seen.T, one.weights) for one in sweeps]
 
     def insist_on_use(self, vertical: object, shift: object) -> None:
-        """Refuse a choice that the other arguments of `superpose` leave no use for."""
+        """Raise an error for a choice without effect beside the other arguments of `superpose`."""
         if shift is not None and self.notes:
             raise InputError("shift and by (or weights): give one of them; with shift no factor is left to be fitted.")
         if self.by == "loss-tangent" and vertical == "free":
@@ -109,7 +93,7 @@ class Quantities:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """What to say of a choice other than the default, in a sentence."""
+        """Notes on a choice other than the default."""
         if not self.joint:
             return (Note("shifted-by", f"α was found from {_SEEN[self.by][1]}, as requested."),)
         if self.weights[0] != self.weights[-1]:
@@ -123,7 +107,7 @@ class Quantities:
         return ()
 
 
-#: E' and E'' alike.
+#: E' and E'' with equal weights.
 BOTH = Quantities.chosen()
-#: What creep and relaxation tests have: log of a modulus, 1/J(t) or E(t), over the rate 1/t.
+#: The quantity of creep and relaxation tests: log of a modulus, 1/J(t) or E(t), over the rate 1/t.
 STEP = Quantities("both", np.ones((1, 1)), np.ones(1))

@@ -1,4 +1,4 @@
-"""Notes on superposed isotherms: what the shifts fix, and what joins badly."""
+"""Notes on superposed isotherms: undetermined shifts, and neighbours that join badly."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ if TYPE_CHECKING:
 UNIDENTIFIED = 0.3  # decades
 #: … nor are those with a larger one than this whose sign is not known …
 SIGN_UNKNOWN = 0.1  # decades
-#: … nor steps of log10 b with a larger one, which is mostly what was assumed of them.
+#: … nor steps of log10 b with a larger one, which is mostly that of their prior.
 VERTICAL_UNIDENTIFIED = 0.02  # decades
 
 
 def badly_given(logs: list[LogSweep], log10_shifts: Array) -> list[str]:
-    """Say in a sentence that the shift factors that were given join the isotherms badly on the whole."""
+    """Return a note that the given shift factors join the isotherms badly on the whole."""
     found = own_shifts(logs, log10_shifts)
     text = f"The given shift factors do not join the isotherms: {found.clause}."
     return [Note("given-factors-wrong", text)] if found.wrong else []
 
 
 def joined_by_pairs(temperatures: Array, places: tuple[int, ...], quantities: int) -> list[str]:
-    """Name the temperatures where a common curve moved neighbours past each other, in one sentence."""
+    """Return a note on the temperatures where a common curve moved neighbours past each other."""
     if not places:
         return []
     one, why, cure = "moduli", "", ""
@@ -48,7 +48,7 @@ def joined_by_pairs(temperatures: Array, places: tuple[int, ...], quantities: in
 
 
 def without_overlap(temperatures: Array, quality: OverlapQuality) -> list[str]:
-    """Name the neighbours that do not overlap once shifted, in one sentence."""
+    """Return a note on the neighbours that do not overlap once shifted."""
     if not quality.gaps:
         return []
     sentence = (
@@ -59,14 +59,14 @@ def without_overlap(temperatures: Array, quality: OverlapQuality) -> list[str]:
 
 
 def unidentified_places(values: Array, covariance: Array) -> list[int]:
-    """Return the places of steps of log10 α that the isotherms do not fix."""
+    """Return the indices of steps of log10 α that the isotherms do not determine."""
     errors = errors_of_steps(covariance)
     either_sign = (errors > SIGN_UNKNOWN) & (np.abs(np.diff(values)) < 2.0 * errors)
     return [int(place) for place in np.flatnonzero((errors > UNIDENTIFIED) | either_sign)]
 
 
 def unidentified_steps(steps: tuple[tuple[float, float], ...], error: float) -> list[str]:
-    """Name the temperatures between which the isotherms do not fix α, in one sentence."""
+    """Return a note on the temperatures between which the isotherms do not determine α."""
     if not steps:
         return []
     sentence = (
@@ -78,7 +78,7 @@ def unidentified_steps(steps: tuple[tuple[float, float], ...], error: float) -> 
 
 
 def unidentified_vertical(temperatures: Array, covariance: Array) -> list[str]:
-    """Name the temperatures between which the isotherms do not fix b, in one sentence."""
+    """Return a note on the temperatures between which the isotherms do not determine b."""
     errors = errors_of_steps(covariance)
     places = np.flatnonzero(errors > VERTICAL_UNIDENTIFIED)
     if not places.size:

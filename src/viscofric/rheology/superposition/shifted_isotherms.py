@@ -1,4 +1,4 @@
-"""Isotherms of any kind, given by logarithms of their quantities, joined and shifted; what is to be said of them."""
+"""Isotherms of any kind, given by logarithms of their quantities, joined and shifted, with notes on them."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ if TYPE_CHECKING:
     from viscofric.step_tests import StepTest
 
 
-#: Weight of the other model, with a free vertical shift or without one, where isotherms drift.
+#: Weight of the alternative model, with a free vertical shift or without one, where isotherms drift.
 OTHER_MODEL = 0.5
 
 
 @dataclass(frozen=True, eq=False)
 class ShiftedIsotherms(Generic[Tested]):
-    """Isotherms of any kind with the shifts that were found or given, and what is to be said of them."""
+    """Isotherms of any kind with the shifts found or given, and notes on them."""
 
     joined: JoinedIsotherms[Tested]  # free of the vertical shift
     factors: ShiftFactors
@@ -120,17 +120,17 @@ def shifted_isotherms(
 
 
 def _drifts(isotherms: Sequence[Isotherm | StepTest], log10_b: Array) -> bool:
-    """Say whether sweeps drift to one side; step tests, of one quantity, cannot be compared without their shifts."""
+    """Return whether sweeps drift to one side; step tests, of one quantity, cannot be compared without their shifts."""
     sweeps = [one for one in isotherms if isinstance(one, Isotherm)]
     return bool(sweeps) and drift(neighbour_distances(sweeps, log10_b)) is not None
 
 
 def _between_models(found: CommonShifts, other: CommonShifts, free: bool) -> CommonShifts:
-    """Add to the errors what the other model would change: a free vertical shift, or none if `free`.
+    """Add to the errors the difference of the alternative model: with a free vertical shift, or without one if `free`.
 
-    Isotherms that drift contradict the model that was asked for; each of the two models is given half of the weight, so
-    that about one the other is off by their difference with a variance of half its square (S. T. Buckland et al.,
-    Biometrics 53 (1997) 603).  Differences count step by step, as far as they exceed what is not known of the free one.
+    Isotherms that drift contradict the requested model; each of the two models is given half of the weight, so that
+    their difference adds half its square to the variance (S. T. Buckland et al., Biometrics 53 (1997) 603).  Of the
+    difference of each step, only the part beyond the uncertainty of the free model counts.
     """
     loose = found if free else other
     nearest = int(np.argmin(np.abs(found.values) + np.diag(found.covariance)))
