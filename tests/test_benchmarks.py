@@ -232,6 +232,16 @@ def test_random_rough_contacts_are_all_counted(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("contact_path")
+def test_the_sliding_ball_is_within_the_tolerances_of_its_table() -> None:
+    import sliding_ball
+
+    for _, published, tolerance, friction, error, seconds in sliding_ball.rows(accuracy=1e-2):
+        assert friction == pytest.approx(published, rel=tolerance)
+        assert 0.0 <= error <= 1e-2 * friction
+        assert seconds > 0.0
+
+
+@pytest.mark.usefixtures("contact_path")
 def test_growth_is_the_exponent_of_a_power_law() -> None:
     import measuring
 
