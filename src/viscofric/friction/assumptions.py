@@ -11,7 +11,7 @@ from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, verdict
 from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
-from viscofric.friction.half_space import check_half_space
+from viscofric.friction.finite_thickness import check_half_space
 from viscofric.friction.warming import Warming
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties

@@ -10,9 +10,8 @@ import numpy as np
 from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band
+from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band, level_family
 from viscofric.friction.identification.iteration import Weighed, most_evident, weighed
-from viscofric.friction.identification.level_family import level_family
 from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedBand, IdentifiedMaterial, LevelFit
 from viscofric.friction.identification.solving import Contacts, spectrum_of
 from viscofric.notes import Note, codes

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.measurement.conditions import Condition, conditions, where
+from viscofric.friction.measurement.conditions import SPEED_TOLERANCE, Condition, conditions, where
 from viscofric.friction.measurement.course import Course, of_both, of_the_disc
-from viscofric.friction.measurement.gapless import SPEED_TOLERANCE
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 from viscofric.notes import Note, Remedy, setting
 
