@@ -1,4 +1,4 @@
-"""Conditions of a traction test, readings of equal temperature, load, speed and slip; advice on readings without gaps."""
+"""Conditions of a traction test, readings of equal temperature, load, speed and slip; advice where gaps are missing."""
 
 from __future__ import annotations
 
