@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.arguments import insist_on, numbers, sentences, text
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
+from viscofric.notes import Note
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
@@ -182,7 +183,10 @@ class IsothermalSweeps:
             )
             for sweep in self.isotherms
         )
-        note = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
+        note = Note(
+            "tensile-from-shear",
+            f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}.",
+        )
         return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
 
     def to_dataset(self) -> xarray.Dataset:

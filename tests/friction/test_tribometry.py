@@ -414,8 +414,8 @@ def test_a_drift_of_the_temperature_is_separated_with_the_tolerance_that_is_repo
     runs = replace(runs, temperature=303.15 + 0.15 * runs.replicate)
     with refused("no-gap") as caught:
         separate(runs)
-    (caught,) = re.findall(r"give temperature_tolerance = (\S+) K", str(caught.value))
-    assert separate(runs, temperature_tolerance=float(caught)).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
+    (tolerance,) = re.findall(r"give temperature_tolerance = (\S+) K", str(caught.value))
+    assert separate(runs, temperature_tolerance=float(tolerance)).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
     ((middle, half),) = re.findall(r"runs\.select\(abs\(runs\.temperature - (\S+)\) < (\S+)\)", str(caught.value))
     steady = runs.select(abs(runs.temperature - float(middle)) < float(half))
     assert separate(steady).viscoelastic == pytest.approx([0.03], rel=ROUNDING)
@@ -427,7 +427,6 @@ def test_an_outlier_is_noted_and_kept() -> None:
     rows[5, 2] += 0.5
     curves = separate(runs_from(rows))
     (note,) = (note for note in curves.notes if note.code == "outliers")
-    assert note.startswith("One reading deviates")
     assert "replicate 6" in note
     # Kept: it moves the mean by 0.5 N / 32 / 25 N = 6.3e-4; noise has a standard error of 7e-5.
     assert abs(curves.viscoelastic[0] - 0.03) > 3e-4
@@ -602,7 +601,6 @@ def test_outliers_are_distinguished_from_the_scatter_of_loads() -> None:
     force = runs.traction_force.copy()
     force[5] += 0.1
     (note,) = [one for one in separate(replace(runs, traction_force=force)).notes if "kept" in one]
-    assert note.startswith("One reading deviates")
     assert "row 6" in note
 
 

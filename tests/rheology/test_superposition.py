@@ -228,8 +228,8 @@ def test_given_factors_that_do_not_superpose_are_reported():
     values = planted(vf.superpose(sweeps, "30 degC"))
     values[6:] -= 0.5
     fit = vf.superpose(sweeps, "30 degC", shift=vf.ShiftFactors(sweeps.temperatures, values, "30 degC"))
-    assert [note for note in fit.notes if "50.0 °C and 60.0 °C disagree" in note and "given" in note]
-    assert sum("sweeps-disagree" in codes([note]) for note in fit.notes) == 1
+    (note,) = [note for note in fit.notes if note.code == "sweeps-disagree"]
+    assert "50.0 °C and 60.0 °C" in note
 
 
 def test_isotherms_are_handed_on_as_measured():
@@ -243,7 +243,7 @@ def test_shear_moduli_become_tensile():
     tension = vf.superpose(measured(WARM[:6]), "30 degC")
     shear = vf.superpose(measured(WARM[:6], deformation="shear", factor=1 / 3), "30 degC")
     assert shear.master_curve.storage_modulus == pytest.approx(tension.master_curve.storage_modulus, rel=1e-9)
-    assert any("E = 2(1+ν)G" in note for note in shear.notes)
+    assert "tensile-from-shear" in codes(shear.notes) - codes(tension.notes)
     softer = vf.superpose(measured(WARM[:6], deformation="shear"), "30 degC", poisson_ratio=0.0)
     ratio = softer.master_curve.storage_modulus / tension.master_curve.storage_modulus
     assert ratio == pytest.approx(2.0, rel=1e-9)
@@ -377,7 +377,7 @@ def test_acrylic_overlaps_as_well_as_with_the_best_peer(real_data):
     assert abs(law.C1 - C1) < 1.96 * first
     assert abs(law.C2 - C2) < 1.96 * second
     assert second < 3.0
-    assert any("−40.0 °C and −30.0 °C disagree" in note for note in fit.notes)
+    assert any("−40.0 °C and −30.0 °C" in note for note in fit.notes if note.code == "sweeps-disagree")
     assert elapsed < 0.5  # about 0.03 s of one core; a loaded machine may be slow
 
 

@@ -107,9 +107,7 @@ def test_order_and_extent_of_axes_do_not_matter_to_cases_in_common(tmp_path: Pat
     assert not found.equal
     assert (found.cases, found.only_first, found.only_second) == (4, 32, 2)
     assert all(one.equal for one in found.differences)
-    said = " ".join(found.axes)
-    assert "The speed has other values" in said
-    assert "0.4" in said
+    assert any("speed" in sentence and "0.4" in sentence for sentence in found.axes)
 
 
 def test_coordinates_that_differ_by_rounding_are_the_same(tmp_path: Path) -> None:
@@ -136,11 +134,14 @@ def test_other_provenance_is_named(tmp_path: Path) -> None:
         software=json.dumps({"numpy": "1.0"}),
     )
     said = vf.compare_results(made(tmp_path / "a"), other).provenance
-    assert "Another accuracy: 0.001 and 0.01." in said
-    assert "The input dma.csv has other contents." in said
-    assert "The input mtm.csv belongs to the second only." in said
-    assert 'The run files differ in conditions.load: "25 N" and "30 N".' in said
-    assert any(sentence.startswith("Other versions: viscofric") and "numpy" in sentence for sentence in said)
+    for named in (
+        ("0.001", "0.01"),
+        ("dma.csv",),
+        ("mtm.csv",),
+        ("conditions.load", "25 N", "30 N"),
+        ("viscofric", "numpy"),
+    ):
+        assert sum(all(name in sentence for name in named) for sentence in said) == 1, named
 
 
 def test_the_same_input_elsewhere_is_the_same(tmp_path: Path) -> None:

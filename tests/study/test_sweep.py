@@ -146,7 +146,7 @@ def test_too_many_cases_are_refused_before_any_is_made() -> None:
     with pytest.raises(StudyError) as caught:
         study(text)
     assert [one.code for one in caught.value.mistakes] == ["contradiction"]
-    assert "800,000,000 cases (2 material × 2 radius × 2 load × 10,000 temperature × 10,000 speed)" in str(caught.value)
+    assert "800,000,000 cases" in str(caught.value)
 
 
 def test_several_materials_have_different_names() -> None:

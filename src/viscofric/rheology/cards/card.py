@@ -99,9 +99,10 @@ class Reading:
         assumed = [unit for given, unit in ((self.modulus_unit, "Pa"), (self.time_unit, "s")) if not given]
         if not assumed:
             return []
-        note = (
+        note = Note(
+            "unit-assumed",
             f"The card does not state its units; {' and '.join(assumed)} were assumed (modulus_unit=, time_unit= say "
-            "otherwise)."
+            "otherwise).",
         )
         return [note]
 
@@ -231,9 +232,10 @@ def tensile(shear: RelaxationSpectrum, bulk: RelaxationSpectrum | None) -> tuple
         np.concatenate([of_shear.C / 3.0, of_bulk.C / 9.0]),
         np.concatenate([of_shear.tau, of_bulk.tau]),
     )
-    note = (
+    note = Note(
+        "ratio-of-rubber",
         f"Bulk does not relax as shear does, so that the Poisson ratio runs from {poisson[1]:.4g} (glass) to "
-        f"{poisson[0]:.4g} (rubber); E(ω) is exact, the material's constant ratio is that of the rubber."
+        f"{poisson[0]:.4g} (rubber); E(ω) is exact, the material's constant ratio is that of the rubber.",
     )
     return spectrum, poisson[0], [note]
 
