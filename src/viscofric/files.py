@@ -88,7 +88,9 @@ def insist_on_short_text(data: bytes, path: str | PathLike[str]) -> None:
 def decoded(data: bytes, path: str | PathLike[str]) -> str:
     """Return bytes as text (UTF-16 with its mark, UTF-8, else Windows-1252); binary ones are a `DataFileError`."""
     try:
-        text = data.decode("utf-16") if data.startswith((b"\xff\xfe", b"\xfe\xff")) else data.decode("utf-8-sig")
+        # some instruments end their UTF-16 with half a character
+        wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
+        text = data[: len(data) & ~1].decode("utf-16") if wide else data.decode("utf-8-sig")
     except UnicodeDecodeError:
         # Instrument software under Windows; five bytes of its code page are undefined.
         text = data.decode("cp1252", errors="replace")

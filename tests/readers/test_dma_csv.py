@@ -447,5 +447,7 @@ def test_numbered_columns_that_are_not_read_are_named(tmp_path, other):
 
 def test_two_columns_of_strain_amplitude_are_named(tmp_path):
     sweeps = read_dma(write(tmp_path, f"{HEADER},strain (%),dynamic strain (%)", *(f"{row},1,2" for row in ROWS)))
+    assert sweeps.isotherms[0].strain_amplitude == pytest.approx([0.02, 0.02])  # not the static one
+    sweeps = read_dma(write(tmp_path, f"{HEADER},strain (%),deformation (%)", *(f"{row},1,2" for row in ROWS)))
     assert "strain-amplitude-not-read" in codes(sweeps.notes)
     assert all(isotherm.strain_amplitude is None for isotherm in sweeps.isotherms)

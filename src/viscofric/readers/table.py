@@ -32,7 +32,8 @@ MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 _IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 # Units of temperature as printed by instruments, which pint would read as coulomb, farad or nothing.
-_TEMPERATURE_UNITS = {"c": "degC", "degc": "degC", "celsius": "degC", "f": "degF", "degf": "degF", "k": "K"}
+_TEMPERATURE_UNITS = dict.fromkeys(("c", "degc", "celsius", "øc", ">c", "\ufffdc"), "degC")  # the last ones damaged
+_TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "k": "K"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +46,7 @@ class Table:
     lines: Integers
     decimal_comma: bool
     above: tuple[tuple[str, ...], ...] = ()  # cells of the rows above the header, and of other sheets
+    block: Integers | None = None  # of each row, where several tables stand below each other
     empty_rows: int = 0  # left out, with none of the quantities that make a header
     vocabulary: Vocabulary = NO_WORDS
 

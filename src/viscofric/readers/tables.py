@@ -7,6 +7,8 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
@@ -170,15 +172,34 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
             column if column.unit else replace(column, unit=_unit(cell))
             for column, cell in zip(columns, [*units, *[""] * len(columns)], strict=False)
         )
-    repeated = list(rows[header][1])  # stacked tables repeat their header
-    body = [row for row in body if list(row[1]) != repeated]
-    table = make_table(path, columns, body, comma_is_free=found.comma_is_free, vocabulary=words)
-    return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]))
+    blocks = _stacked(body, list(rows[header][1]), columns)
+    kept = [row for block in blocks for row in block]
+    table = make_table(path, columns, kept, comma_is_free=found.comma_is_free, vocabulary=words)
+    first_lines = [block[0][0] for block in blocks if block]
+    block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
+    return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block)
+
+
+def _stacked(body: Sequence[NumberedRow], header: list[str], columns: Sequence[Column]) -> list[list[NumberedRow]]:
+    """Return the rows of tables below each other that repeat their header, without the text between them."""
+    blocks: list[list[NumberedRow]] = [[]]
+    for row in body:
+        if list(row[1]) == header:
+            while blocks[-1] and sum(map(is_number, blocks[-1][-1][1])) < 2:
+                blocks[-1].pop()
+            blocks.append([])
+        elif blocks[-1] or len(blocks) == 1 or not _is_row_of_units(columns, row[1], repeated=True):
+            blocks[-1].append(row)
+    return blocks
 
 
 def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
+    """Refuse rows of numbers above the header, unless they have a header of their own."""
+    width = 0
     for number, cells in above:
-        if sum(is_number(cell) for cell in cells) > 2:
+        if sum(map(is_number, cells)) <= 2:
+            width = max(width, len(cells))
+        elif len(cells) > width:
             raise DataFileError(
                 path,
                 "a row of numbers precedes the header; put the header first.",
@@ -187,12 +208,16 @@ def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
             )
 
 
-def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
-    """Return whether a row under headings without units gives them; units that the user adds do not count."""
+def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str], *, repeated: bool = False) -> bool:
+    """Return whether a row under headings without units gives them; units that the user adds do not count.
+
+    `repeated`: the units are known already, from the same row under the same headings.
+    """
     known = [place for place, column in enumerate(columns[: len(cells)]) if column.quantity]
-    if any(columns[place].unit and not columns[place].given for place in known):
+    if not repeated and any(columns[place].unit and not columns[place].given for place in known):
         return False
-    if any(map(is_number, cells)) or len(cells) > len(columns) + 1:
+    numbers = (cell for cell in cells if cell.strip() != "1")  # the unit of a ratio
+    if any(map(is_number, numbers)) or len(cells) > len(columns) + 1:
         return False
     return any(_unit(cells[place]) and cells[place].strip().lower() not in MISSING for place in known)
 

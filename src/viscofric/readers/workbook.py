@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
@@ -51,6 +51,23 @@ def sheet_names(source: Source) -> tuple[str, ...]:
         return tuple(sheets(source))
     except DataFileError:
         return ()
+
+
+def sheet_texts(source: Source) -> dict[str, Source]:
+    """Return the sheets of a workbook as tab-separated text, for formats that a spreadsheet was made from."""
+    return {
+        name: replace(source, path=f"{source.path}, sheet {name!r}", data=_as_text(rows).encode())
+        for name, rows in sheets(source).items()
+        if source.sheet in ("", name)
+    }
+
+
+def _as_text(rows: Rows) -> str:
+    lines = []
+    for row in rows:
+        cells = (" ".join(one.split()) if isinstance(one, str) else repr(float(one)).removesuffix(".0") for one in row)
+        lines.append("\t".join(cells).rstrip("\t"))
+    return "\n".join(lines) + "\n"
 
 
 def sheets(source: Source) -> dict[str, Rows]:

@@ -54,6 +54,7 @@ STORAGE_MODULUS = frozenset(
     | {"module de conservation", "module conservation", "module de stockage", "module élastique"}
     | {"module de conservation en cisaillement", "módulo de almacenamiento", "módulo elástico", "modulo conservativo"}
     | {"modulo di conservazione", "modulo di accumulo", "módulo de armazenamento", "opslagmodulus", "lagringsmodul"}
+    | {"shear modulus (elastic component)"}
     | {"moduł zachowawczy", "модуль накопления", "储能模量", "貯蔵弾性率"}
 )
 LOSS_MODULUS = frozenset(
@@ -62,11 +63,13 @@ LOSS_MODULUS = frozenset(
     | {"verlustmodul", "verlustschubmodul", "zugverlustmodul", "e-verlustmodul", "g-verlustmodul"}
     | {"module de perte", "module perte", "module de dissipation", "module visqueux", "module de perte en cisaillement"}
     | {"módulo de pérdida", "módulo de pérdidas", "módulo viscoso", "modulo dissipativo", "modulo di perdita"}
+    | {"shear modulus (viscous component)"}
     | {"módulo de perda", "verliesmodulus", "förlustmodul", "moduł stratności", "модуль потерь"}
     | {"损耗模量", "損失弾性率"}
 )
 COMPLEX_MODULUS = frozenset(
     {"|E*|", "|G*|", "E*", "G*", "|e*|", "|g*|", "e*", "g*"}
+    | {"shear modulus (complex component)"}
     | {"complex modulus", "dynamic modulus", "absolute modulus", "komplexer modul", "module complexe"}
     | {"módulo complejo", "modulo complesso", "módulo complexo"}
 )
@@ -76,12 +79,39 @@ LOSS_TANGENT = frozenset(
     | {"factor de pérdida", "fattore di perdita", "fator de perda", "verliesfactor", "förlustfaktor"}
 )
 STRAIN_AMPLITUDE = frozenset(
-    {"γ", "ε", "γ0", "ε0", "strain", "strain amplitude", "dynamic strain", "oscillation strain", "shear strain"}
+    {
+        "γ",
+        "ε",
+        "γ0",
+        "ε0",
+        "gamma",
+        "complex shear strain",
+        "strain",
+        "strain amplitude",
+        "dynamic strain",
+        "oscillation strain",
+        "shear strain",
+    }
     | {"strain dyn", "strain dyn.", "dehnungsamplitude", "dynamische dehnung", "scheramplitude", "dehnung"}
     | {"deformation", "deformationsamplitude", "amplitude de déformation", "déformation", "déformation dynamique"}
     | {"amplitud de deformación", "deformación", "deformazione", "ampiezza di deformazione", "deformação"}
 )
-STEP = frozenset({"set", "step", "segment", "interval", "sweep", "schritt", "abschnitt", "intervalle", "étape", "paso"})
+STEP = frozenset(
+    {
+        "set",
+        "step",
+        "action name",
+        "segment number",
+        "segment",
+        "interval",
+        "sweep",
+        "schritt",
+        "abschnitt",
+        "intervalle",
+        "étape",
+        "paso",
+    }
+)
 
 #: The words of DMA tables: name of a quantity in errors -> names of its columns.
 DMA = Vocabulary(

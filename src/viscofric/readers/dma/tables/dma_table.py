@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
 from viscofric.readers.dma.names import deformation_of, quantity, said_by_columns, temperature_in_name
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
+from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
 from viscofric.readers.table import MISSING
 from viscofric.readers.tables import name_columns
@@ -24,6 +26,9 @@ if TYPE_CHECKING:
     from viscofric.readers.table import Table
 
 
+_OF_OSCILLATION = re.compile(r"complex|oscillat|amplitude|dynamic|\bdyn\b", re.IGNORECASE)
+#: Segment and number of a point, as HAAKE RheoWin prints them.
+_SEGMENT = re.compile(r"\d{1,6}\|\d{1,6}")
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
 _MODULI = ("storage modulus", "loss modulus", "complex modulus")
 
@@ -312,6 +317,9 @@ def _note_numbered(table: Table, notes: list[str]) -> None:
 def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     """Return fractions, None without exactly one column of them with a known unit."""
     found = [p for p, column in enumerate(table.columns) if column.quantity == "strain amplitude"]
+    named = [p for p in found if _OF_OSCILLATION.search(table.columns[p].name)]
+    if len(found) > 1 and len(named) == 1:  # others are of a steady deformation
+        found = named
     if len(found) > 1:
         several = " and ".join(repr(table.columns[place].heading) for place in found)
         said = f"The strain amplitudes were not read: {several} may hold them."
@@ -335,10 +343,20 @@ def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
 
 
 def _step(table: Table) -> Integers | None:
-    """Return the numbers of steps, None without exactly one column of whole numbers for them."""
+    """Return the numbers of steps, None without exactly one column for them.
+
+    Steps are whole numbers, names, or segment and point (``2|11``); without any, tables below each other are steps.
+    """
+    for place in range(len(table.columns)):
+        if all(_SEGMENT.fullmatch(row[place].strip()) for row in table.rows):
+            return np.array([int(row[place].partition("|")[0]) for row in table.rows], dtype=np.int64)
     found = [p for p, column in enumerate(table.columns) if column.quantity == "step"]
     if len(found) != 1:
-        return None
+        return table.block
+    cells = [row[found[0]].strip() for row in table.rows]
+    if not any(map(is_number, cells)):
+        names_of_steps = {name: number for number, name in enumerate(dict.fromkeys(cells), start=1)}
+        return np.array([names_of_steps[cell] for cell in cells], dtype=np.int64)
     try:
         numbers = table.numbers(found[0])
     except DataFileError:

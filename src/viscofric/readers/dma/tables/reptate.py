@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 
 NAME = "RepTate text (.osc, .tts)"
+#: Lines that show whether columns have names.
+_HEAD = 20
 _PARAMETERS = re.compile(r"\s*(?:[\w ]+=[^;=]*;)+(?:[\w ]+=[^;=]*)?\s*")
 
 
@@ -46,8 +48,12 @@ def recognises(source: Source) -> bool:
     """Return whether the first line is one of parameters that name a temperature or a molar mass."""
     if source.text is None:
         return False
-    first = source.text.lstrip()[:2000].partition("\n")[0]
-    return bool(_PARAMETERS.fullmatch(first)) and {"T", "Mw"} & set(_parameters(first)) != set()
+    first, *below = [line for line in source.text[:4000].splitlines() if line.strip()][:_HEAD] or [""]
+    if not _PARAMETERS.fullmatch(first):
+        return False
+    columns = [line.split() for line in below if not line.lstrip().startswith("#")]
+    without_names = bool(columns) and len(columns[0]) > 2 and all(map(_is_number, columns[0][:3]))
+    return without_names or bool({"T", "Mw"} & set(_parameters(first)))
 
 
 def _parameters(line: str) -> dict[str, str]:
@@ -90,7 +96,8 @@ def read(source: Source) -> Readings:
 
 def columns(source: Source) -> RepTateColumns:
     """Return the columns of a sweep or a master curve, or raise `DataFileError`."""
-    numbered = [(n, line) for n, line in enumerate((source.text or "").splitlines(), start=1) if line.strip()]
+    lines = enumerate((source.text or "").splitlines(), start=1)
+    numbered = [(n, line) for n, line in lines if line.strip() and not line.lstrip().startswith("#")]
     parameters = _parameters(numbered[0][1])
     body = numbered[1:]
     names, units = _header(body)
@@ -142,9 +149,9 @@ def _reference(parameters: dict[str, str]) -> float:
 
 def _header(body: list[tuple[int, str]]) -> tuple[list[str], list[str]]:
     """Return the names and units of the columns, none where the first row is one of numbers."""
-    rows = [re.split(r"\t", line) if "\t" in line else line.split() for _, line in body[:2]]
-    if not rows or _is_number(rows[0][0]):
+    if not body or _is_number(body[0][1].split()[0]):
         return [], []
+    rows = [re.split(r"\t", line) if "\t" in line else line.split() for _, line in body[:2]]
     names = [cell.strip() for cell in rows[0]]
     units = [] if len(rows) < 2 or _is_number(rows[1][0]) else [cell.strip().strip("[]()") for cell in rows[1]]
     return names, units

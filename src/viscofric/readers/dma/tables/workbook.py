@@ -10,11 +10,12 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, setting
+from viscofric.readers.dma.instruments import rheocompass
 from viscofric.readers.dma.names import DMA
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.tables import find_tables
-from viscofric.readers.workbook import is_workbook, opened
+from viscofric.readers.workbook import is_workbook, opened, sheet_texts
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from viscofric.readers.source import Source
 
 NAME = "Excel workbook"
+#: A frequency that is held ranges by less.
+SAME_FREQUENCY = 1.05
 
 
 def recognises(source: Source) -> bool:
@@ -33,20 +36,47 @@ def read(source: Source) -> Readings:
     """Return the points of all sheets with a DMA table.
 
     Several sheets are the temperatures of one specimen.  If their temperatures overlap, they may as well be several
-    specimens, or copies, and are refused.
+    specimens, or copies, and are refused.  Sheets at one frequency, such as amplitude sweeps, are skipped beside
+    frequency sweeps.
     """
-    readings = {
+    readings = _of_exports(source) or {
         name: read_points(table, source, NAME, name, where=f"sheet {name!r}, row")
         for name, table in find_tables(source, DMA).items()
     }
+    held = [name for name, one in readings.items() if _is_held(one.angular_frequency)]
+    if len(held) == len(readings):
+        held = []
+    readings = {name: one for name, one in readings.items() if name not in held}
     _insist_on_own_temperatures(source, readings)
     hidden = [name for name in opened(source).hidden if name in readings]
     notes = [
         Note("hidden-sheet", f"The sheet {name!r} is hidden in the workbook; it was read nevertheless.")
         for name in hidden
     ]
+    if held:
+        sheets = f"sheet {held[0]!r} is" if len(held) == 1 else f"sheets {', '.join(map(repr, held))} are"
+        notes.append(Note("no-frequency-sweep", f"The {sheets} at one frequency, no frequency sweep; skipped."))
     whole = _joined(source, readings)
     return replace(whole, notes=(*notes, *whole.notes))
+
+
+def _of_exports(source: Source) -> dict[str, Readings]:
+    """Return the points of sheets that hold an instrument's text export, none where the user names columns."""
+    if source.columns:
+        return {}
+    found = {}
+    for name, text in sheet_texts(source).items():
+        if rheocompass.recognises(text):
+            one = rheocompass.read(text)
+            places = tuple(place.replace("line", f"sheet {name!r}, row") for place in one.places)
+            found[name] = replace(one, source=source.path, format=NAME, places=places)
+    return found
+
+
+def _is_held(angular_frequency: Array) -> bool:
+    """Return whether three points or more have one frequency."""
+    known = angular_frequency[angular_frequency > 0.0]
+    return len(known) > 2 and bool(np.max(known) <= SAME_FREQUENCY * np.min(known))
 
 
 def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -> None:
