@@ -172,8 +172,8 @@ CHECKS = (
         "The pressure's asymmetry against the dissipated energy, ball and cylinder",
         _GROUP,
         "F_t v = dissipated power: another way to the same force, through −Im S",
-        "Both settle with the grid, the slower one to three times the requested accuracy; the solver itself refuses an "
-        "answer where they differ by more.",
+        "Both converge with the grid, the slower one to three times the requested accuracy; a solution in which "
+        "they differ by more is refused.",
         _energy,
     ),
 )

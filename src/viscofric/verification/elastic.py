@@ -87,8 +87,8 @@ CHECKS = (
         "Ball at rest and at infinite speed",
         _GROUP,
         "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22-4.24, with E0 and with E∞",
-        "128 cells: a quarter of a cell at an edge, a tenth all around the rim; depth and pressure converge faster. "
-        "The friction of a symmetric pressure is round-off.",
+        "128 cells: an edge is accurate to a quarter of a cell, the mean edge along the rim to a tenth; depth and "
+        "pressure converge faster. The friction of a symmetric pressure is a rounding error.",
         _ball,
     ),
     Check(
@@ -96,7 +96,7 @@ CHECKS = (
         "Cylinder at rest and at infinite speed",
         _GROUP,
         "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.43-4.45",
-        "128 cells: a quarter of a cell at an edge.",
+        "128 cells: an edge is accurate to a quarter of a cell.",
         _cylinder,
     ),
     Check(
@@ -104,7 +104,7 @@ CHECKS = (
         "Ellipsoids at rest",
         _GROUP,
         "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.24-4.27",
-        "A quarter of a cell at an edge, of which the shorter axis has 30.",
+        "An edge is accurate to a quarter of a cell; the shorter axis has 30 cells.",
         _ellipsoid,
     ),
     Check(
@@ -112,7 +112,7 @@ CHECKS = (
         "Cone at rest and at infinite speed",
         _GROUP,
         "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 5",
-        "128 cells, as for the ball; the tip's infinite pressure does not spoil depth and area.",
+        "128 cells, as for the ball; the infinite pressure at the tip hardly affects depth and area.",
         _cone,
     ),
     Check(
@@ -120,7 +120,7 @@ CHECKS = (
         "Flat punch, depth given, at rest and at infinite speed",
         _GROUP,
         "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 6: F = 2aE*δ",
-        "The edge is a staircase under an infinite pressure: first order in the cell, of which the radius has 49.",
+        "The edge is a staircase with an infinite pressure: first order in the cell size; the radius has 49 cells.",
         _punch,
     ),
 )

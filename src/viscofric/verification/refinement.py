@@ -170,8 +170,9 @@ CHECKS = (
         "Errors fall with the cell h: orders of convergence",
         "refinement",
         "Hertz, Hunter, and the reference value of the ball",
-        "Sums over the contact see the edge's square root as h^1.5 at least; areas lie on the edge itself and are of "
-        "first order. Scatter of single grids, an edge in a cell, takes a tenth or two.",
+        "Errors of sums over the contact, where pressures end like a square root, fall at least as h^1.5; areas "
+        "depend on the edge itself and are of first order. The scatter of single grids (position of the edge in "
+        "its cell) changes the observed order by a tenth or two.",
         _orders,
     ),
 )

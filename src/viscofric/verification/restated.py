@@ -120,25 +120,25 @@ CHECKS = (
         "Motion across and oblique to an ellipsoid's axes",
         _GROUP,
         "symmetry: other axes, the mirror image; at low speed a symmetric tensor",
-        "Symmetry: round-off and the solver's tolerance, of which the lateral force, a small difference, keeps more. "
-        "Tensor: the requested accuracy, on both sides.",
+        "Symmetry: rounding errors and the solver's tolerance, which affect the lateral force more, since it is a "
+        "small difference. Tensor: the requested accuracy, on both sides.",
         _direction,
     ),
     Check(
         "modulus-table",
-        "A table of moduli in the spectrum's place, ten frequencies a decade",
+        "A table of moduli instead of the spectrum, ten frequencies per decade",
         _GROUP,
-        "the contact on the spectrum that the table was made from",
-        "A broad spectrum is met by the modes fitted to the table to 1e-5 of the moduli; the steep moduli of a single "
-        "time are read to 0.2 % between the frequencies of the table.",
+        "the contact with the spectrum from which the table was computed",
+        "The modes fitted to the table reproduce the moduli of a broad spectrum to 1e-5, and the steep moduli of a "
+        "single retardation time, between the frequencies of the table, to 0.2 %.",
         _table,
     ),
     Check(
         "backends",
-        "Arrays and FFTs that are checked, or SciPy's in two threads",
+        "The selected backend, or SciPy's FFTs in two threads",
         _GROUP,
         "the same contacts with SciPy's FFTs in one thread",
-        "Round-off and what the solver's tolerance makes of it.",
+        "Rounding errors, within the solver's tolerance.",
         _backends,
     ),
 )

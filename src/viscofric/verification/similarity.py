@@ -142,7 +142,7 @@ CHECKS = (
         "Moduli × 1e6, lengths × 1e-3, times × 1e9",
         _GROUP,
         "dimensional analysis",
-        "The same sequence of steps: round-off and what the solver's tolerance makes of it.",
+        "The same sequence of steps: rounding errors, within the solver's tolerance.",
         _units,
     ),
     Check(
@@ -150,7 +150,7 @@ CHECKS = (
         "Motion reversed",
         _GROUP,
         "symmetry: the contact is its mirror image",
-        "As for the units; the mirrored profile is interpolated anew, and rounded differently.",
+        "As for the units; the mirrored profile is interpolated again, with other rounding errors.",
         _mirror,
     ),
     Check(

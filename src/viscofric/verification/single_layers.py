@@ -53,7 +53,7 @@ def _layers() -> Iterator[Comparison]:
 CHECKS = (
     Check(
         "single-layers",
-        "Cylinder and ball alone on thin layers and a deep one, at rest and in motion",
+        "Single cylinder and ball on thin layers and on a thick one, at rest and in motion",
         "waves and layers",
         "D. G. Flom, A. M. Bueche, J. Appl. Phys. 30 (1959) 1725; W. D. May and others, the same, 1713; the half-space",
         "Thin: the requested accuracy, and terms of the order (H/a)², with H/a = 0.025. Deep: the base bends the "

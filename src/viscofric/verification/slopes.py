@@ -98,8 +98,8 @@ CHECKS = (
         "Derivatives of the friction coefficient with modes, glass, speed, load and indentation",
         "sensitivities",
         "those of Hunter's closed form, and differences of solutions 6 % up and down",
-        "On so many cells derivatives are right to about 0.1 %; friction is to 1e-4, which a difference "
-        "divides by its step.",
+        "On these grids derivatives are accurate to about 0.1 %; friction is accurate to 1e-4, an error that a "
+        "difference divides by its step.",
         _derivatives,
     ),
 )

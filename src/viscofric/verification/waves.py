@@ -172,7 +172,7 @@ CHECKS = (
         "Crossed waves at rest: full, nearly full and light contact",
         _GROUP,
         "K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383",
-        "Full contact is linear: round-off. The two asymptotes leave out their next terms; areas are counted in cells.",
+        "Full contact is linear: round-off. The two asymptotes neglect their next terms; areas are counted in cells.",
         _crossed,
     ),
     Check(
@@ -180,7 +180,7 @@ CHECKS = (
         "Layer twice as thick as its waves are long, in motion",
         _GROUP,
         "the half-space",
-        "What is left of the base is of the order (qH)² exp(−2qH), below 1e-8; the solver's tolerance.",
+        "The effect of the base is of the order (qH)² exp(−2qH), below 1e-8; the bound is the solver's tolerance.",
         _thick_layer,
     ),
     Check(
@@ -188,7 +188,7 @@ CHECKS = (
         "Cylinder on thin layers at rest: Winkler's foundation and the incompressible layer",
         _GROUP,
         "K. L. Johnson, Contact Mechanics (1985), Sec. 5.8",
-        "The limits leave out terms of the order H/a, here 0.025, whose factor is small for pressures; widths are "
+        "The limits neglect terms of the order H/a, here 0.025, whose factor is small for pressures; widths are "
         "counted in cells of 0.004 a.",
         _thin_layers,
     ),

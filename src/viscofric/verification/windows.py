@@ -84,8 +84,9 @@ CHECKS = (
         "A ball repeated in periods of 2.4 to 38.4 a0",
         "refinement",
         "one ball on the free half-space, solved without Fourier space's periodicity",
-        "The neighbours' memory reaches 10 a0 far; from there on they fade at least as the period squared. What is "
-        "left in the largest window is 1 %, and the cells of 0.075 a0 add a few tenths.",
+        "The memory length is 10 a0; for longer periods, the effect of the periodic images falls at least as the "
+        "inverse square of the period. In the largest window it is 1 %, and the cells of 0.075 a0 add a few tenths "
+        "of a per cent.",
         _windows,
     ),
 )

@@ -80,7 +80,7 @@ CHECKS = (
         "Ball sliding on a half-space with one retardation time",
         _GROUP,
         "G. Carbone, C. Putignano, J. Mech. Phys. Solids 61 (2013) 1822, Fig. 12, doi:10.1016/j.jmps.2013.03.005",
-        "The tolerances, 5 and 8 %, at which the test of slippy meets the same points.",
+        "The tolerances, 5 and 8 %, within which slippy's own test reproduces the same points.",
         _sliding_ball,
         obtained="Three points of the figure, taken from its vector graphics by the test "
         "`test_viscoelastic_sliding.py` of slippy (FrictionTribologyEnigma/slippy on GitHub).",
