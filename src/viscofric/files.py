@@ -68,7 +68,7 @@ def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
         if status.st_size > (most or LARGEST_TABLE):
             size, right = math.ceil(status.st_size / 1e6), (most or LARGEST_TABLE) / 1e6
             what = "such a file has" if most else "a table of measurements may have"
-            hint = "" if most else "; keep every tenth row, say, or divide it into several files"
+            hint = "" if most else "; keep every tenth row, for example, or divide it into several files"
             raise DataFileError(shown, f"holds {size} MB; {what} at most {right:.0f} MB{hint}.", code="too-large")
         return file.read_bytes()
     except FileNotFoundError:

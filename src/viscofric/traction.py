@@ -223,7 +223,9 @@ class TractionRuns:
             if wanted is not None:
                 chosen = chosen[self._in_steps(name, wanted)[chosen] == keep]
         if not chosen.size:
-            raise InputError("select would leave no reading; see steps for what there is.", code="wrong-selection")
+            raise InputError(
+                "the selection contains no reading; the steps are listed by runs.steps.", code="wrong-selection"
+            )
         columns: dict[str, Any] = {
             column.name: value[chosen]
             for column in fields(self)

@@ -20,7 +20,6 @@ from cli.refusals import refusal, refusal_of
 from viscofric.cli import main
 from viscofric.cli.run import print_outcome
 from viscofric.notes import Note
-from viscofric.report.texts.numbers import typeset
 from viscofric.study import open_results
 from viscofric.study.results.file import save_results
 
@@ -222,7 +221,7 @@ def test_missed_accuracy_is_a_warning_and_a_number_and_no_failure(tmp_path: Path
     assert finished["beyond_accuracy"] == results.beyond_accuracy == beyond
     (warning,) = [note for note in results.warnings if note.code == "accuracy-missed"]
     assert warning in finished["warnings"]
-    assert result.stderr.count(typeset(warning.words("run_file"))) == 1
+    assert result.stderr.count(warning.words("run_file")) == 1
 
 
 @pytest.mark.slow

@@ -60,12 +60,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         (
             f"solve {SOLID} --speed '1 m/s' --load '1 N'",
             2,
-            (
-                "nothing says what the indenter is; give --ball, --cylinder, --ellipsoid, --cone, --punch, "
-                "--height-map, --profile."
-            ),
+            ("no indenter is given; give --ball, --cylinder, --ellipsoid, --cone, --punch, --height-map, --profile."),
         ),
-        (f"solve {BALL}", 2, "nothing says what the rubber is; give --material, --dma, or --E0, --E-inf and --tau."),
+        (f"solve {BALL}", 2, "no material is given; give --material, --dma, or --E0, --E-inf and --tau."),
         (
             f"solve {SOLID} --material 'VHB 4910' {BALL}",
             2,
@@ -280,7 +277,7 @@ def test_a_refusal_says(
         (SOLVE + " --direction 1,1", ["lateral friction      0 (no lateral force)"]),
         (
             f"solve {RUBBER} --ball '9 mm' --speed '0.1 m/s' --load '60 N' --temperature '60 degC' --accuracy 0.05",
-            ["SYNTHETIC", "60 °C", "Warning: The contact reaches"],
+            ["SYNTHETIC", "60 °C", "Warning: The contact extends"],
         ),
         ("material list", ["SYNTHETIC"]),
         ("material read dma.csv", ["26 isotherms", "moduli in tension"]),

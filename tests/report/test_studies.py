@@ -118,7 +118,7 @@ def test_highest_friction_of_each_load_is_reported_at_a_glance(make_study: Calla
     tree = make_study(STUDIES["loads"])
     glance = friction_at_a_glance(tree)
     assert glance is not None
-    assert glance.headings == ["load", "highest friction", "at", "and", "lowest friction"]
+    assert glance.headings == ["load", "highest friction", "at temperature", "and speed", "lowest friction"]
     friction = tree["prediction"]["friction_coefficient"]
     for row, load in zip(glance.rows, (5.0, 25.0, 50.0), strict=True):
         assert row[0] == f"{load:g}\N{NO-BREAK SPACE}N"
@@ -131,7 +131,7 @@ def test_what_varies_is_said(make_study: Callable[..., xr.DataTree]) -> None:
     assert "under 5 to 50 N" in asked
     listed = {item.name: item.value for item in inputs(make_study(STUDIES["loads"]))}
     assert listed["load"] == "5 N, 25 N and 50 N"
-    assert listed["speed"] == "1 mm/s to 1 m/s (7 in all)"
+    assert listed["speed"] == "1 mm/s to 1 m/s (7 values)"
     assert listed["cases"] == "84"
     asked = " ".join(scope(make_study(STUDIES["rubbers"])))
     assert "Varied as well: material (NBR 70 and FKM 75)." in asked

@@ -153,7 +153,7 @@ def test_abaqus_in_the_frequency_domain_keeps_its_shift_in_comments(tmp_path):
     text = path.read_text()
     assert "*VISCOELASTIC, FREQUENCY=PRONY" in text
     assert "*TRS" not in text  # which belongs to the time domain
-    assert "holds at 25 degrees Celsius only" in text
+    assert "is valid at 25 degrees Celsius only" in text
     assert_same(read_card(path), material)
 
 

@@ -241,7 +241,7 @@ SAID = [
     (
         lambda: vf.read_shift_factors(written("a.csv", "T_C,log10_aT\n0,3\n20,2\n40,1\n")),
         "no-reference",
-        "a.csv: log10 aT is zero nowhere between 0.0 and 40.0 °C; say with reference= where α is 1.",
+        "a.csv: log10 aT is not zero between 0.0 and 40.0 °C; give the temperature where α is 1 (reference=).",
     ),
 ]
 

@@ -75,7 +75,7 @@ def chosen_indenter(parameters: dict[str, Any]) -> NamedIndenter:
     given = [name for name in SHAPES if parameters[name] is not None]
     if len(given) != 1:
         if not given:
-            raise click.UsageError(f"nothing says what the indenter is; give {', '.join(map(option, SHAPES))}.")
+            raise click.UsageError(f"no indenter is given; give {', '.join(map(option, SHAPES))}.")
         raise click.UsageError(f"{' and '.join(map(option, given))} are both given; there is one indenter.")
     (shape,) = given
     if shape in ("height_map", "profile"):

@@ -109,7 +109,7 @@ def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
     if given == ["dma"]:
         return _of_sweeps(parameters)
     if len(single) < len(_SINGLE):
-        raise click.UsageError("nothing says what the rubber is; give --material, --dma, or --E0, --E-inf and --tau.")
+        raise click.UsageError("no material is given; give --material, --dma, or --E0, --E-inf and --tau.")
     from viscofric.rheology.material import Material
 
     ratio = 0.5 if parameters["poisson_ratio"] is None else parameters["poisson_ratio"]

@@ -235,7 +235,7 @@ def compare(
 
 def _insist_on_friction(measured: FrictionCurves) -> None:
     if not len(measured):
-        raise InputError("measured friction curves hold no points; there is nothing to compare.", code="no-points")
+        raise InputError("measured friction curves contain no points; there is nothing to compare.", code="no-points")
     if not np.all(measured.viscoelastic > 0.0):
         raise InputError(
             "viscoelastic of measured friction curves must be above zero everywhere for a relative difference, but "

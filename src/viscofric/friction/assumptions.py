@@ -107,7 +107,7 @@ def check_assumptions(
     insist_on_curves(curves, "curves")
     insist_on_material(material)
     if not len(curves):
-        raise InputError("friction curves hold no points; there are no contacts to check.", code="no-points")
+        raise InputError("friction curves contain no points; there are no contacts to check.", code="no-points")
     insist_on_indenter(indenter)
     if material.shift is None:
         raise InputError("material has no shift; the effect of warming on friction needs α(T).", code="no-shift")

@@ -190,7 +190,7 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
             **columns,
         )
     except InputError as error:
-        raise DataFileError(path, f"holds no friction curves: {error}", code="not-friction-curves") from None
+        raise DataFileError(path, f"contains no friction curves: {error}", code="not-friction-curves") from None
 
 
 def holds_friction_curves(path: str | PathLike[str]) -> bool:

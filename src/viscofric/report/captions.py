@@ -123,7 +123,7 @@ def _of_map(tree: xr.DataTree) -> str:
     said += "Between the solved speeds and temperatures the colours are interpolated"
     said += ", from one temperature to the next along α(T)·v." if any(known_shifts(tree)) else "."
     if friction is not None and friction.sizes.get("temperature", 0) <= MARKED_TEMPERATURES:
-        said += " Dotted: those temperatures."
+        said += " Dotted lines: the solved temperatures."
     if group(tree, "measurement") is not None:
         said += " Circles: where friction was measured."
     if friction is not None and not np.isfinite(friction["friction_coefficient"].values).all():
@@ -167,10 +167,10 @@ def _of_convergence(tree: xr.DataTree) -> str:
         "the pressure and from the dissipated energy, both relative to the friction coefficient"
     )
     if cases is None or not between:
-        return f"{said}; below, the cells along the longer edge of the finest grid."
+        return f"{said}. Below: cells along the longer edge of the finest grid."
     return (
         f"{said}. {between} of {cases.sizes['case']} values (open marks) are interpolated between solved contacts "
-        "(interpolation error included); below, the cells along the longer edge of the finest grid of the others."
+        "(interpolation error included). Below: cells along the longer edge of the finest grid, for the solved cases."
     )
 
 

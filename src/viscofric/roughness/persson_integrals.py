@@ -79,7 +79,7 @@ class Theory:
             coarse = fine
         raise ConvergenceError(
             f"the integrals of Persson's theory still change by {error:.1g} after {_MOST_REFINEMENTS} refinements; "
-            f"ask for an accuracy above {accuracy:g}.",
+            f"request an accuracy above {accuracy:g}.",
             code="not-converged",
         )
 

@@ -91,5 +91,5 @@ def read_topography(
     except InputError as error:
         raise DataFileError(path, error.note) from None
     if found.missing == found.heights.size:
-        raise DataFileError(path, "holds no height at all: all of its points are without a reading.", code="no-points")
+        raise DataFileError(path, "contains no heights: no point has a reading.", code="no-points")
     return found

@@ -226,7 +226,7 @@ class Topography:
         z = self.complete()
         for axis in (0,) if self.is_line else (0, 1):
             z = np.concatenate([z, np.flip(z, axis)], axis)
-        return self._with(z, "mirrored: set beside its mirror images", periodic=True)
+        return self._with(z, "mirrored: extended by its mirror images", periodic=True)
 
     def crop(
         self, x: tuple[Quantity, Quantity] | None = None, y: tuple[Quantity, Quantity] | None = None

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 #: What is sent at once may have this many bytes: a browser is not to be handed more.
 LARGEST_MESSAGE = 48_000_000
 _LARGEST_FILE = 200_000_000  # bytes, of one that a job writes
-_NO_MEMORY = "There was not enough memory for this; ask for less accuracy or fewer points."
+_NO_MEMORY = "There was not enough memory for this; request less accuracy or fewer points."
 _DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 _NICE = 5  # the server and the browser go first
 
@@ -133,8 +133,8 @@ class Desk:
         body = _json({"event": event, **message})
         if len(body) > LARGEST_MESSAGE:
             raise ViscofricError(
-                f"The reply has {len(body) / 1e6:.0f} MB, more than a browser is handed "
-                f"({LARGEST_MESSAGE / 1e6:.0f} MB); ask for fewer points.",
+                f"The reply has {len(body) / 1e6:.0f} MB, more than is sent to a browser "
+                f"({LARGEST_MESSAGE / 1e6:.0f} MB); request fewer points.",
                 code="too-large",
             )
         self._replies.put(f"{number} {event} {'stays' if stays else 'ends'} {len(body)}\n".encode() + body)

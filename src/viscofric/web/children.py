@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _PROGRAM = "from viscofric.web.child import main; main({parent})"
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _LONGEST_END = 1.0  # s that its last words may take
-_ENDED = "The process that computed this ended, usually for lack of memory; ask for less accuracy or fewer points."
+_ENDED = "The process that computed this ended, usually for lack of memory; request less accuracy or fewer points."
 
 
 class Message(NamedTuple):
@@ -341,7 +341,7 @@ async def _until(child: Child, sending: asyncio.Future[None], seconds: float) ->
                 message = await child.messages.get()
         except TimeoutError:
             child.kill()
-            words = f"This took longer than {seconds:.0f} s and was stopped; ask for less accuracy or fewer points."
+            words = f"This took longer than {seconds:.0f} s and was stopped; request less accuracy or fewer points."
             yield Message("ended", line("error", message=words, field=None))
             return
         yield message

@@ -184,7 +184,7 @@ def _field_and_level(stage: Stage, by_pressure: Array, held: Array, *, fixed_loa
         field += backend.to_numpy(contact.scattered(correction))
     raise ConvergenceError(
         f"the derivatives of the friction coefficient did not converge: their linear problem was solved to "
-        f"{size / first:.1e} where {_TOLERANCE:.0e} was needed; ask for less accuracy, which needs a coarser grid.",
+        f"{size / first:.1e} where {_TOLERANCE:.0e} was needed; request less accuracy, which needs a coarser grid.",
         code="not-converged",
     )
 

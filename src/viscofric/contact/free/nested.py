@@ -131,8 +131,8 @@ class _Goal:
         """Return what to raise."""
         known = self.errors[-1] if self.errors else math.inf
         return ConvergenceError(
-            f"the friction coefficient is known to {known:.1e} of itself on {where}; ask for less accuracy than "
-            f"{self.accuracy:g} or a finer grid.",
+            f"the relative error of the friction coefficient is {known:.1e} on {where}; request less accuracy than "
+            f"{self.accuracy:g}, or a finer grid.",
             code="accuracy-not-reached",
         )
 

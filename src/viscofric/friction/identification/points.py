@@ -113,7 +113,7 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
     if not alike and np.ptp(relative) > np.log1p(SAME_LOAD):
         raise InputError(
             f"load of the friction curves runs from {forces.min():.3g} to {forces.max():.3g} {unit}, but contacts of "
-            f"a {indenter.noun} at different loads are not alike; choose one",
+            f"a {indenter.noun} at different loads are not similar; choose one",
             code="several-loads",
             remedy=Remedy(" with curves.at_load()", "", page="") + ".",
         )

@@ -135,7 +135,7 @@ class Grouping:
             raise problem
         if not groups:
             raise InputError(
-                "traction runs hold no reading with the disc in motion: nothing to separate.", code="no-readings"
+                "traction runs contain no reading with the disc in motion: nothing to separate.", code="no-readings"
             )
         split = {place: two for place, group in enumerate(groups) if (two := two_groups(runs, group, zeros))}
         mixed = {id(groups[place]) for place, two in split.items() if two.opposite}

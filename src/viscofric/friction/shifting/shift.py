@@ -187,7 +187,7 @@ def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: An
     """Raise `InputError` for curves or arguments that cannot be used."""
     insist_on_curves(curves, "curves")
     if not len(curves):
-        raise InputError("friction curves hold no points; there is nothing to shift.", code="no-points")
+        raise InputError("friction curves contain no points; there is nothing to shift.", code="no-points")
     if shift is not None and not hasattr(shift, "log10"):
         raise InputError(
             f"shift of friction curves must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}; leave it "

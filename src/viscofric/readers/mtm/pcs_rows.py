@@ -130,7 +130,7 @@ def _contents(export: Export, used: Integers) -> Iterator[str]:
         listed = ", ".join(f"{count} {kind}" for kind, count in kinds.most_common(8))
         yield Note(
             "steps-without-traction",
-            f"{len(without)} of {len(export.steps)} steps hold no traction readings and are skipped: {listed}.",
+            f"{len(without)} of {len(export.steps)} steps contain no traction readings and are skipped: {listed}.",
         )
 
 

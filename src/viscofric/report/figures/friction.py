@@ -196,7 +196,7 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction, *, synthetic: bool 
     points = measured(measurement, "coulomb")
     if not np.isfinite(points.friction).any():
         raise InputError(
-            "the friction curves hold no Coulomb friction: measure with slip, in both directions.", code="no-coulomb"
+            "the friction curves contain no Coulomb friction: measure with slip, in both directions.", code="no-coulomb"
         )
     nominal = nominal_temperatures(points.temperature)
     _plot_measured(axes, points, nominal)

@@ -137,7 +137,13 @@ def _highest_friction(
     return Table(
         _GLANCE,
         f"Highest predicted viscoelastic friction coefficient.{some}",
-        [*(name.replace("_", " ") for name in others), "highest friction", "at", "and", "lowest friction"],
+        [
+            *(name.replace("_", " ") for name in others),
+            "highest friction",
+            "at temperature",
+            "and speed",
+            "lowest friction",
+        ],
         shown,
         note=f"* {_meaning(*chain(*doubts))}." if any("*" in cell for row in shown for cell in row) else "",
     )

@@ -139,7 +139,7 @@ def _points(axis: SweepAxis) -> str:
     """Say the points of an axis: all of a few, the ends of many."""
     if len(axis) <= _FEW:
         return several(list(axis.labels)) if not any("," in label for label in axis.labels) else "; ".join(axis.labels)
-    return f"{axis.labels[0]} to {axis.labels[-1]} ({len(axis)} in all)"
+    return f"{axis.labels[0]} to {axis.labels[-1]} ({len(axis)} values)"
 
 
 def _temperatures(data: xr.Dataset) -> list[str]:

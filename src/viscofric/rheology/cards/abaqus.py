@@ -116,7 +116,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     viscoelastic = _only(chosen, "VISCOELASTIC")
     if viscoelastic is None:
         raise InputError(
-            "holds no *VISCOELASTIC; expected *VISCOELASTIC, TIME=PRONY with lines g, k, tau.", code="no-terms"
+            "contains no *VISCOELASTIC; expected *VISCOELASTIC, TIME=PRONY with lines g, k, tau.", code="no-terms"
         )
     if "PRONY" not in (viscoelastic.options.get("TIME", "").upper(), viscoelastic.options.get("FREQUENCY", "").upper()):
         raise InputError(
@@ -236,7 +236,7 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
     block = elastic or hyperelastic
     if block is None or not block.data:
         raise InputError(
-            "holds no *ELASTIC or *HYPERELASTIC with numbers, so that its moduli are not known.", code="no-modulus"
+            "contains no *ELASTIC or *HYPERELASTIC with numbers, so that its moduli are not known.", code="no-modulus"
         )
     if len(block.data) > 1 and elastic is not None:
         notes.append(

@@ -112,7 +112,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     ratio = properties.get("PRXY", properties.get("NUXY"))
     if modulus is None or ratio is None:
         raise InputError(
-            "holds no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.",
+            "contains no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.",
             code="no-modulus",
         )
     if not (modulus > 0.0 and 0.0 <= ratio < 0.5):

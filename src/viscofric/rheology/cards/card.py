@@ -101,8 +101,8 @@ class Reading:
             return []
         note = Note(
             "unit-assumed",
-            f"The card does not state its units; {' and '.join(assumed)} were assumed (modulus_unit=, time_unit= say "
-            "otherwise).",
+            f"The card does not state its units; {' and '.join(assumed)} were assumed (give others with "
+            "modulus_unit= and time_unit=).",
         )
         return [note]
 

@@ -225,7 +225,7 @@ def _no_shift(about: str, shift: Any, form: str, domain: str) -> Note:
     only = "the program takes a shift law, but no table of shift factors"
     remedy = None
     if form == "comsol-branches":
-        why = 'a table of branches holds no shift; format "comsol" does.'
+        why = 'a table of branches contains no shift; format "comsol" does.'
     elif form == "abaqus" and domain == "frequency":
         why = "in the frequency domain Abaqus takes no shift."
     elif not isinstance(shift, ShiftFactors):

@@ -39,17 +39,17 @@ def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_wr
     if material.citation:
         sentences.append(f"Source: {material.citation}")
     sentences.append(
-        "The Poisson ratio is constant, so that bulk and shear relax alike (k_i = g_i)."
+        "The Poisson ratio is constant, so that bulk and shear modulus relax in the same way (k_i = g_i)."
         if poisson_ratio < 0.5
         else "The material is incompressible: use hybrid (mixed) elements."
     )
     if poisson_ratio != material.poisson_ratio:
         own = f"The material's Poisson ratio is {material.poisson_ratio!r}"
-        sentences.append(f"{own}; this card was asked to have {poisson_ratio!r}.")
+        sentences.append(f"{own}; this card has {poisson_ratio!r}, as requested.")
     if material.shift is not None and not shift_written:
         sentences.append(
-            f"The card holds at {celsius(float(material.shift.reference)):.6g} degrees Celsius only: this keyword "
-            f"cannot hold its shift, {type(material.shift).__name__}."
+            f"The card is valid at {celsius(float(material.shift.reference)):.6g} degrees Celsius only: this keyword "
+            f"cannot express its shift, {type(material.shift).__name__}."
         )
     if material.vertical_shift is not None:
         sentences.append("The vertical shift of the modulus with temperature, b(T), is not in the card.")

@@ -163,7 +163,7 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
         )
     terms = [row[:4] for row in rows[2:] if any(row[:4])]
     if not terms:
-        raise InputError("*MAT_GENERAL_VISCOELASTIC holds no terms GI, BETAI.", code="no-terms")
+        raise InputError("*MAT_GENERAL_VISCOELASTIC contains no terms GI, BETAI.", code="no-terms")
     return title, head, terms
 
 

@@ -266,7 +266,9 @@ def _notes(chosen: LawRow, rows: list[LawRow], table: FactorTable) -> tuple[Note
         notes.append(Note("law-scatter", text + f"{stated:.2g} explain."))
     if any(row.kind == "wlf" for row in fitted):
         notes.append(
-            Note("vft-is-wlf", "VFT is the same curve as WLF in other constants, and no candidate of its own.")
+            Note(
+                "vft-is-wlf", "VFT is the same curve as WLF with other constants; it is not counted as a separate law."
+            )
         )
     return tuple(notes)
 

@@ -185,9 +185,11 @@ def _zero(path: str, kelvin: Array, values: Array, wanted: float | None) -> floa
     if wanted is not None:
         return wanted
     span = f"{shown_celsius(kelvin[0])} and {shown_celsius(kelvin[-1])} °C"
-    how_often = "nowhere" if exact.size + between.size == 0 else "at more than one temperature"
+    how_often = "not zero" if exact.size + between.size == 0 else "zero at more than one temperature"
     raise DataFileError(
-        path, f"log10 aT is zero {how_often} between {span}; say with reference= where α is 1.", code="no-reference"
+        path,
+        f"log10 aT is {how_often} between {span}; give the temperature where α is 1 (reference=).",
+        code="no-reference",
     )
 
 

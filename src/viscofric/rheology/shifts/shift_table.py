@@ -119,7 +119,7 @@ def _lines(text: str, path: str) -> _Lines:
         else:
             lines.rows.append((number, cells))
     if not lines.rows:
-        raise DataFileError(path, "holds no table: headings and rows of numbers are wanted.", code="no-table")
+        raise DataFileError(path, "contains no table; expected headings and rows of numbers.", code="no-table")
     return lines
 
 

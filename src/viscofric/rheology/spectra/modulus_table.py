@@ -290,7 +290,7 @@ def what_was_fitted(spectrum: RetardationSpectrum) -> tuple[str, ...]:
     if fit is None or fit.rms_storage is None or fit.rms_loss is None:
         return ()
     stands = (
-        f"The material is a table of moduli, for which {fit.modes} retardation modes fitted to it stand: rms errors of "
+        f"The material is a table of moduli, to which {fit.modes} retardation modes were fitted: rms errors of "
         f"{fit.rms_storage:.2g} decades of E' and {fit.rms_loss:.2g} of E''."
     )
     return (stands, *fit.notes)

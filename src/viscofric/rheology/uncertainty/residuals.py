@@ -134,9 +134,9 @@ class SystematicMisfit:
         modulus = ("E'", "E''")[worst[1]] if self.size.shape[1] > 1 else "the response"
         sentence = (
             f"The fit misses the measured moduli by more than noise, {modulus} by up to {largest:.2g} decades "
-            f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, alike "
-            "over neighbouring points: isotherms do not superpose, or the spectrum cannot follow them. The bands of "
-            "E' and E'' are widened by it; those of other quantities hold for noise alone."
+            f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, with "
+            "the same sign at neighbouring points: isotherms do not superpose, or the spectrum cannot follow them. The "
+            "bands of E' and E'' are widened accordingly; those of other quantities include the noise only."
         )
         return (sentence,)
 

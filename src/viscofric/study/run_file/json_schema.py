@@ -27,7 +27,7 @@ def json_schema() -> dict[str, Any]:
         if "$ref" in table:  # other keys are ignored there in this dialect; the table has its own defaults
             table.pop("default", None)
     schema["oneOf"] = [{"required": [body]} for body in ("indenter", "surface")]
-    about = "What a study asks for. Every quantity carries its unit; paths are relative to the run file."
+    about = "Definition of a study. Every quantity carries its unit; paths are relative to the run file."
     return {"$schema": DIALECT, **schema, "title": "Run file of viscofric", "description": about}
 
 

@@ -146,7 +146,7 @@ def _size(tables: Tables) -> Iterator[Problem]:
         counts = " × ".join(f"{len(values):,} {name}" for name, values in known.items() if len(values) > 1)
         yield (
             "",
-            f"asks for {count:,} cases ({counts}), more than {MOST_CASES:,}; give fewer points, or several run files",
+            f"requests {count:,} cases ({counts}), more than {MOST_CASES:,}; give fewer points, or several run files",
         )
 
 

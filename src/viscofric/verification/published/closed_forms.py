@@ -160,7 +160,7 @@ CHECKS = (
         "Friction: the requested accuracy. Width: four tenths of a cell at each edge, 128 cells at least.",
         _power_law,
         obtained="Closed form, derived again here: a singular integral equation with a homogeneous kernel.",
-        unstated="The paper was seen as an abstract only.",
+        unstated="Only the abstract of the paper was available.",
     ),
     Check(
         "greenwood-tabor",

@@ -81,7 +81,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     indenter = indenter_of(study)
     if indenter is None:
         raise JobError(
-            Note("missing", "is missing; say what slid over the rubber, such as a ball.", "indenter"), "indenter"
+            Note("missing", "is missing; give the indenter of the test, such as a ball.", "indenter"), "indenter"
         )
     wants_rubber = options.beside or options.shift == "rubber" or (options.anchor and options.anchor.of == "rubber")
     rubber = made_rubber(study, context).material if wants_rubber else None
@@ -89,7 +89,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     if options.shift == "rubber":
         if rubber is None or rubber.shift is None:
             raise JobError(
-                "The page's rubber has no shift factors: let them be found from friction.", "material", code="no-shift"
+                "The page's material has no shift factors; choose “found from friction”.", "material", code="no-shift"
             )
         chosen["shift"] = rubber.shift
     anchor = None if options.anchor is None else _anchor(options.anchor, rubber, curves)

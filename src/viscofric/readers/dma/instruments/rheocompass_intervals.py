@@ -102,7 +102,7 @@ def intervals(source: Source) -> list[Interval]:
     text = source.text or ""
     first = _INTERVAL.search(text)
     if first is None:
-        raise DataFileError(source.path, "holds no interval of numbered points.", code="no-points")
+        raise DataFileError(source.path, "contains no interval of numbered points.", code="no-points")
     lines = text.splitlines()
     cells = [_cells(line, first["mark"]) for line in lines]
     found = []
@@ -118,7 +118,9 @@ def intervals(source: Source) -> list[Interval]:
         found.append(_interval(source.path, cells, start, named))
     broken = found[-1].missing > 0 or len(cells[-1]) < len(found[-1].columns)
     if broken and not text.endswith(("\n", "\r")):
-        problem = f"the last interval announces {found[-1].announced} points, but the file breaks off; export it anew."
+        problem = (
+            f"the last interval announces {found[-1].announced} points, but the file is truncated; export it again."
+        )
         raise DataFileError(source.path, problem, len(lines), code="cut-short")
     return found
 
