@@ -288,7 +288,18 @@ class FrictionCurves:
         return value - half, value + half
 
     def select(self, keep: Mask | Integers) -> FrictionCurves:
-        """Return the entries that a mask or row numbers pick, in that order; notes and source stay."""
+        """Return some of the entries, with the same notes and source.
+
+        Parameters
+        ----------
+        keep : (n,) array of bool, or array of int
+            Mask of the entries, or their indices in the order wanted.
+
+        Raises
+        ------
+        InputError
+            If a mask has another length, or there is no such entry.
+        """
         rows = picked(keep, len(self), "entries")
         columns = {
             field.name: getattr(self, field.name)[rows]

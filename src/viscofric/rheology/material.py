@@ -204,7 +204,25 @@ class Material:
         return modes_of_table(self.spectrum)  # type: ignore[arg-type]
 
     def complex_modulus(self, angular_frequency: ArrayLike, temperature: Quantity | None = None) -> ComplexArray:
-        """Return E(ω, T) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
+        """Return E(ω, T) = E' + iE'', Pa.
+
+        Parameters
+        ----------
+        angular_frequency : array_like
+            rad/s.
+        temperature : float, str or pint.Quantity, optional
+            K if a plain number; that of the spectrum or table if left out.
+
+        Returns
+        -------
+        complex array
+            In the shape of `angular_frequency`.
+
+        Raises
+        ------
+        InputError
+            If a frequency is outside a table that is not extrapolated, or the shift is unknown at the temperature.
+        """
         return self.at(temperature).complex_modulus(angular_frequency)
 
 

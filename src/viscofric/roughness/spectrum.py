@@ -148,12 +148,27 @@ class PowerSpectrum(_Spectrum):
         return 2.0 * math.pi / float(self.wave_number[-1])
 
     def moment(self, order: float) -> float:
-        """Return ∫ d²q q^order C(q): ⟨h²⟩ for 0, ⟨|∇h|²⟩ for 2, ⟨(∇²h)²⟩ for 4."""
+        """Return ∫ d²q q^order C(q): ⟨h²⟩ for 0, ⟨|∇h|²⟩ for 2, ⟨(∇²h)²⟩ for 4.
+
+        Parameters
+        ----------
+        order : float
+
+        Returns
+        -------
+        float
+            m^(2 − order).
+        """
         power = to_si(order, "dimensionless", "order") + 1.0
         return 2.0 * math.pi * _integral(self.wave_number, self.density, power)
 
     def limited(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> PowerSpectrum:
-        """Return the part between two wavelengths, m.
+        """Return the part between two wavelengths.
+
+        Parameters
+        ----------
+        shortest, longest : float, str or pint.Quantity, optional
+            m if plain numbers; no limit if left out.
 
         Raises
         ------
@@ -165,22 +180,47 @@ class PowerSpectrum(_Spectrum):
         return PowerSpectrum(*_cut_out(self.wave_number, self.density, first, last))
 
     def rms_height(self, shortest: Quantity | None = None) -> float:
-        """Return the rms height, m, of all waves, or of those not shorter than a wavelength."""
+        """Return the rms height, m.
+
+        Parameters
+        ----------
+        shortest : float, str or pint.Quantity, optional
+            Shortest wavelength that is included, m if a plain number; all waves if left out.
+        """
         return math.sqrt(self._until(shortest).moment(0.0))
 
     def rms_slope(self, shortest: Quantity | None = None) -> float:
-        """Return the rms of the gradient's length, of all waves, or of those not shorter than a wavelength."""
+        """Return the rms of the gradient's length.
+
+        Parameters
+        ----------
+        shortest : float, str or pint.Quantity, optional
+            Shortest wavelength that is included, m if a plain number; all waves if left out.
+        """
         return math.sqrt(self._until(shortest).moment(2.0))
 
     def rms_curvature(self, shortest: Quantity | None = None) -> float:
-        """Return the rms of the mean curvature ∇²h/2, 1/m, of all waves, or of those not shorter than a wavelength."""
+        """Return the rms of the mean curvature ∇²h/2, 1/m.
+
+        Parameters
+        ----------
+        shortest : float, str or pint.Quantity, optional
+            Shortest wavelength that is included, m if a plain number; all waves if left out.
+        """
         return 0.5 * math.sqrt(self._until(shortest).moment(4.0))
 
     def _until(self, shortest: Quantity | None) -> PowerSpectrum:
         return self if shortest is None else self.limited(shortest)
 
     def scaled(self, rms_height: Quantity | None = None, rms_slope: float | None = None) -> PowerSpectrum:
-        """Return the same spectrum with heights scaled to an rms height (m) or an rms slope.
+        """Return the same spectrum with heights scaled to an rms height or an rms slope.
+
+        Parameters
+        ----------
+        rms_height : float, str or pint.Quantity, optional
+            m if a plain number.
+        rms_slope : float, optional
+            In its place.
 
         Raises
         ------

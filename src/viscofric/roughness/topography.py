@@ -140,7 +140,13 @@ class Topography:
         return math.sqrt(sum(float(np.square(one).mean()) for one in waves.gradient(self.complete(), self)))
 
     def complete(self) -> Array:
-        """Return the heights, or raise `InputError` if some are missing."""
+        """Return the heights, m.
+
+        Raises
+        ------
+        InputError
+            If some are missing.
+        """
         if self.missing:
             raise InputError(
                 f"{self._noun}: {self.missing} of its {self.heights.size} heights are missing; fill them first, with "
@@ -299,7 +305,13 @@ class Topography:
         return self._with(-self.heights, "inverted: summits become valleys")
 
     def along_y(self) -> Topography:
-        """Exchange x and y, so that the motion along x goes along what was y."""
+        """Exchange x and y, so that the motion along x goes along what was y.
+
+        Raises
+        ------
+        InputError
+            For a line scan.
+        """
         heights, spacing = np.array(self.heights.T), (self.spacing[1], self.spacing[0])
         if self.is_line:
             raise InputError(f"{self._noun} is a line scan; its other axis has one point only.", code="line-scan")

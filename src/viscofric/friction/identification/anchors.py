@@ -146,7 +146,17 @@ class ContactAnchor:
         return float(getattr(self, self.size))
 
     def of(self, solution: ContactSolution) -> float:
-        """Return the same size of a solved contact."""
+        """Return the size of a solved contact that the anchor measures.
+
+        Parameters
+        ----------
+        solution : ContactSolution
+
+        Returns
+        -------
+        float
+            m, or m² for the contact area.
+        """
         return float(getattr(solution, self.size))
 
 

@@ -207,9 +207,22 @@ class FrictionMasterCurve:
     def standard_error(
         self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
     ) -> Any:
-        """Return the standard error of μ(v, T) due to the points' errors; arguments as in a call.
+        """Return the standard error of μ(v, T) due to the points' errors, without those of the shift factors.
 
-        It does not include errors of the shift factors.
+        Parameters
+        ----------
+        speed, temperature, load
+            As of a call.
+
+        Returns
+        -------
+        float or array
+            As of a call.
+
+        Raises
+        ------
+        InputError
+            As of a call.
         """
         return self._read(speed, temperature, load)[1]
 

@@ -169,7 +169,18 @@ class ShiftFactors(ShiftLaw):
         )
 
     def at_reference(self, reference: Quantity) -> ShiftFactors:
-        """Return the same factors with α = 1 at another temperature inside the measured range."""
+        """Return the same factors with α = 1 at another temperature.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If it is outside the measured range.
+        """
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
         return ShiftFactors(
@@ -242,7 +253,18 @@ class ShiftFactors(ShiftLaw):
         return ShiftFactors(self.temperatures, corrected.log10_values, self.reference, covariance, (*self.notes, note))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged."""
+        """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged.
+
+        Parameters
+        ----------
+        path : str or path
+            An existing file is overwritten.
+
+        Raises
+        ------
+        DataFileError
+            If the file cannot be written.
+        """
         table = ShiftTable(self.temperatures, self.log10_values, self.reference, self.covariance, self.notes)
         write_shift_table(table, path)
 

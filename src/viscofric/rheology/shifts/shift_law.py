@@ -47,7 +47,18 @@ class ShiftLaw(ABC):
 
     @abstractmethod
     def at_reference(self, reference: Quantity) -> Self:
-        """Return the same law with α = 1 at another temperature."""
+        """Return the same law with α = 1 at another temperature.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If the law is not valid there; see `log10`.
+        """
 
     @abstractmethod
     def _standard_error(self, kelvin: Array) -> Array:
@@ -95,7 +106,23 @@ class ShiftLaw(ABC):
     @overload
     def __call__(self, temperature: Temperatures) -> Array: ...
     def __call__(self, temperature: Any) -> Any:
-        """Return α(T); see `log10`."""
+        """Return α(T).
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        float or array
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it, or if α is beyond the range of floating-point numbers.
+        """
         decades = self.log10(temperature)
         if np.any(np.abs(decades) > _MOST_DECADES):
             kelvin = np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))]
@@ -220,7 +247,17 @@ class ShiftLaw(ABC):
         return values, errors
 
     def covariance_at(self, temperatures: Temperatures) -> Array:
-        """Return the covariance of log10 α at temperatures (n,), as (n, n); zero where it is not known.
+        """Return the covariance of log10 α at several temperatures.
+
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        (n, n) array
+            Zero where it is not known.
 
         Raises
         ------

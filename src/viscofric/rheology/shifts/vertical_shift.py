@@ -44,7 +44,18 @@ class VerticalShift(ABC):
 
     @abstractmethod
     def at_reference(self, reference: Quantity) -> Self:
-        """Return the same shift with b = 1 at another temperature."""
+        """Return the same shift with b = 1 at another temperature.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If the shift is not known there.
+        """
 
     def log10(self, temperature: Quantities) -> Any:
         """Return log10 b(T).
@@ -75,7 +86,23 @@ class VerticalShift(ABC):
         return float(values[0]) if single else values
 
     def __call__(self, temperature: Quantities) -> Any:
-        """Return b(T); see `log10`."""
+        """Return b(T).
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        float or array
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it.
+        """
         return 10.0 ** self.log10(temperature)
 
     def _standard_error(self, kelvin: Array) -> Array | None:
@@ -164,7 +191,18 @@ class DensityShift(VerticalShift):
         return np.asarray(np.log10(kelvin / self.reference) - self.expansion * warmer / math.log(10.0))
 
     def at_reference(self, reference: Quantity) -> DensityShift:
-        """Return the same law with b = 1 at another temperature; the expansivity stays."""
+        """Return the same law with b = 1 at another temperature and the same expansivity.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If it is not above absolute zero.
+        """
         return DensityShift(positive(reference, "K", "reference"), self.expansion)
 
 
@@ -254,7 +292,18 @@ class VerticalShiftFactors(VerticalShift):
         return np.asarray(np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", weights, self.covariance, weights), 0.0)))
 
     def at_reference(self, reference: Quantity) -> VerticalShiftFactors:
-        """Return the same table with b = 1 at another temperature inside the measured range."""
+        """Return the same table with b = 1 at another temperature.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If it is outside the measured range.
+        """
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
         change = np.eye(self.temperatures.size) - self._weights(np.array([kelvin]))

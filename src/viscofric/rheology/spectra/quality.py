@@ -73,7 +73,13 @@ class SpectrumFit:
     rms_step: float | None = None
 
     def shifted(self, alpha: float, b: float) -> SpectrumFit:
-        """Return the same for the spectrum at another temperature; the notes describe the original fit."""
+        """Return the same for the spectrum at another temperature; the notes describe the original fit.
+
+        Parameters
+        ----------
+        alpha, b : float
+            Shift factor and vertical shift there.
+        """
         low, high = self.frequency_range
         measured = self.measured_storage
         return replace(

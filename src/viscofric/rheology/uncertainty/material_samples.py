@@ -170,9 +170,19 @@ class MaterialSamples:
         return float(np.mean([shift.log10(temperature) for shift in shifts]))
 
     def spectrum_band(self, level: float = 0.95) -> Band:
-        """Return limits of every C, (n,), 1/Pa, at the times `tau`.
+        """Return limits of every C, 1/Pa, at the times `tau`.
 
-        A mode by itself is known badly: its neighbours can stand in for it.
+        Single modes are poorly determined: neighbouring modes compensate each other.
+
+        Parameters
+        ----------
+        level : float
+            Probability that the limits include, between 0 and 1.
+
+        Returns
+        -------
+        Band
+            Lower limit, median and upper limit, (n,) each.
         """
         return _limits(self.C, level)
 
