@@ -171,7 +171,7 @@ def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> 
     tab.screenshot("rubber-columns")
     assert tab.findings() == []
     step.get_by_role("button", name="Read with these columns").click()
-    drawn(tab, "isotherms-storage", 3)
+    drawn(tab, "isotherms-storage-modulus", 3)
     assert tab.value("page.state.state.get('material')") == {
         "dma": "strange.csv",
         "reference_temperature": "30 degC",

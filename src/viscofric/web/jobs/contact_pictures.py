@@ -187,9 +187,6 @@ def shown(cut: Profile) -> dict[str, Any]:
     return {name: plain(values[::every], 5) for name, values in cut._asdict().items()}
 
 
-_DIGITS = 6
-
-
 def pictures(
     requested: RequestedContact, solution: ContactSolution | PeriodicSolution, *, sharp: bool
 ) -> dict[str, Any]:

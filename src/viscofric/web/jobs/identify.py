@@ -92,7 +92,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
                 "The page's material has no shift factors; choose “found from friction”.", "material", code="no-shift"
             )
         chosen["shift"] = rubber.shift
-    anchor = None if options.anchor is None else _anchor(options.anchor, rubber, curves)
+    anchor = None if options.anchor is None else make_anchor(options.anchor, rubber, curves.load_unit)
     steps = _STEPS + (len(LEVELS) if anchor is None else 0)
 
     def report(step: int, done: int, total: int) -> None:
@@ -111,12 +111,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     )
     numbers: dict[str, Any] = plain(_reply(found, curves, rubber if options.beside else None, anchor, context))
     return numbers
-
-
-def _anchor(requested: AnchorOptions, rubber: Material | None, curves: FrictionCurves) -> Anchor:
-    from viscofric.web.jobs.identify import make_anchor
-
-    return make_anchor(requested, rubber, curves.load_unit)
 
 
 def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:

@@ -4,12 +4,10 @@
 // path. showErrors([{field, message}]) shows what the check of the document found; showError(error, job) adds that of a job,
 // which stays until clearError(job), or until what it is about is changed.
 
-import { enrol } from "./field_errors.js";
 import { h } from "./parts.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
-export { clearError, showError, showErrors } from "./field_errors.js";
 export * from "./parts.js";
 
 let made = 0;
@@ -42,13 +40,6 @@ function field({ path, label, help, classes = "", beside = null }, control, cont
     enrol(path, element);
   }
   return element;
-}
-
-/** What people type, as a run file wants it: a bare number gets the user's unit. */
-function withUnit(text, kind) {
-  const trimmed = text.trim().replace("−", "-").replace(/µ|μ/, "u").replace("°C", "degC").replace("°F", "degF");
-  if (kind === "plain") return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(trimmed) ? Number(trimmed) : trimmed;
-  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(trimmed) ? `${trimmed} ${units.unitWords(kind)}` : trimmed;
 }
 
 const readable = (words) =>
@@ -85,7 +76,7 @@ function box(path, { read, write, placeholder, type = "text", label, ...rest }) 
 
 /** One quantity with its unit: quantityField({path: "conditions.load", label: "Load", kind: "load"}). */
 export function quantityField({ path, label, kind = "plain", help, placeholder }) {
-  const input = box(path, { read: (text) => withUnit(text, kind), write: readable, placeholder, inputmode: "text" });
+  const input = box(path, { read: (text) => units.typed(text, kind), write: readable, placeholder, inputmode: "text" });
   return field({ path, label, help }, input);
 }
 
@@ -152,7 +143,7 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
     ["range", "range"],
   ])
     mode.append(h("option", { value }, text));
-  const read = (text) => withUnit(text, kind);
+  const read = (text) => units.typed(text, kind);
   const one = box(path, { label, read, write: (value) => readable(listed(value)[0]) });
   const list = box(path, {
     label: `${label}: list, separated by commas`,
@@ -206,7 +197,7 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
 function withUnits(text, kind) {
   const parts = text.split(/[,;]\s*/).filter((part) => part.trim() !== "");
   const unit = /[\d.]\s*([^\d\s.].*)$/.exec(parts.at(-1) ?? "")?.[1];
-  return parts.map((part) => withUnit(unit && /^[\s\d.+−-]+$/.test(part) ? `${part.trim()} ${unit}` : part, kind));
+  return parts.map((part) => units.typed(unit && /^[\s\d.+−-]+$/.test(part) ? `${part.trim()} ${unit}` : part, kind));
 }
 
 /** The same quantity in another form: one value, list or range. */
@@ -221,4 +212,64 @@ function inForm(form, value, { spacing, otherwise }) {
     points: otherwise.points ?? 10,
     spacing: spacing[0],
   };
+}
+
+// What is wrong with the study, each sentence beside the field that it is about.
+
+const shown = new Map(); // path -> fields that show its errors
+let checked = new Map(); // path -> what the check of the document says of it
+const ofJobs = new Map(); // job -> {error, forget}: what a job said
+
+/** Have a field show what is wrong with its path. */
+function enrol(path, element) {
+  if (!shown.has(path)) shown.set(path, new Set());
+  shown.get(path).add(element);
+  showAll();
+}
+
+const within = (place, path) =>
+  path !== "" && (place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`));
+
+/** The field's path that is nearest to the place of an error; undefined where the page has none. */
+const homeOf = (place) =>
+  [...shown.keys()].filter((path) => within(place ?? "", path)).sort((one, other) => other.length - one.length)[0];
+
+function showAll() {
+  const told = new Map([...checked].map(([path, sentences]) => [path, new Set(sentences)]));
+  for (const { error } of ofJobs.values()) {
+    const home = homeOf(error.field);
+    if (home !== undefined) told.set(home, (told.get(home) ?? new Set()).add(error.message));
+  }
+  for (const [path, elements] of shown)
+    for (const element of elements) element.setError([...(told.get(path) ?? [])].join(" "));
+}
+
+/** Show each sentence beside its field and none beside the others; returns those that have no field on the page. */
+export function showErrors(problems) {
+  const homeless = [];
+  checked = new Map();
+  for (const problem of problems) {
+    const home = homeOf(problem.field);
+    if (home === undefined) homeless.push(problem);
+    else checked.set(home, [...(checked.get(home) ?? []), problem.message]);
+  }
+  showAll();
+  return homeless;
+}
+
+/** Show the error of a job beside its field; returns whether there is such a field. */
+export function showError(error, job = "job") {
+  clearError(job);
+  if (!error?.field) return false;
+  ofJobs.set(job, { error, forget: state.subscribe(error.field, () => clearError(job)) });
+  showAll();
+  return homeOf(error.field) !== undefined;
+}
+
+/** Forget the error of a job. */
+export function clearError(job) {
+  if (!ofJobs.has(job)) return;
+  ofJobs.get(job).forget();
+  ofJobs.delete(job);
+  showAll();
 }

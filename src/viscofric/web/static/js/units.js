@@ -6,6 +6,7 @@
 // show(0.02, "speed") -> "20 mm/s"          number(0.02, "speed") -> 20         label("speed") -> "mm/s"
 // si(20, "speed") -> 0.02                   words(0.02, "speed") -> "20 mm/s", as run files write it ("30 degC")
 // parse("9.525 mm", "length") -> 0.009525   (null if it cannot be read; the run file's own check says why)
+// typed("20", "speed") -> "20 mm/s"          what people type, as run files write it
 // subscribe(callback)                       after the user chose other units
 
 const KEY = "viscofric.units";
@@ -156,6 +157,21 @@ export function parse(text, kind) {
     .replace(/^deg$/, "°");
   const [factor, offset = 0] = (kind === "plain" && !unit ? [1] : UNITS[kind]?.[unit]) ?? [null];
   return factor === null ? null : Number((factor * Number(found[1]) + offset).toPrecision(14));
+}
+
+const PLAIN_NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+
+/** What people type, as a run file writes it: a bare number gets the user's unit; a plain number is no text. */
+export function typed(text, kind) {
+  const words = text
+    .trim()
+    .replaceAll("\u00a0", " ")
+    .replace("−", "-")
+    .replace(/µ|μ/, "u")
+    .replace("°C", "degC")
+    .replace("°F", "degF");
+  if (!kind || !PLAIN_NUMBER.test(words)) return words;
+  return kind === "plain" ? Number(words) : `${words} ${unitWords(kind)}`;
 }
 
 /** Kinds that the menu offers: [{kind, title, units, chosen}]. */

@@ -111,10 +111,7 @@ export function identification(app, step, { alone }) {
     if (of === "nothing") return chosen;
     const typed = (name) => boxes[name].value() || undefined;
     const asked = Object.fromEntries(ASKED[of].map((name) => [name, typed(name)]));
-    asked.temperature ??= boxes.temperature.input.placeholder
-      .replace("°C", "degC")
-      .replace("°F", "degF")
-      .replaceAll("\u00a0", " ");
+    asked.temperature ??= app.units.typed(boxes.temperature.input.placeholder, "temperature");
     if (of === "rubber") asked.frequency ??= "1 Hz";
     if (asked.error !== undefined) asked.error = Number(asked.error);
     return { ...chosen, anchor: { of, ...asked } };

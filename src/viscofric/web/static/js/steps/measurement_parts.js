@@ -62,10 +62,7 @@ export function optionField(app, { key, label, help, kind, placeholder }) {
     "aria-describedby": help ? `${id}-help` : undefined,
   });
   input.value = app.state.view(key, "");
-  const value = () => {
-    const text = input.value.trim().replace("−", "-").replace("°C", "degC").replace("°F", "degF").replace(/µ|μ/, "u");
-    return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) && kind ? `${text} ${app.units.unitWords(kind)}` : text;
-  };
+  const value = () => app.units.typed(input.value, kind);
   input.addEventListener("change", () => app.state.setView(key, input.value.trim()));
   const element = h(
     "div",
