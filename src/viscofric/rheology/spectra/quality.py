@@ -17,7 +17,7 @@ _REACHED = "reached by the sweeps"
 
 @dataclass(frozen=True)
 class SpectrumFit:
-    """How well a spectrum describes the master curve that it was fitted to.
+    """Quality of the fit of a spectrum to a master curve.
 
     Parameters
     ----------
@@ -48,12 +48,12 @@ class SpectrumFit:
     E_inf_at_limit : bool
         Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the sweeps do not reach it,
         and it is no result.
-    rms_step : float or None
-        Root mean square of the difference of log10 of a creep compliance or relaxation modulus, decades, where the
-        spectrum was fitted to one.
     E0_missed, E_inf_missed : bool
         Whether E0 lies above the softest measured E', or E_inf below the stiffest, by more than 5 %: the fit does not
         follow these points.
+    rms_step : float or None
+        Root mean square of the difference of log10 of a creep compliance or relaxation modulus, decades, where the
+        spectrum was fitted to one.
     """
 
     rms_storage: float | None
