@@ -87,6 +87,8 @@ RETURNED = {
     "RoughFriction",
     "ShiftAgreement",
     "SpectrumFit",
+    "StepCheck",
+    "StepSuperposition",
     "Study",
     "StudyResults",
     "Superposition",

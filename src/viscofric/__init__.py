@@ -65,6 +65,7 @@ if TYPE_CHECKING:
     from viscofric.literature.citations import citations as citations
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
+    from viscofric.readers import read_step_tests as read_step_tests
     from viscofric.readers.dma.master_curves import read_master_curve as read_master_curve
     from viscofric.rheology.cards import Card as Card
     from viscofric.rheology.cards import open_card as open_card
@@ -97,6 +98,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.overlap import OverlapQuality as OverlapQuality
     from viscofric.rheology.superposition.result import Superposition as Superposition
     from viscofric.rheology.superposition.result import check_superposition as check_superposition
+    from viscofric.rheology.superposition.step_result import StepCheck as StepCheck
+    from viscofric.rheology.superposition.step_result import StepSuperposition as StepSuperposition
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
@@ -117,6 +120,9 @@ if TYPE_CHECKING:
     from viscofric.roughness.spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum
     from viscofric.roughness.topography import Topography as Topography
+    from viscofric.step_tests import StepMasterCurve as StepMasterCurve
+    from viscofric.step_tests import StepTest as StepTest
+    from viscofric.step_tests import StepTests as StepTests
     from viscofric.study import ResultsComparison as ResultsComparison
     from viscofric.study import Study as Study
     from viscofric.study import StudyResults as StudyResults
@@ -159,6 +165,9 @@ _HOME = {
     "Isotherm": "viscofric.data",
     "IsothermalSweeps": "viscofric.data",
     "MasterCurve": "viscofric.data",
+    "StepMasterCurve": "viscofric.step_tests",
+    "StepTest": "viscofric.step_tests",
+    "StepTests": "viscofric.step_tests",
     "TractionRuns": "viscofric.traction",
     "ConvergenceError": "viscofric.errors",
     "DataFileError": "viscofric.errors",
@@ -189,6 +198,7 @@ _HOME = {
     "separate": "viscofric.friction.measurement.tribometry",
     "read_dma": "viscofric.readers",
     "read_mtm": "viscofric.readers",
+    "read_step_tests": "viscofric.readers",
     "read_master_curve": "viscofric.readers.dma.master_curves",
     "Card": "viscofric.rheology.cards",
     "open_card": "viscofric.rheology.cards",
@@ -222,6 +232,8 @@ _HOME = {
     "OverlapQuality": "viscofric.rheology.superposition.overlap",
     "superpose": "viscofric.rheology.superposition.superpose",
     "Superposition": "viscofric.rheology.superposition.result",
+    "StepCheck": "viscofric.rheology.superposition.step_result",
+    "StepSuperposition": "viscofric.rheology.superposition.step_result",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
     "RoughFriction": "viscofric.roughness.ensemble",

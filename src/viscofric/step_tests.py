@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on, sentences, text
-from viscofric.data import Deformation, read_only
+from viscofric.data import DEFORMATIONS, Deformation, read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.units import checked_poisson_ratio, positive
@@ -97,8 +97,8 @@ class StepTests:
         In ascending temperature.
     kind : {"creep", "relaxation"}
         Whether the responses are compliances after a step of stress, or moduli after a step of strain.
-    deformation : {"tension", "shear"}
-        Of the sample.
+    deformation : {"tension", "compression", "bending", "shear"}
+        Of the sample: whether the moduli are G (shear) or E (all others).
     source : str
         Origin, such as a file's name.
     notes : tuple of str
@@ -130,7 +130,7 @@ class StepTests:
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")
-        check_choice(self.deformation, "deformation", "tension", "shear")
+        check_choice(self.deformation, "deformation", *DEFORMATIONS)
         insist_on(self.tests, "tests", tuple, list, right="a tuple of StepTest")
         for one in self.tests:
             insist_on(one, "one of the tests", StepTest)
@@ -152,7 +152,7 @@ class StepTests:
 
         ν is taken as constant.
         """
-        if self.deformation == "tension":
+        if self.deformation != "shear":
             return self
         factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
         factor = 1.0 / factor if self.kind == "creep" else factor

@@ -9,6 +9,7 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.data import Isotherm, IsothermalSweeps
+from viscofric.step_tests import StepTest, StepTests
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -115,3 +116,33 @@ def planted_sweeps(
         scatter[1] *= level[0 if shared else 1]
         isotherms.append(Isotherm(temperature, omega, scatter[0] * modulus.real, scatter[1] * modulus.imag))
     return Planted(IsothermalSweeps(tuple(isotherms)), material, log10_b)
+
+
+#: Temperatures (°C) and times (s) at which step tests are planted, and the reference, by the name of the material.
+_HOUR = np.logspace(0.0, 3.5, 36)
+STEP_PROGRAMMES = {
+    "fluoroelastomer": (vf.synthetic_fluoroelastomer, np.arange(-15.0, 41.0, 5.0), _HOUR, "10 degC"),
+    "polymer": (synthetic_polymer, np.arange(-25.0, 11.0, 5.0), _HOUR, "-5 degC"),
+    "soft rubber": (synthetic_soft_rubber, np.arange(-35.0, 31.0, 5.0), np.logspace(0.0, 4.0, 41), "0 degC"),
+}
+
+
+def planted_steps(seed: int, noise: float = 0.01, *, name="fluoroelastomer", kind="creep", offset: float = 0.0):
+    """Make creep or relaxation tests with independent multiplicative noise, and offsets of whole tests.
+
+    Returns
+    -------
+    tests : StepTests
+    material : viscofric.Material
+        The truth.
+    reference : str
+    """
+    make, celsius, time, reference = STEP_PROGRAMMES[name]
+    material, random, levels = make(), np.random.default_rng(seed), np.random.default_rng([seed, 1])
+    tests = []
+    for kelvin in celsius + 273.15:
+        spectrum = material.at(kelvin)
+        true = spectrum.creep_compliance(time) if kind == "creep" else spectrum.relaxation_modulus(time)
+        scatter = (1.0 + noise * random.standard_normal(time.size)) * np.exp(offset * levels.standard_normal())
+        tests.append(StepTest(kelvin, time, scatter * true))
+    return StepTests(tuple(tests), kind), material, reference

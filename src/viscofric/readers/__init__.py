@@ -2,5 +2,6 @@
 
 from viscofric.readers.dma.read import read_dma
 from viscofric.readers.mtm.read import read_mtm
+from viscofric.readers.steps.read import read_step_tests
 
-__all__ = ["read_dma", "read_mtm"]
+__all__ = ["read_dma", "read_mtm", "read_step_tests"]

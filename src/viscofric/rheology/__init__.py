@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.consistency import SuperpositionCheck as SuperpositionCheck
     from viscofric.rheology.superposition.result import Superposition as Superposition
     from viscofric.rheology.superposition.result import check_superposition as check_superposition
+    from viscofric.rheology.superposition.step_result import StepCheck as StepCheck
+    from viscofric.rheology.superposition.step_result import StepSuperposition as StepSuperposition
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
@@ -71,6 +73,8 @@ _HOME = {
     "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
     "check_superposition": "viscofric.rheology.superposition.result",
     "Superposition": "viscofric.rheology.superposition.result",
+    "StepCheck": "viscofric.rheology.superposition.step_result",
+    "StepSuperposition": "viscofric.rheology.superposition.step_result",
     "superpose": "viscofric.rheology.superposition.superpose",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from viscofric.data import DEFORMATIONS
 from viscofric.errors import DataFileError, InputError, check_choice
-from viscofric.files import read_bytes
 from viscofric.notes import Remedy
 from viscofric.readers.dma.instruments import (
     eplexor,
@@ -22,10 +20,10 @@ from viscofric.readers.dma.instruments import (
 from viscofric.readers.dma.isotherms import traced_sweeps
 from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.tables import delimited, reptate, workbook
+from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
 from viscofric.readers.mtm.delimited import TRACTION
 from viscofric.readers.source import Source, checked_sheet, insist_on_content, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
-from viscofric.units import kelvin_hint, positive, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -194,16 +192,16 @@ def trace_dma(
     """
     if deformation is not None:
         check_choice(deformation, "deformation", *DEFORMATIONS)
-    files = _files(paths)
-    given = _temperatures(temperature, len(files))
+    files = files_of(paths, "read_dma")
+    given = temperatures_of(temperature, len(files))
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
     asked, one_sheet = DMA.checked(columns), checked_sheet(sheet)
     sources = [
-        Source(path, _bytes(path), kelvin, modulus_unit or "", asked, one_sheet)
+        Source(path, bytes_of(path), kelvin, modulus_unit or "", asked, one_sheet)
         for path, kelvin in zip(files, given, strict=True)
     ]
-    _insist_on_different(sources)
+    insist_on_different(sources)
     readings = [_read(source) for source in sources]
     if modulus_unit is not None and not any(one.lacks_unit for one in readings):
         raise InputError(
@@ -211,64 +209,6 @@ def trace_dma(
             code="unit-not-needed",
         )
     return traced_sweeps(readings, deformation)
-
-
-def _files(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]]) -> list[str]:
-    files: list[str] = []
-    for path in paths:
-        if isinstance(path, (str, Path)) or hasattr(path, "__fspath__"):
-            files.append(str(path))
-            continue
-        try:
-            files += [str(one) for one in path]
-        except TypeError:
-            raise InputError(f"{path!r} is not the name of a file or a list of names.", code="not-a-name") from None
-    if not files:
-        raise InputError("read_dma needs at least one file.", code="no-file")
-    return files
-
-
-def _temperatures(given: Quantity | Sequence[Quantity | None] | None, count: int) -> list[float | None]:
-    """Return one temperature, K, or None per file."""
-    if not isinstance(given, (list, tuple, np.ndarray)) or getattr(given, "ndim", 1) == 0:
-        return [None if given is None else _kelvin(cast("Quantity", given))] * count
-    if len(given) != count:
-        raise InputError(
-            f"temperature holds {len(given)} values for {count} files; give one for all, or one for each.",
-            code="wrong-count",
-        )
-    return [None if one is None else _kelvin(one) for one in given]
-
-
-def _kelvin(value: Quantity) -> float:
-    kelvin = positive(value, "K", "temperature")
-    hint = kelvin_hint(kelvin) if isinstance(value, (int, float)) else ""
-    if hint:
-        raise InputError(
-            f"temperature = {value!r}: is {shown_celsius(kelvin, 'z.4g')} °C{hint}.", code="looks-like-celsius"
-        )
-    return kelvin
-
-
-def _bytes(path: str) -> bytes:
-    if "\0" not in path and Path(path).is_dir():
-        raise DataFileError(
-            path, "is a folder, not a data file; give its files, e.g. *sorted(Path(folder).glob('*')).", code="folder"
-        )
-    return read_bytes(path)
-
-
-def _insist_on_different(sources: Sequence[Source]) -> None:
-    """Refuse files that would count twice."""
-    seen: dict[object, Source] = {}
-    for source in sources:
-        for key, problem in (
-            (Path(source.path).resolve(), "is given twice; name each file once."),
-            (source.data, "has the same content as {}; give only one of them."),
-        ):
-            if key in seen:
-                raise DataFileError(source.path, problem.format(seen[key].path), code="given-twice")
-            seen[key] = source
 
 
 def _read(source: Source) -> Readings:

@@ -15,6 +15,7 @@ from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.step_misfit import frequencies_of
 from viscofric.step_tests import StepMasterCurve
 
 if TYPE_CHECKING:
@@ -167,7 +168,7 @@ def _seen_over_time(spectrum: RetardationSpectrum, curve: StepMasterCurve) -> _S
     return _Seen(
         "1/J" if creep else "E(t)",
         "tests",
-        (float(1.0 / time[0]), float(1.0 / time[1])),
+        frequencies_of(curve),
         (float(measured.min()), float(measured.max())),
         (float(fitted[-1]), float(fitted[0])),
         (low, high),

@@ -31,7 +31,8 @@ class SpectrumFit:
         there is above 0.1.
     frequency_range : tuple of float
         Lowest and highest reduced angular frequency measured, or identified from friction, rad/s; beyond them the
-        spectrum extrapolates.
+        spectrum extrapolates.  Creep from a time t on counts up to 0.1/t, relaxation up to 0.01/t: faster processes are
+        part of E''(ω), but no longer of the step response.
     notes : tuple of str
         The same in sentences.
     method : str

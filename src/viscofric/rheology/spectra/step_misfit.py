@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from viscofric.data import MasterCurve
 
 
+#: Step responses from a time t on determine E(ω) up to this part of 1/t.  Relaxations faster than t have ended in E(t),
+#: but not in E''(ω) below 1/t, and towards the glass they are the strongest; in J(t) they are the weakest.
+REACH = {"creep": 0.1, "relaxation": 0.01}
 #: Nodes of the contour, in conjugate pairs.
 NODES = 14
 
@@ -130,6 +133,13 @@ def misfit_of(curve: MasterCurve | StepMasterCurve) -> Misfit:
 def rates_of(curve: MasterCurve | StepMasterCurve) -> Array:
     """Return the angular frequencies, or 1/t, ascending, 1/s."""
     return 1.0 / curve.time[::-1] if isinstance(curve, StepMasterCurve) else curve.angular_frequency
+
+
+def frequencies_of(curve: MasterCurve | StepMasterCurve) -> tuple[float, float]:
+    """Return the lowest and the highest angular frequency that a curve determines, rad/s."""
+    rates = rates_of(curve)
+    reach = REACH[curve.kind] if isinstance(curve, StepMasterCurve) else 1.0
+    return float(rates[0]), max(float(reach * rates[-1]), float(rates[0]))
 
 
 def moduli_of(curve: MasterCurve | StepMasterCurve) -> Array:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from viscofric.arguments import insist_on
 from viscofric.rheology.superposition import consistency
 from viscofric.rheology.superposition.joined_isotherms import shown
+from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
     from viscofric.rheology.superposition.overlap import OverlapQuality
     from viscofric.rheology.superposition.quantity import ShiftBy
+    from viscofric.rheology.superposition.step_result import StepCheck
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,17 +118,21 @@ class Superposition:
         )
 
 
-def check_superposition(fit: Superposition) -> SuperpositionCheck:
+@overload
+def check_superposition(fit: Superposition) -> SuperpositionCheck: ...
+@overload
+def check_superposition(fit: StepSuperposition) -> StepCheck: ...
+def check_superposition(fit: Superposition | StepSuperposition) -> SuperpositionCheck | StepCheck:
     """Say whether time–temperature superposition holds, and whether E' and E'' belong to each other.
 
     Parameters
     ----------
-    fit : Superposition
+    fit : Superposition or StepSuperposition
         As `superpose` returns it.
 
     Returns
     -------
-    SuperpositionCheck
+    SuperpositionCheck, or StepCheck of step tests
 
     Notes
     -----
@@ -147,5 +153,5 @@ def check_superposition(fit: Superposition) -> SuperpositionCheck:
     >>> vf.check_superposition(fit).holds
     True
     """
-    insist_on(fit, "fit", Superposition, right="what superpose(…) returned")
+    insist_on(fit, "fit", Superposition, StepSuperposition, right="what superpose(…) returned")
     return fit.check

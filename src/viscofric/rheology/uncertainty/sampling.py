@@ -15,7 +15,7 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
-from viscofric.rheology.spectra.step_misfit import by_rate, misfit_of, moduli_of, rates_of
+from viscofric.rheology.spectra.step_misfit import by_rate, frequencies_of, misfit_of, moduli_of
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -135,7 +135,7 @@ def sample_materials(
         tuple(materials),
         np.array([modes.C for modes in fitted]),
         np.array([modes.tau for modes in fitted]),
-        (float(rates_of(curve)[0]), float(rates_of(curve)[-1])),
+        frequencies_of(curve),
         _misfit(curve, shifts, spectrum),
     )
 
@@ -148,7 +148,7 @@ def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: Curve) -> None:
     if spectrum.fit is None:
         return  # `Refit` refuses it
     fitted, moduli = spectrum.fit.frequency_range, spectrum.fit.measured_storage
-    rates, measured = rates_of(curve), moduli_of(curve)
+    rates, measured = frequencies_of(curve), moduli_of(curve)
     quantity, unit = ("E'", "rad/s") if isinstance(curve, MasterCurve) else ("moduli", "1/s")
     if not np.allclose(fitted, (rates[0], rates[-1]), rtol=SAME, atol=0.0):
         ranges = f"from {fitted[0]:.3g} to {fitted[1]:.3g} {unit}, the curve from {rates[0]:.3g} to {rates[-1]:.3g}"

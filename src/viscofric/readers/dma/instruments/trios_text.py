@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 import io
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
@@ -44,6 +45,22 @@ def recognises(source: Source) -> bool:
 
 def read(source: Source) -> Readings:
     """Return the points of all frequency sweeps, or raise `DataFileError`, which names what the file holds instead."""
+    found = tables_of(source)
+    return readings_of(source, found.format, steps_of(source.path, found.tables), found.tools, found.notes)
+
+
+@dataclass(frozen=True, eq=False)
+class Tables:
+    """The steps of a file as text, label and value of its sample holder, and notes."""
+
+    format: str
+    tables: list[Table]
+    tools: list[tuple[str, str]]
+    notes: list[str]
+
+
+def tables_of(source: Source) -> Tables:
+    """Return the table of each step of the programme, of any technique."""
     text = source.text or ""
     short = _SHORT.match(text[:_HEAD])
     delimiter = short["delimiter"] if short else "\t"
@@ -71,7 +88,7 @@ def read(source: Source) -> Readings:
         for section, field, value in header
         if field.lower() in _GEOMETRY_FIELDS and (section.startswith("geometry") or field.lower() == "geometry name")
     ]
-    return readings_of(source, f"TA Instruments TRIOS text ({kind})", steps_of(source.path, tables), tools, notes)
+    return Tables(f"TA Instruments TRIOS text ({kind})", tables, tools, notes)
 
 
 def _rows(path: str, text: str, delimiter: str) -> Iterator[Row]:

@@ -1,0 +1,79 @@
+"""Files, and their temperatures, as users name them to readers of mechanical tests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import read_bytes
+from viscofric.units import kelvin_hint, positive, shown_celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from os import PathLike
+
+    from viscofric.readers.source import Source
+    from viscofric.units import Quantity
+
+
+def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]], reader: str) -> list[str]:
+    """Return the names of files given one by one or as lists."""
+    files: list[str] = []
+    for path in paths:
+        if isinstance(path, (str, Path)) or hasattr(path, "__fspath__"):
+            files.append(str(path))
+            continue
+        try:
+            files += [str(one) for one in path]
+        except TypeError:
+            raise InputError(f"{path!r} is not the name of a file or a list of names.", code="not-a-name") from None
+    if not files:
+        raise InputError(f"{reader} needs at least one file.", code="no-file")
+    return files
+
+
+def temperatures_of(given: Quantity | Sequence[Quantity | None] | None, count: int) -> list[float | None]:
+    """Return one temperature, K, or None per file."""
+    if not isinstance(given, (list, tuple, np.ndarray)) or getattr(given, "ndim", 1) == 0:
+        return [None if given is None else _kelvin(cast("Quantity", given))] * count
+    if len(given) != count:
+        raise InputError(
+            f"temperature holds {len(given)} values for {count} files; give one for all, or one for each.",
+            code="wrong-count",
+        )
+    return [None if one is None else _kelvin(one) for one in given]
+
+
+def _kelvin(value: Quantity) -> float:
+    kelvin = positive(value, "K", "temperature")
+    hint = kelvin_hint(kelvin) if isinstance(value, (int, float)) else ""
+    if hint:
+        raise InputError(
+            f"temperature = {value!r}: is {shown_celsius(kelvin, 'z.4g')} °C{hint}.", code="looks-like-celsius"
+        )
+    return kelvin
+
+
+def bytes_of(path: str) -> bytes:
+    """Return the content of a file, or raise `DataFileError`."""
+    if "\0" not in path and Path(path).is_dir():
+        raise DataFileError(
+            path, "is a folder, not a data file; give its files, e.g. *sorted(Path(folder).glob('*')).", code="folder"
+        )
+    return read_bytes(path)
+
+
+def insist_on_different(sources: Sequence[Source]) -> None:
+    """Refuse files that would count twice."""
+    seen: dict[object, Source] = {}
+    for source in sources:
+        for key, problem in (
+            (Path(source.path).resolve(), "is given twice; name each file once."),
+            (source.data, "has the same content as {}; give only one of them."),
+        ):
+            if key in seen:
+                raise DataFileError(source.path, problem.format(seen[key].path), code="given-twice")
+            seen[key] = source

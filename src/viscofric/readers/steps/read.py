@@ -1,0 +1,373 @@
+"""Creep and relaxation tests at several temperatures, from tables of text, workbooks and TRIOS exports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.data import DEFORMATIONS
+from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.notes import Note
+from viscofric.readers.dma.instruments import trios_text
+from viscofric.readers.dma.names import NOT_SAID, said_by_columns, temperature_in_name, tools_in
+from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
+from viscofric.readers.source import STRAIN_FACTORS, Source, checked_sheet, insist_on_content, unit_conversion
+from viscofric.readers.steps.starts import start_of
+from viscofric.readers.steps.words import STEPS, kind_in_name
+from viscofric.readers.table import MISSING, make_table
+from viscofric.readers.tables import find_tables
+from viscofric.step_tests import StepTest, StepTests
+from viscofric.units import shown_celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from os import PathLike
+
+    from viscofric.arrays import Array
+    from viscofric.data import Deformation
+    from viscofric.readers.dma.instruments.ta_steps import Table as StepTable
+    from viscofric.readers.table import Table
+    from viscofric.step_tests import StepKind
+    from viscofric.units import Quantity
+
+
+#: Temperatures closer than this belong to one test.
+ONE_TEST = 1.0  # K
+#: What is held is constant to this over the second half of a test.
+HELD = 0.02  # relative
+#: Fewest points of a test.
+LEAST_POINTS = 4
+_SI = {"creep": "1/Pa", "relaxation": "Pa"}
+_COLUMN = {"creep": "creep compliance", "relaxation": "relaxation modulus"}
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """One table of a file as columns: temperature (K), time (s) and response, NaN where a cell is missing."""
+
+    source: str
+    format: str
+    kind: StepKind
+    temperature: Array
+    time: Array
+    response: Array
+    deformation: Deformation | None
+    notes: tuple[str, ...]
+    lacks_unit: bool
+
+
+def read_step_tests(
+    *paths: str | PathLike[str] | Sequence[str | PathLike[str]],
+    kind: StepKind | None = None,
+    deformation: Deformation | None = None,
+    temperature: Quantity | Sequence[Quantity | None] | None = None,
+    response_unit: str | None = None,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
+) -> StepTests:
+    r"""Read creep tests, or relaxation tests, at several temperatures.
+
+    Text tables (commas, semicolons, tabs or blanks between columns) and sheets of Excel workbooks with columns for time
+    and creep compliance or relaxation modulus (or stress and strain, of which one is constant), each with its unit; and
+    text exports of TA Instruments TRIOS with creep or relaxation steps.
+
+    Parameters
+    ----------
+    *paths : str or path, or a list of them
+        One or many files of one material, of one kind of test.
+    kind : {"creep", "relaxation"}, optional
+        If columns and names of steps do not state it.
+    deformation : {"tension", "compression", "bending", "shear"}, optional
+        If headings (``G(t)``), sample holder or a torque do not state it.
+    temperature : float, str or quantity, or a list with one (or None) per file, optional
+        For files without temperatures, K if a plain number.  The default is the temperature in the file's name
+        (``creep_25C.csv``), with a note.
+    response_unit : str, optional
+        For files without the unit of the compliance or modulus, such as ``"1/MPa"`` or ``"MPa"``.
+    columns : mapping, optional
+        Headings of columns whose names are not understood, as for `read_dma`: ``{"time": "#1 (min)"}``.  Quantities are
+        temperature, time, creep_compliance, relaxation_modulus, stress, strain and step.
+    sheet : str, optional
+        Name of the only sheet of a workbook to read.
+
+    Returns
+    -------
+    StepTests
+        In SI units, all recorded points.  Left out, with notes: points that are not above zero, the beginning of a test
+        that shows ringing of the instrument's inertia or the rise of the step, recovery after creep.
+
+    Raises
+    ------
+    DataFileError
+        If a file cannot be read, a column or unit is missing or wrong, a cell is no number, no temperature is known,
+        creep and relaxation are mixed, or tension or shear is not stated.
+    InputError
+        If no file is given, or an argument is wrong.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> import viscofric as vf
+    >>> rows = ["T (degC)\tt (s)\tJ (1/MPa)", "25\t1\t0.10", "25\t10\t0.12", "25\t100\t0.15", "25\t1000\t0.19"]
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "creep.txt"
+    ...     _ = path.write_text("\n".join(rows))
+    ...     creep = vf.read_step_tests(path, deformation="tension")
+    >>> creep.kind, creep.tests[0].response[0]  # 1/Pa
+    ('creep', 1e-07)
+    """
+    if kind is not None:
+        check_choice(kind, "kind", "creep", "relaxation")
+    if deformation is not None:
+        check_choice(deformation, "deformation", *DEFORMATIONS)
+    files = files_of(paths, "read_step_tests")
+    given = temperatures_of(temperature, len(files))
+    asked, one_sheet = STEPS.checked(columns), checked_sheet(sheet)
+    sources = [
+        Source(path, bytes_of(path), kelvin, response_unit or "", asked, one_sheet)
+        for path, kelvin in zip(files, given, strict=True)
+    ]
+    insist_on_different(sources)
+    parts = [part for source in sources for part in _parts(source, kind)]
+    kinds = {part.kind for part in parts}
+    if len(kinds) > 1:
+        raise DataFileError(
+            parts[-1].source, "creep and relaxation tests are mixed; read each kind by itself.", code="kinds-mixed"
+        )
+    if response_unit is not None and not any(part.lacks_unit for part in parts):
+        raise InputError(
+            f"response_unit = {response_unit!r}: the files state their units; leave it out.", code="unit-not-needed"
+        )
+    stated = deformation or _stated(parts)
+    notes: list[str] = list(dict.fromkeys(note for part in parts for note in part.notes))
+    tests = _tests(parts, notes)
+    if not tests:
+        raise DataFileError(files[0], f"no test has {LEAST_POINTS} usable points or more.", code="no-points")
+    return StepTests(
+        tuple(tests), parts[0].kind, stated, ", ".join(Path(one).name for one in files), tuple(notes), parts[0].format
+    )
+
+
+def _stated(parts: Sequence[_Part]) -> Deformation:
+    found = {part.deformation for part in parts if part.deformation is not None}
+    if len(found) > 1:
+        raise DataFileError(
+            parts[-1].source, "the files state several kinds of deformation.", code="deformation-contradicts"
+        )
+    if not found:
+        raise DataFileError(parts[0].source, NOT_SAID)
+    return found.pop()
+
+
+def _parts(source: Source, kind: StepKind | None) -> list[_Part]:
+    """Return the tests of one file, table by table."""
+    insist_on_content(source)
+    if trios_text.recognises(source) and not source.columns:
+        return _trios_parts(source, kind)
+    tables = find_tables(source, STEPS)
+    form = "Excel workbook" if any(tables) else "delimited text"
+    return [_part(table, source, name or source.stem, kind, form) for name, table in tables.items()]
+
+
+def _trios_parts(source: Source, kind: StepKind | None) -> list[_Part]:
+    found = trios_text.tables_of(source)
+    parts, recovered = [], 0
+    for step in found.tables:
+        table = _table_of_step(source.path, step)
+        if table is None:
+            continue
+        if kind_in_name(step.name) == "recovery":
+            recovered += 1
+            continue
+        part = _part(replace(table, above=tuple(found.tools)), source, step.name, kind, found.format)
+        parts.append(replace(part, notes=(*found.notes, *part.notes)))
+    if not parts:
+        names = ", ".join(repr(step.name) for step in found.tables) or "none"
+        raise DataFileError(source.path, f"holds no creep or relaxation step; its steps are {names}.", code="no-points")
+    if recovered:
+        said = f"{recovered} recovery steps were left out; only creep and relaxation are read."
+        parts[0] = replace(parts[0], notes=(*parts[0].notes, Note("recovery-left-out", said)))
+    return parts
+
+
+def _table_of_step(path: str, step: StepTable) -> Table | None:
+    """Return one step of a programme as a table, None if it is no creep or relaxation test."""
+    names = ["" if name.strip().endswith("(step)") else name for name in step.names]
+    units = [*step.units, *[""] * len(names)]
+    columns = tuple(
+        replace(column, unit=unit.strip()) if column.quantity else column
+        for column, unit in zip(STEPS.columns(names), units, strict=False)
+    )
+    held = {column.quantity for column in columns}
+    response = {"creep compliance", "relaxation modulus"} & held or {"stress", "strain"} <= held
+    named = kind_in_name(step.name)
+    if not {"time", "step time"} & held or not response or not step.rows or not named:
+        return None
+    rows = [(line, [*cells, *[""] * len(names)][: len(names)]) for line, cells in step.rows]
+    return make_table(path, columns, rows, vocabulary=STEPS)
+
+
+def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: str) -> _Part:
+    """Return the columns of one table in SI units."""
+    notes: list[str] = []
+    columns = tuple(replace(one, unit="") if one.unit == "t" else one for one in table.columns)  # of J(t)
+    table = replace(table, columns=columns)
+    time = _time(table, notes)
+    known = kind or _kind(table, name)
+    response, heading, lacks_unit = _response(table, source, known, notes)
+    filled = [
+        column.name
+        for place, column in enumerate(table.columns)
+        if any(row[place].strip().lower() not in MISSING for row in table.rows)
+    ]
+    deformation, _ = said_by_columns([heading.replace("(t)", "")], filled, tools_in(table.above))
+    kelvin = _temperature(table, source, name, len(time), notes)
+    return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit)
+
+
+def _time(table: Table, notes: list[str]) -> Array:
+    place = table.place("step time")
+    place = table.place("time") if place is None else place
+    if place is None:
+        raise table.refused("missing-columns", f"no column for time; {STEPS.example}, this one has {table.headings()}.")
+    column = table.columns[place]
+    if column.unit:
+        factor, offset = table.conversion(column, "s")
+        return factor * table.numbers_or_missing(place) + offset
+    said = f"The column {column.heading!r} has no unit; it was read in seconds."
+    notes.append(Note("time-without-unit", said))
+    return table.numbers_or_missing(place)
+
+
+def _kind(table: Table, name: str) -> StepKind:
+    """Return creep or relaxation by the columns, the name of the step, or what is held."""
+    creep, relaxation = table.has("creep compliance"), table.has("relaxation modulus")
+    if creep != relaxation:
+        return "creep" if creep else "relaxation"
+    said = kind_in_name(name)
+    if said in ("creep", "relaxation"):
+        return "creep" if said == "creep" else "relaxation"
+    stress, strain = table.place("stress"), table.place("strain")
+    if stress is not None and strain is not None:
+        steady = [_is_held(table.numbers_or_missing(place)) for place in (stress, strain)]
+        if steady[0] != steady[1]:
+            return "creep" if steady[0] else "relaxation"
+    raise table.refused(
+        "no-kind", "does not state whether it is creep or relaxation; give kind='creep' or 'relaxation'."
+    )
+
+
+def _is_held(values: Array) -> bool:
+    late = values[len(values) // 2 :]
+    late = late[np.isfinite(late)]
+    return bool(late.size) and float(np.ptp(late)) <= HELD * float(np.abs(np.mean(late)))
+
+
+def _response(table: Table, source: Source, kind: StepKind, notes: list[str]) -> tuple[Array, str, bool]:
+    """Return the response in SI units, its heading, and whether its unit is that of the user alone."""
+    place = table.place(_COLUMN[kind])
+    if place is not None:
+        column = table.columns[place]
+        lacks_unit = bool(source.modulus_unit) and not column.unit
+        if lacks_unit:
+            factor, offset = unit_conversion(source.modulus_unit, _SI[kind], "response_unit")
+        elif not column.unit:
+            example = "1/MPa" if kind == "creep" else "MPa"
+            problem = f"column {column.heading!r} has no unit; give it by response_unit='{example}'."
+            raise table.refused("no-unit", problem)
+        else:
+            factor, offset = table.conversion(column, _SI[kind])
+        return factor * table.numbers_or_missing(place) + offset, column.heading, lacks_unit
+    stress, strain = table.place("stress"), table.place("strain")
+    if stress is None or strain is None:
+        raise table.refused(
+            "missing-columns", f"no column for the {_COLUMN[kind]}; {STEPS.example}, this one has {table.headings()}."
+        )
+    factor, _ = table.conversion(table.columns[stress], "Pa")
+    fraction = STRAIN_FACTORS.get(table.columns[strain].unit.strip() or "1")
+    if fraction is None:
+        raise table.refused("wrong-unit", f"column {table.columns[strain].heading!r} has no unit such as '%'.")
+    said = f"The {_COLUMN[kind]} was computed from stress and strain."
+    notes.append(Note("response-computed", said))
+    stresses, strains = factor * table.numbers_or_missing(stress), fraction * table.numbers_or_missing(strain)
+    above, below = (strains, stresses) if kind == "creep" else (stresses, strains)
+    return above / np.where(below == 0.0, np.nan, below), table.columns[stress].heading, False
+
+
+def _temperature(table: Table, source: Source, name: str, count: int, notes: list[str]) -> Array:
+    """Return K: from the column, else from the user, else from the name of file or sheet, with a note."""
+    place = table.place("temperature")
+    place = table.place("set temperature") if place is None else place
+    if place is not None:
+        if source.temperature is not None:
+            problem = f"column {table.columns[place].heading!r} contains the temperatures; leave out temperature."
+            raise DataFileError(table.path, problem, code="temperature-not-needed")
+        factor, offset = table.conversion(table.columns[place], "K")
+        return factor * table.numbers_or_missing(place) + offset
+    if source.temperature is not None:
+        return np.full(count, source.temperature)
+    found = temperature_in_name(name) or temperature_in_name(source.stem)
+    if found is None:
+        problem = f"no column for temperature, this table has {table.headings()}; give it, e.g. temperature='25 degC'."
+        raise table.refused("no-temperature", problem)
+    notes.append(Note("temperature-from-name", "No column holds a temperature; it was taken from the file's name."))
+    return np.full(count, found)
+
+
+def _tests(parts: Sequence[_Part], notes: list[str]) -> list[StepTest]:
+    """Sort the points into tests by temperature, and leave out what is not of the material."""
+    kelvin = np.concatenate([part.temperature for part in parts])
+    time = np.concatenate([part.time for part in parts])
+    response = np.concatenate([part.response for part in parts])
+    usable = np.isfinite(kelvin) & (time > 0.0) & (response > 0.0) & np.isfinite(time) & np.isfinite(response)
+    if not np.all(usable):
+        said = (
+            f"{np.count_nonzero(~usable)} of {len(usable)} points were left out: a value is missing or not above zero."
+        )
+        notes.append(Note("points-left-out", said))
+    kelvin, time, response = kelvin[usable], time[usable], response[usable]
+    order = np.argsort(kelvin, kind="stable")
+    breaks = np.flatnonzero(np.diff(kelvin[order]) > ONE_TEST) + 1
+    tests = []
+    for rows in np.split(order, breaks) if len(order) else []:
+        temperature = float(np.mean(kelvin[rows]))
+        if np.ptp(kelvin[rows]) > 2.0 * ONE_TEST:
+            where = f"in the test at {shown_celsius(temperature)} °C"
+            said = f"The temperature ranges over {np.ptp(kelvin[rows]):.1f} K {where}."
+            notes.append(Note("temperature-range", said))
+        times, number, count = np.unique(time[rows], return_inverse=True, return_counts=True)
+        mean = np.exp(np.bincount(number, weights=np.log(response[rows])) / count)
+        if np.any(count > 1):
+            said = (
+                f"Points at equal times were averaged at {shown_celsius(temperature)} °C ({np.sum(count > 1)} times)."
+            )
+            notes.append(Note("repeats-averaged", said))
+        first = _first(temperature, times, mean, parts[0].kind, notes)
+        if len(times) - first < LEAST_POINTS:
+            notes.append(Note("left-out", f"The test at {shown_celsius(temperature)} °C has too few usable points."))
+            continue
+        tests.append(StepTest(temperature, times[first:], mean[first:]))
+    return tests
+
+
+def _first(kelvin: float, time: Array, response: Array, kind: StepKind, notes: list[str]) -> int:
+    """Return the first point that is of the material; notes say what was left out."""
+    start = start_of(time, response, kind)
+    where = f"{shown_celsius(kelvin)} °C"
+    if start.first:
+        why = {
+            "ringing": "the instrument's inertia rings",
+            "rise": "the stress still rises" if kind == "creep" else "the strain still rises",
+        }[start.reason]
+        until = time[min(start.first, len(time) - 1)]
+        said = f"At {where} the first {start.first} points, to {until:.3g} s, were left out: {why} there."
+        notes.append(Note(f"{start.reason}-left-out", said))
+    if start.broken_at is not None:
+        how = "the compliance falls" if kind == "creep" else "the modulus rises"
+        said = f"At {where} {how} from {start.broken_at:.3g} s on, as no linear material does; the points were kept."
+        notes.append(Note("not-of-a-material", said))
+    return start.first

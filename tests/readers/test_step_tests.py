@@ -1,0 +1,180 @@
+"""Creep and relaxation tests in files: columns, units, temperatures, and what is left out of a test."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.errors import DataFileError
+from viscofric.readers.steps.starts import start_of
+
+TIME = np.logspace(0.0, 3.0, 13)
+
+
+def written(path, header, columns, delimiter="\t"):
+    rows = [delimiter.join(header)] + [delimiter.join(f"{one:.9g}" for one in row) for row in np.transpose(columns)]
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    return path
+
+
+def codes(tests):
+    return [getattr(note, "code", "") for note in tests.notes]
+
+
+@pytest.mark.parametrize("delimiter", ["\t", ";", ","])
+def test_a_table_of_several_temperatures_is_read(tmp_path, delimiter):
+    columns = [np.repeat([25.0, 60.0], 13), np.tile(TIME, 2) / 60.0, np.tile(0.1 * TIME**0.2, 2)]
+    path = written(tmp_path / "creep.csv", ("T (°C)", "time (min)", "J(t) (1/MPa)"), columns, delimiter)
+    tests = vf.read_step_tests(path, deformation="shear")
+    assert tests.kind == "creep"
+    np.testing.assert_allclose(tests.temperatures, [298.15, 333.15])
+    np.testing.assert_allclose(tests.tests[0].time, TIME, rtol=1e-6)
+    np.testing.assert_allclose(tests.tests[1].response, 1e-7 * TIME**0.2, rtol=1e-6)
+    assert tests.notes == ()
+
+
+def test_one_file_for_each_temperature(tmp_path):
+    """Temperatures from names or arguments; E(t) states tension."""
+    for celsius in (20, 40):
+        written(tmp_path / f"relax_{celsius}C.txt", ("t (s)", "E(t) (MPa)"), [TIME, 10.0 * TIME**-0.1])
+    tests = vf.read_step_tests(sorted(tmp_path.glob("*.txt"), reverse=True)[:1], temperature="40 degC")
+    assert tests.temperatures == pytest.approx([313.15])
+    written(tmp_path / "relax_60C.txt", ("t (s)", "E(t) (MPa)"), [TIME, 9.0 * TIME**-0.1])
+    named = vf.read_step_tests(tmp_path / "relax_20C.txt", tmp_path / "relax_60C.txt")
+    assert (named.kind, named.deformation) == ("relaxation", "tension")
+    np.testing.assert_allclose(named.temperatures, [293.15, 333.15])
+    assert codes(named) == ["temperature-from-name"]
+
+
+def test_stress_and_strain_give_the_response(tmp_path):
+    strain = 0.5 * TIME**0.2
+    path = written(
+        tmp_path / "a_25C.csv", ("time (s)", "shear stress (kPa)", "strain (%)"), [TIME, 0 * TIME + 2, strain]
+    )
+    creep = vf.read_step_tests(path)
+    assert (creep.kind, creep.deformation) == ("creep", "shear")
+    np.testing.assert_allclose(creep.tests[0].response, 0.01 * strain / 2e3, rtol=1e-6)
+    assert "response-computed" in codes(creep)
+    path = written(tmp_path / "b_25C.csv", ("time (s)", "stress (kPa)", "strain (%)"), [TIME, 2 / strain, 0 * TIME + 1])
+    relaxation = vf.read_step_tests(path, deformation="tension")
+    assert relaxation.kind == "relaxation"
+    np.testing.assert_allclose(relaxation.tests[0].response, 2e3 / strain / 0.01, rtol=1e-6)
+
+
+def test_units_may_be_given(tmp_path):
+    path = written(tmp_path / "a.csv", ("Time", "Creep Compliance"), [TIME, 1e-7 * TIME**0.2])
+    given = {"temperature": "25 degC", "deformation": "shear"}
+    creep = vf.read_step_tests(path, response_unit="1/Pa", **given)
+    assert codes(creep) == ["time-without-unit"]
+    np.testing.assert_allclose(creep.tests[0].response[0], 1e-7)
+    named = vf.read_step_tests(path, columns={"time": "#1 (h)", "creep_compliance": "#2 (1/Pa)"}, **given)
+    np.testing.assert_allclose(named.tests[0].time, 3600.0 * TIME, rtol=1e-6)
+    with refused("no-unit", DataFileError, naming="response_unit"):
+        vf.read_step_tests(path, **given)
+    with refused("no-temperature", DataFileError):
+        vf.read_step_tests(path, response_unit="1/Pa", deformation="shear")
+    with refused("no-deformation", DataFileError):
+        vf.read_step_tests(path, response_unit="1/Pa", temperature="25 degC")
+    with refused("wrong-unit", DataFileError):
+        vf.read_step_tests(path, columns={"time": "#1 (kg)", "creep_compliance": "#2 (1/Pa)"}, **given)
+
+
+def test_what_contradicts_is_refused(tmp_path):
+    creep = written(tmp_path / "a_25C.csv", ("t (s)", "J (1/MPa)"), [TIME, 0.1 * TIME**0.2])
+    relaxation = written(tmp_path / "b_25C.csv", ("t (s)", "G(t) (MPa)"), [TIME, 10.0 * TIME**-0.2])
+    with refused("kinds-mixed", DataFileError):
+        vf.read_step_tests(creep, relaxation, deformation="shear")
+    with refused("unit-not-needed"):
+        vf.read_step_tests(creep, deformation="shear", response_unit="1/MPa")
+    with refused("given-twice", DataFileError):
+        vf.read_step_tests(creep, creep, deformation="shear")
+    both = written(tmp_path / "c_25C.csv", ("t (s)", "J (1/MPa)", "G (MPa)"), [TIME, 0.1 * TIME**0.2, 5.0 * TIME**-0.2])
+    with refused("no-kind", DataFileError):
+        vf.read_step_tests(both, deformation="shear")
+    assert vf.read_step_tests(both, deformation="shear", kind="relaxation").kind == "relaxation"
+    short = written(tmp_path / "d_25C.csv", ("t (s)", "J (1/MPa)"), [TIME[:3], 0.1 * TIME[:3]])
+    with refused("no-points", DataFileError):
+        vf.read_step_tests(short, deformation="shear")
+    (tmp_path / "e.csv").write_text("a,b\n1,2\n")
+    with refused("missing-columns", DataFileError, naming="creep compliance"):
+        vf.read_step_tests(tmp_path / "e.csv", deformation="shear")
+
+
+def test_points_that_are_none_are_left_out(tmp_path):
+    time, response = np.append(0.0, TIME), np.append(0.0, 0.1 * TIME**0.2)
+    path = written(
+        tmp_path / "a_25C.csv", ("t (s)", "J (1/MPa)"), [np.append(time, TIME[-1]), np.append(response, 0.4)]
+    )
+    creep = vf.read_step_tests(path, deformation="shear")
+    assert len(creep.tests[0]) == 13
+    assert creep.tests[0].response[-1] == pytest.approx(1e-6 * np.sqrt(response[-1] * 0.4))
+    assert codes(creep) == ["temperature-from-name", "points-left-out", "repeats-averaged"]
+
+
+def rubber():
+    return vf.synthetic_fluoroelastomer().at("20 degC")
+
+
+def test_ringing_of_the_instrument_is_left_out():
+    time = np.logspace(-3.0, 3.0, 400)
+    true = rubber().creep_compliance(time)
+    ringing = true * (1.0 - np.exp(-time / 0.03) * np.cos(2.0 * np.pi * time / 0.02))
+    start = start_of(time, ringing, "creep")
+    assert start.reason == "ringing"
+    kept = slice(start.first, None)
+    assert 0.05 < time[start.first] < 0.5
+    np.testing.assert_allclose(ringing[kept], true[kept], rtol=0.03)
+    assert start.broken_at is None
+
+
+@pytest.mark.parametrize("kind", ["creep", "relaxation"])
+def test_the_rise_of_a_step_is_left_out(kind):
+    time = np.logspace(-3.0, 3.0, 400)
+    true = rubber().creep_compliance(time) if kind == "creep" else rubber().relaxation_modulus(time)
+    start = start_of(time, true * -np.expm1(-time / 0.01), kind)
+    assert start.reason == "rise"
+    assert 0.02 < time[start.first] < 1.0
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.005, 0.03])
+def test_noise_is_no_ringing(noise):
+    random = np.random.default_rng(1)
+    for count in range(40):
+        time = np.sort(10.0 ** random.uniform(-1.0, 3.5, 60)) if count % 2 else np.arange(1.0, 400.0)
+        kind = "creep" if count % 4 < 2 else "relaxation"
+        true = rubber().creep_compliance(time) if kind == "creep" else rubber().relaxation_modulus(time)
+        start = start_of(time, true * (1.0 + noise * random.standard_normal(time.size)), kind)
+        assert (start.first, start.broken_at) == (0, None)
+
+
+def test_a_compliance_that_falls_later_is_kept_with_a_note(tmp_path):
+    slipping = 0.1 * TIME**0.2 * np.where(TIME > 300.0, 0.8, 1.0)
+    path = written(tmp_path / "a_25C.csv", ("t (s)", "J (1/MPa)"), [TIME, slipping])
+    creep = vf.read_step_tests(path, deformation="shear")
+    assert "not-of-a-material" in codes(creep)
+    assert len(creep.tests[0]) == 13
+
+
+def test_a_creep_export_of_trios_rings(real_data):
+    creep = vf.read_step_tests(real_data / "instruments" / "trios" / "creep_experiment.txt")
+    assert (creep.kind, creep.deformation) == ("creep", "shear")
+    assert creep.temperatures == pytest.approx([318.15], abs=0.05)
+    assert codes(creep) == ["points-left-out", "ringing-left-out"]
+    first = creep.tests[0]
+    assert 0.5 < first.time[0] < 2.0  # s; it rings with 30 Hz at first
+    assert first.response[0] == pytest.approx(1.48e-4, rel=0.02)  # 1/Pa
+    assert np.all(np.diff(np.log(first.response)) > -0.01)
+
+
+def test_polystyrene_has_four_temperatures(real_data):
+    celsius = (145, 160, 175, 190)
+    creep = vf.read_step_tests(
+        *[real_data / "creep" / f"creep_ps{one}.csv" for one in celsius],
+        deformation="shear",
+        temperature=[f"{one} degC" for one in celsius],
+        response_unit="1/Pa",
+    )
+    assert [len(one) for one in creep.tests] == [6981, 3599, 3599, 3598]
+    assert codes(creep) == ["time-without-unit", "repeats-averaged"]

@@ -1,0 +1,253 @@
+"""Creep and relaxation tests: superposed like sweeps, with bands that contain planted truth, and spectra from them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from rheology.planted import planted_steps, synthetic_polymer
+from viscofric.rheology.spectra.step_misfit import CreepMisfit, RelaxationMisfit
+
+TIMES = np.logspace(-1.0, 2.0, 31)
+SEEDS = 20
+
+
+def rubber() -> vf.RetardationSpectrum:
+    """Three decades of retardation between 1 MPa and 100 MPa."""
+    tau = np.logspace(-2.0, 2.0, 9)
+    C = np.full(9, (1e-6 - 1e-8) / 9)
+    return vf.RetardationSpectrum(1e6, 1e8, C, tau)
+
+
+def curve(spectrum: vf.RetardationSpectrum, kind: str, noise: float = 0.0, time=TIMES) -> vf.StepMasterCurve:
+    true = spectrum.creep_compliance(time) if kind == "creep" else spectrum.relaxation_modulus(time)
+    scatter = 1.0 + noise * np.random.default_rng(0).standard_normal(time.size)
+    return vf.StepMasterCurve(time, true * scatter, np.full(time.size, 300.0), 300.0, kind)
+
+
+@pytest.mark.parametrize(
+    ("change", "code"),
+    [
+        ({"time": TIMES[::-1]}, "not-ascending"),
+        ({"time": np.append(TIMES[:-1], TIMES[-2])}, "not-ascending"),
+        ({"time": TIMES - TIMES[0]}, "wrong-column"),
+        ({"response": -TIMES}, "wrong-column"),
+        ({"response": TIMES[:-1]}, "wrong-column"),
+    ],
+)
+def test_columns_that_are_no_test_are_refused(change, code):
+    with refused(code):
+        vf.StepTest(300.0, **{"time": TIMES, "response": TIMES} | change)
+
+
+def test_shear_responses_become_tensile_ones():
+    one = vf.StepTest(300.0, TIMES, np.full(31, 3.0))
+    creep = vf.StepTests((one,), "creep", "shear").in_tension(0.5)
+    relaxation = vf.StepTests((one,), "relaxation", "shear").in_tension(0.5)
+    assert creep.tests[0].response[0] == pytest.approx(1.0)
+    assert relaxation.tests[0].response[0] == pytest.approx(9.0)
+    assert (creep.deformation, len(creep.notes)) == ("tension", 1)
+    compressed = vf.StepTests((one,), "creep", "compression")
+    assert compressed.in_tension(0.5) is compressed
+
+
+def test_points_of_a_part_of_a_decade_are_averaged():
+    dense = vf.StepTest(300.0, np.arange(1.0, 2000.0), 1e-6 * np.arange(1.0, 2000.0) ** 0.3)
+    thin = dense.thinned(20)
+    assert len(thin) < 20 * 3.5
+    np.testing.assert_allclose(thin.response, 1e-6 * thin.time**0.3, rtol=1e-12)  # a power law stays one
+    sparse = vf.StepTest(300.0, np.logspace(0.0, 3.0, 31), np.arange(1.0, 32.0))
+    np.testing.assert_allclose(sparse.thinned(20).time, sparse.time)
+
+
+def test_data_sets_have_units():
+    tests = planted_steps(0)[0]
+    points = tests.to_dataset()
+    assert points.creep_compliance.attrs["units"] == "1/Pa"
+    assert points.sizes["reading"] == sum(len(one) for one in tests.tests)
+    assert points.attrs["kind"] == "creep"
+    assert curve(rubber(), "relaxation").to_dataset().relaxation_modulus.attrs["units"] == "Pa"
+
+
+@pytest.mark.parametrize("kind", ["creep", "relaxation"])
+def test_laplace_inversion_is_exact(kind):
+    spectrum = synthetic_polymer().spectrum
+    time = np.logspace(-9.0, 6.0, 120)
+    measured = curve(spectrum, kind, time=time)
+    misfit = {"creep": CreepMisfit, "relaxation": RelaxationMisfit}[kind](1.0 / time[::-1], measured.modulus[::-1])
+    assert np.max(np.abs(misfit.residual(misfit.compliance(spectrum)))) < 2e-8
+    # Derivatives, by differences.
+    tau, strengths = np.array(spectrum.tau), np.append(1.0 / spectrum.E_inf, spectrum.C)
+    columns = misfit.columns(tau)
+    jacobian = misfit.jacobian(columns @ strengths, columns)
+    for place in (0, 5, 25):
+        moved = strengths.copy()
+        moved[place] *= 1.0 + 1e-5
+        change = misfit.residual(columns @ strengths) - misfit.residual(columns @ moved)
+        expected = jacobian[:, place] * 1e-5 * strengths[place]
+        np.testing.assert_allclose(change, expected, rtol=1e-3, atol=1e-4 * np.abs(expected).max())
+    moved = misfit.moved(misfit.relaxed(tau), np.array(spectrum.C), tau)
+    later = misfit.relaxed(tau * np.exp(1e-5)) @ np.diag(spectrum.C)
+    now = misfit.relaxed(tau) @ np.diag(spectrum.C)
+    np.testing.assert_allclose((later - now) / 1e-5, moved, rtol=1e-3, atol=1e-5 * np.abs(moved).max())
+
+
+@pytest.mark.parametrize("kind", ["creep", "relaxation"])
+@pytest.mark.parametrize(
+    ("method", "error"),
+    [({}, 0.02), ({"method": "sparse"}, 0.04), ({"method": "regularised", "regularisation": 1e-3}, 0.03)],
+)
+def test_spectra_come_back(kind, method, error):
+    planted = rubber()
+    spectrum = vf.fit_retardation_spectrum(curve(planted, kind, time=np.logspace(-6.0, 3.0, 91)), **method)
+    inside = np.logspace(-1.5, 0.5, 20)
+    found, true = spectrum.complex_modulus(inside), planted.complex_modulus(inside)
+    np.testing.assert_allclose(found.real, true.real, rtol=error)
+    np.testing.assert_allclose(found.imag, true.imag, rtol=4.0 * error)
+    assert spectrum.fit.rms_step < 0.005
+    assert spectrum.fit.rms_storage is None
+    assert spectrum.fit.frequency_range == pytest.approx((1e-3, 1e5 if kind == "creep" else 1e4))
+
+
+def test_a_flowing_creep_compliance_has_no_spectrum_for_contacts():
+    flowing = curve(rubber(), "creep")
+    liquid = vf.StepMasterCurve(
+        flowing.time, flowing.response + 1e-6 * flowing.time, flowing.temperature, flowing.reference, "creep"
+    )
+    with refused("liquid", vf.LiquidError, naming="100 s"):
+        vf.fit_retardation_spectrum(liquid)
+    noisy = curve(rubber(), "creep", 0.03)  # a solid stays one
+    assert len(vf.fit_retardation_spectrum(noisy)) > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["creep", "relaxation"])
+def test_planted_shift_factors_come_back(kind):
+    tests, material, reference = planted_steps(1, 0.005, kind=kind)
+    fit = vf.superpose(tests, reference)
+    factors = fit.shift_factors
+    true = material.shift.at_reference(reference).log10(factors.temperatures)
+    assert np.max(np.abs(factors.log10_values - true)) < 0.06
+    assert np.all(factors.standard_errors[factors.temperatures != factors.reference] < 0.05)
+    assert vf.check_superposition(fit).holds
+    assert fit.check.to_dataset().attrs["verdict"] == "holds"
+    assert fit.to_dataset().attrs["kind"] == kind
+    assert fit.master_curve.kind == kind
+    true = material.at(reference)
+    response = true.creep_compliance if kind == "creep" else true.relaxation_modulus
+    np.testing.assert_allclose(fit.master_curve.response, response(fit.master_curve.time), rtol=0.03)
+    assert (
+        pytest.approx(vf.superpose(tests, reference, shift=material.shift).shift_factors.law("wlf").C2, rel=0.2)
+        == fit.shift_factors.law("wlf").C2
+    )
+
+
+@pytest.mark.slow
+def test_vertical_shifts_of_tests_are_fitted_beside_horizontal_ones():
+    tests, material, reference = planted_steps(1, 0.003)
+    rising = vf.DensityShift(reference)
+    lifted = tuple(
+        vf.StepTest(one.temperature, one.time, one.response / rising(one.temperature)) for one in tests.tests
+    )
+    fit = vf.superpose(vf.StepTests(lifted, "creep"), reference, vertical="free")
+    away = fit.vertical_shift.log10_values - rising.log10(fit.shift_factors.temperatures)
+    errors = fit.vertical_shift.standard_errors
+    assert np.mean(np.abs(away[errors > 0]) < 2.5 * errors[errors > 0]) > 0.8
+    assert not np.any(fit.offsets.covariance)  # part of b
+    drawn = vf.sample_materials(fit, samples=20)
+    assert drawn.materials[0].vertical_shift is not None
+    known = vf.superpose(vf.StepTests(lifted, "creep"), reference, vertical="density")
+    np.testing.assert_allclose(
+        known.shift_factors.log10_values,
+        material.shift.at_reference(reference).log10(known.shift_factors.temperatures),
+        atol=0.06,
+    )
+
+
+def test_tests_of_other_materials_do_not_superpose():
+    tests, _, reference = planted_steps(1, 0.005)
+    bent = tuple(
+        vf.StepTest(one.temperature, one.time, one.response ** (1.0 + 0.03 * place))
+        for place, one in enumerate(tests.tests)
+    )
+    fit = vf.superpose(vf.StepTests(bent[:5], "creep"), bent[2].temperature)
+    assert not fit.check.holds
+    assert fit.check.sentences[0].code in ("superposition-fails", "superposition-roughly")
+    assert reference
+
+
+def test_flow_is_noted():
+    tests, _, reference = planted_steps(1, 0.005)
+    liquid = tuple(
+        vf.StepTest(one.temperature, one.time, one.response * (1.0 + one.time / (1e4 * 10.0 ** -(0.06 * place))))
+        for place, one in enumerate(tests.tests)
+    )
+    assert "flow" not in [getattr(note, "code", "") for note in vf.superpose(tests, reference).notes]
+    steep = (*liquid[:-1], vf.StepTest(liquid[-1].temperature, liquid[-1].time, 1e-6 * liquid[-1].time ** 0.98))
+    from viscofric.rheology.superposition.step_result import flowing
+
+    assert [note.code for note in flowing(steep)] == ["flow"]
+
+
+def test_arguments_for_two_moduli_are_refused():
+    tests, _, reference = planted_steps(0)
+    with refused("useless-weights"):
+        vf.superpose(tests, reference, by="storage")
+    with refused("too-few-isotherms", vf.SuperpositionError):
+        vf.superpose(vf.StepTests(tests.tests[:1], "creep"), reference)
+    with refused("other-master-curve"):
+        fit = vf.superpose(tests, reference)
+        vf.sample_materials(fit, vf.fit_retardation_spectrum(curve(rubber(), "creep")), samples=20)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("kind", "noise"), [("creep", 0.005), ("creep", 0.02), ("relaxation", 0.02)])
+def test_bands_contain_what_was_planted(kind, noise):
+    """As for sweeps; benchmarks/rheology counts over more problems."""
+    inside: dict[str, list[float]] = {"alpha": [], "response": [], "storage": []}
+    for seed in range(SEEDS):
+        tests, material, reference = planted_steps(seed, noise, kind=kind)
+        fit = vf.superpose(tests, reference)
+        factors, time = fit.shift_factors, np.geomspace(*fit.master_curve.time[[0, -1]], 40)
+        known = factors.standard_errors > 1e-9
+        away = factors.log10_values - material.shift.at_reference(reference).log10(factors.temperatures)
+        inside["alpha"].append(np.mean(np.abs(away[known]) < 1.96 * factors.standard_errors[known]))
+        drawn = vf.sample_materials(fit, samples=60, seed=seed)
+        true = material.at(reference)
+
+        def response(spectrum, time=time):
+            return spectrum.creep_compliance(time) if kind == "creep" else spectrum.relaxation_modulus(time)
+
+        band = drawn.band(lambda one: response(one.spectrum))
+        inside["response"].append(np.mean((response(true) >= band.lower) & (response(true) <= band.upper)))
+        omega = 1.0 / time[4:-4]
+        moduli = drawn.modulus_band(omega)
+        storage = true.complex_modulus(omega).real
+        inside["storage"].append(np.mean((storage >= moduli.lower.real) & (storage <= moduli.upper.real)))
+    # Errors within one fit move together: over 20 seeds the mean differs by 0.03.
+    for shares in inside.values():
+        assert np.mean(shares) == pytest.approx(0.95, abs=0.075)
+
+
+@pytest.mark.slow
+def test_polystyrene_superposes_and_flows(real_data):
+    celsius = (145, 160, 175, 190)
+    creep = vf.read_step_tests(
+        [real_data / "creep" / f"creep_ps{one}.csv" for one in celsius],
+        deformation="shear",
+        temperature=[f"{one} degC" for one in celsius],
+        response_unit="1/Pa",
+    )
+    fit = vf.superpose(creep, "160 degC")
+    assert fit.check.holds
+    assert fit.quality.joint < 0.02  # decades
+    law = fit.shift_factors.law("wlf")
+    # J. D. Ferry, Viscoelastic Properties of Polymers, 1980, Table 11-II: C1 = 13.7, C2 = 50 K at 100 °C, at 160 °C
+    # 6.2 and 110 K.
+    assert abs(law.C1 - 6.2) < 2.0 * law.standard_errors[0]
+    assert abs(law.C2 - 110.0) < 2.0 * law.standard_errors[1]
+    assert "flow" in [getattr(note, "code", "") for note in fit.notes]
+    with refused("liquid", vf.LiquidError):
+        vf.fit_retardation_spectrum(fit)
