@@ -63,6 +63,20 @@ def test_a_wide_terminal_gets_a_table(
     assert reported.count("5.0e-03 rel.") == (2 if details else 1)
 
 
+def test_published_numbers_have_their_origin() -> None:
+    listed = call("--published", "--list")
+    assert listed.exit_code == 0, listed.output
+    assert "wang-knothe" in listed.stdout
+    assert "obtained: " in listed.stdout
+    assert "unstated: " in listed.stdout
+    done = call("--published", "--only", "frontistr-card", "--details")
+    assert done.exit_code == 0, done.output
+    assert "obtained: Run by hand" in done.stdout
+    (check,) = json.loads(call("--published", "--only", "frontistr-card", "--json").stdout)["checks"]
+    assert {"obtained", "unstated"} <= set(check)
+    assert call("--published", "--only", "hertz-ball").exit_code == 1  # is none of these
+
+
 def test_json_holds_everything() -> None:
     done = call(*CHEAP, "--json")
     assert done.exit_code == 0, done.output
