@@ -74,9 +74,8 @@ def test_line_contact_takes_rear_and_front() -> None:
 
 
 def test_contact_beyond_the_window_is_reported_in_millimetres() -> None:
-    with refused("beyond-window") as caught:
+    with refused("beyond-window", naming=" mm "):
         solve(window=(0.1 * A0, 1.5 * A0, 1.25 * A0))
-    assert "mm behind the axis" in str(caught.value)
 
 
 def test_contact_that_touches_the_window_is_refused() -> None:

@@ -66,10 +66,9 @@ def test_friction_does_not_test_the_rubber_identified_from_it(tree: xr.DataTree)
     assert "The prediction does not use this friction" in " ".join(scope(tree))
     tree = with_friction_shifts(tree)
     tree.attrs["identified_from_friction"] = 1
-    verdict, words = check(tree, "Shift factors from friction")
+    verdict, _ = check(tree, "Shift factors from friction")
     assert verdict == "noted"
     assert not any(number.name == "Shift factors from friction" for number in key_numbers(tree))
-    assert "the comparison tests nothing" in words
     asked = " ".join(scope(tree))
     assert "does not use this friction" not in asked
     assert "tests no prediction" in asked
