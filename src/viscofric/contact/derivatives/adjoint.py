@@ -9,11 +9,12 @@ adjoint field λ on the same cells solves ::
 
 (dμ)_p the change at fixed pressure.  Kᵀ is the influence mirrored along the motion.  λᵀ dK p = Σ W dK with the
 correlation W of λ and p, so that any number of modes costs one pass through their influence coefficients.
-At the edges of a contact the pressure is zero, so that the cells that a change wins or loses count for nothing to first
-order.  The place where the gap is looked at (`viscofric.contact.operators.convolution.collocation_shift`) is held.
+At the edges of a contact the pressure is zero, so that cells that enter or leave it with a change have no effect to
+first order.  The collocation points (`viscofric.contact.operators.convolution.collocation_shift`) are fixed.
 
-Of the balanced energy a part is Λ r, r = Σ q (K p + h − δ)/h² over free cells, q being the pressures beside each (see
-`viscofric.contact.free.balance`).  Held at −Λ q/h² there, λ gives the change of the gap too, by the same equations.
+A part of the balanced energy is Λ r, r = Σ q (K p + h − δ)/h² over free cells, q being the pressures of the cells next
+to each (see `viscofric.contact.free.balance`).  With λ = −Λ q/h² there, the same equations include the change of the
+gap.
 
 M. B. Giles, N. A. Pierce, Flow Turbul. Combust. 65 (2000) 393, on adjoints.
 
@@ -43,10 +44,10 @@ if TYPE_CHECKING:
 
 Way: TypeAlias = Literal["pressure", "balance"]
 
-# Residual of the adjoint problem, relative to its right-hand side, and how often it is formed anew on the way.
+# Residual of the adjoint problem, relative to its right-hand side, and how often it is computed again.
 _TOLERANCE = 1e-8
 _MOST_RESTARTS = 20
-# Search directions that are kept on the way.
+# Number of search directions kept.
 _DIRECTIONS = 40
 
 
@@ -222,7 +223,7 @@ def _change(operator: ConvolutionOperator, sums: _Sums, by_held: float) -> Gradi
 
 
 def _lost(energy: _Sums, bends: _Sums, lengths: Array) -> tuple[Array, Array]:
-    """Return what each mode dissipates per compliance, negative, and its change with ln λ.
+    """Return the dissipation of each mode per compliance, negative, and its change with ln λ.
 
     By its slope, (K − L)/λ, and partly by the bends λ ∂²K/∂x²; see
     `viscofric.contact.operators.convolution.cell_influence`.

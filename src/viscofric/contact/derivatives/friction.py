@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
-# Parts of the changes from grid to grid, and of what moving cells take away, that are claimed as error: with these, all
-# of 111 random contacts had derivatives within their error; with the changes alone, 91 %.
+# Error as parts of the changes from grid to grid, and of the change by moving cells: with these, all of 111 random
+# contacts had derivatives within their error; with the changes alone, 91 %.
 _CHANGE_TRUST, _MOTION_SHARE = 1.5, 0.2
 
 
@@ -157,7 +157,7 @@ def _in_si(
     plane_strain: float,
     velocity: float,
 ) -> FrictionDerivatives:
-    # The units, and with them the cells, are held: all of the chain rule is constant factors.
+    # The units, and with them the cells, are fixed: the chain rule has only constant factors.
     slope = math.copysign(scale.slope, velocity)
     compliance = slope * plane_strain * scale.stiffness
     C = compliance * gradient.compliances

@@ -1,17 +1,17 @@
-"""Derivatives of the friction coefficient on cells that move with the contact, whose edges stay where they are in them.
+"""Derivatives of the friction coefficient on cells that move with the contact: its edges are fixed within their cells.
 
-Where in its cell an edge lies is a matter of luck, and the friction coefficient of a grid depends on it a little.  A
-derivative on cells that stay where they are differentiates that luck too: of an error ε that changes from cell to cell
-it makes ε a/h.  Cells that grow and shift with the contact do not.  With a change θ of the material or the load,
+The position of an edge within its cell is random, and the friction coefficient of a grid depends on it a little.  A
+derivative on fixed cells includes this random part: an error ε that changes from cell to cell becomes ε a/h.  Cells
+that grow and shift with the contact avoid it.  With a change θ of the material or the load,
 
     dμ/dθ = ∂μ/∂θ + (∂ ln a/∂θ) ∂μ/∂ ln h + (∂s/∂θ) ∂μ/∂s,
 
-∂μ/∂ ln h and ∂μ/∂s being what it does to the solution on a grid to stretch the cells about the axis and to shift them.
-Both are nothing but error, and go to zero with the cells, so that how the contact grows and where it goes need not be
-known well: the spread of the pressure along the motion and its centre give it, on a coarse grid.
+∂μ/∂ ln h and ∂μ/∂s being the effects of stretching the cells about the axis and of shifting them on the solution on a
+grid.  Both are discretisation errors, and vanish with the cells, so that growth and shift of the contact need not be
+accurate: they follow from the spread of the pressure along the motion and its centre, on a coarse grid.
 
-A tip, where the slope jumps, is such an edge, too, and must stay where it is in its cells as well: it lies on the axis,
-so that the cells of an indenter with one grow about the axis but do not shift.
+A tip, where the slope jumps, is such an edge too, and must be fixed within its cells as well: it lies on the axis, so
+that the cells of an indenter with a tip grow about the axis but do not shift.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def friction_gradient(stage: Stage, way: Way, motion: Motion) -> tuple[Gradient,
     ConvergenceError if the adjoint problem is not solved.
     """
     gradient, field, by_load = friction_adjoint(stage, way)
-    # The load is held, so that on larger cells the pressures add up to less.
+    # The load is fixed, so that on larger cells the sum of the pressures is smaller.
     by_stretch = _stretched(stage, way, field, gradient) - stage.problem.geometry.dimension * by_load
     by_shift = _elsewhere(stage, way, field, shift=_STEP) / stage.window.spacing
     if not math.isfinite(by_stretch + by_shift):

@@ -60,7 +60,7 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
     pressure, energy = fine.pressure_friction, fine.energy_friction
     errors = FootprintErrors.of(stages)
     loaded = fine.problem.control.load is not None
-    # The level that an indentation is counted from may be that of the leading edge, and is known no better than it.
+    # The reference level of an indentation may be that of the leading edge, and is as uncertain as that edge.
     indentation = max(error_of(stages, "indentation"), fine.level_slope * errors.edge)
     return Diagnostics(
         shape=fine.window.shape,

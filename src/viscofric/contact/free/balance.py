@@ -9,15 +9,15 @@ a sum of the same terms that is known beforehand,
 
     ∫ p ∂²h/∂x² dA = −∫ p ∂²u/∂x² dA = Σ_k B_k + B_∞ :
 
-the load over the radius, for a ball.  On a grid it is not met: at the rim, where pressures fall to zero like square
-roots, waves shorter than a cell are missing from both sums.  The gap shows how much.  With second differences in
-place of the derivatives, everything but the gap that opens between the last loaded cell and the next drops out:
+the load over the radius, for a ball.  On a grid it does not hold: at the rim, where pressures fall to zero like square
+roots, waves shorter than a cell are missing from both sums.  The missing part follows from the gap.  With second
+differences in place of the derivatives, only the gap that opens between the last loaded cell and the next remains:
 
     r = Σ_i p_i (g_{i+1} + g_{i−1}) / h²,      summed over loaded cells i next to free ones.
 
-A mode's share of that belongs to the friction with its memory length.  Waves of wavenumber q, which the indenter
-bends alike whatever the solid, need pressures that are inversely proportional to the compliance S(q); those left out
-therefore carry, of r and of the friction force, shares in the ratio
+A mode's part of r contributes to the friction in proportion to its memory length.  Waves of wavenumber q, which the
+indenter bends equally whatever the solid, need pressures that are inversely proportional to the compliance S(q); those
+left out therefore contribute to the friction force and to r in the ratio
 
     Λ = ∫ Im S/|S|² w dq / ∫ q Re S/|S|² w dq     over q > q_c,      w = q^−3
 
@@ -99,7 +99,7 @@ def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[f
     share = bent_share(lengths / spacing)
     whole = float((wavenumber * symbol.real) @ weight)
     value = float((wavenumber * loss) @ weight) / whole
-    # d(ab/c) with the weight's logarithm −2 Re(dS/S): what a change of S does, and what one of the loss.
+    # d(ab/c) with the weight's logarithm −2 Re(dS/S): by a change of S, and by one of the loss.
     by_loss = wavenumber * weight / whole
     twice = 2.0 * by_loss * (loss - value * symbol.real) / np.abs(symbol) ** 2
 
@@ -110,7 +110,7 @@ def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[f
     size = np.abs(wave) ** 2
     lost = (size @ by_loss) * lengths
     by_compliance = by_symbol(wave) + share * lost
-    # ∂(l/(1 + q²l²))/∂ ln l, and the share's own change, both per length
+    # ∂(l/(1 + q²l²))/∂ ln l, and the change of the mode's part, both per length
     change = lengths * (size * (2.0 * size - 1.0) @ by_loss) - 2.0 * (1.0 - share) * lost
     by_length = compliances * share * change / lengths
     by_length += by_symbol((1j * wavenumber * wave**2) * compliances[:, None])

@@ -163,12 +163,12 @@ class FootprintErrors:
 def _hidden_peak(stage: Stage) -> float:
     """Largest pressure that the leading edge or a tip may hide from the cells, in order of magnitude.
 
-    The pressure that a cell sees rises as B √s with the distance s from the edge.  Where the solid yields by a
-    factor less to waves as short as s than to those that the cells resolve, the pressure at s is higher by that
-    factor: for one retardation time √(k l)/2 at s = l/k, where the exact layer, a Dawson function, has 0.54 √(k l).
+    The pressure of a cell rises as B √s with the distance s from the edge.  Where the compliance for waves as short as
+    s is smaller by a factor than for those that the cells resolve, the pressure at s is higher by that factor: for one
+    retardation time √(k l)/2 at s = l/k, where the exact layer, a Dawson function, has 0.54 √(k l).
 
-    At a tip the pressure is infinite: it rises as half the slope times ln(1/s), over the factor by which the solid
-    yields (see `sneddon_cone`).  What it reaches at the shortest distance counts.
+    At a tip the pressure is infinite: it rises as half the slope times ln(1/s), over the compliance (see
+    `sneddon_cone`).  Its value at the shortest distance is used.
     """
     spacing, pressure = stage.window.spacing, stage.result.pressure
     along = pressure[:, int(np.argmax(pressure.max(axis=0)))]

@@ -1,7 +1,7 @@
 """Nested grids: the window found on a coarse one, then cells halved until the friction is known well enough.
 
 Everything here is in units of the Hertz contact at E0 (lengths a0, depths a0²/R; see `viscofric.contact.free.scale`),
-so that neither the user's units nor his material's modulus matter.  Whether it is a point or a line contact, and
+so that neither the user's units nor the material's modulus matter.  Whether it is a point or a line contact, and
 whether the load or the indentation is given, is a part of the problem.
 """
 
@@ -38,16 +38,16 @@ logger = logging.getLogger(__name__)
 MARGIN = 0.15  # free space left around the contact, relative to its size
 
 _PATIENCE = 4  # updates of the contact set without progress that end an attempt
-# A contact n times longer than wide has n/2 times the cells along it, up to so many times.
+# A contact n times longer than wide has n/2 times the cells along it, up to this many times.
 _MOST_SLENDER = 4
 # A contact that is wider than long has cells as slender as half of that, in powers of two up to this one.
 _WIDE, _WIDEST = math.sqrt(2.0), 4
-# Of a thin layer the coarsest grid has cells no longer than twice its thickness, if that takes no more than so many.
+# The coarsest grid has cells no longer than twice the thickness of a thin layer, if this many cells are sufficient.
 _LAYER_CELLS, _FINEST_START = 0.5, 256
-# First windows that are tried, in units of the contact's size as it is guessed.
+# First windows tried, in units of the guess of the contact's size.
 _FIRST_WINDOWS = (1.0, 2.5, 5.0, 1.6, 0.6)
 _MOST_WINDOWS = 20
-# Factor by which the error of the friction may fall when cells are halved: more than before where they begin to
+# Largest factor by which the error of the friction falls when cells are halved: more than before where they begin to
 # resolve a memory or a layer.
 _LEAST_FALL, _FALL = 5.0, 8.0
 _MOST_RESTARTS = 5
@@ -119,7 +119,7 @@ class _Goal:
     errors: list[float] = field(default_factory=list)
 
     def allow(self, window: Grid, stages: list[Stage]) -> None:
-        """Raise ConvergenceError where a grid is too fine, or it and the finer ones would not be enough either."""
+        """Raise ConvergenceError where a grid is too fine, or the accuracy cannot be reached even on the finest."""
         cells = max(window.shape)
         if cells > self.finest:
             raise self.missed(f"the finest grid allowed ({self.finest} cells)")
@@ -128,7 +128,7 @@ class _Goal:
             raise self.missed(f"a grid of {cells // 2} cells, and {self.finest} cells will not be enough")
 
     def missed(self, where: str) -> ConvergenceError:
-        """Return what to raise."""
+        """Return the error to raise."""
         known = self.errors[-1] if self.errors else math.inf
         return ConvergenceError(
             f"the relative error of the friction coefficient is {known:.1e} on {where}; request less accuracy than "
@@ -137,7 +137,7 @@ class _Goal:
         )
 
     def _expected_error(self, halvings: int) -> float:
-        """Return an optimistic error after so many further halvings of the cells.
+        """Return an optimistic error after a number of further halvings of the cells.
 
         It falls half as much again as at best in the last two steps.
         """
@@ -147,7 +147,7 @@ class _Goal:
 
 
 def _start(found: Stage, given: GivenGrid) -> Stage:
-    """Solve on the coarsest of the grids that lead to the given one; where nothing is given, it is that found."""
+    """Solve on the coarsest of the nested grids of the given one; without a given grid, on the one found."""
     if given.window is None and given.cells is None:
         return found
     kept = found.window.whole if given.window is None else given.window

@@ -25,7 +25,7 @@ COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
 
 
 class Shape(Protocol):
-    """An indenter, in these units."""
+    """An indenter in these units."""
 
     @property
     def has_tip(self) -> bool:
@@ -85,7 +85,7 @@ class Problem:
         """First guess of the contact's size.
 
         Under a given load, the radius a of Hertz's contact with the compliance of waves e^(ix/a); a given indentation
-        hardly leaves the size a choice.
+        almost determines the size.
         """
         size = 1.0
         if self.control.load is not None:
@@ -93,10 +93,10 @@ class Problem:
                 wave = np.array([1.0 / size])
                 yielding = 1.0 if self.layer is None else self.layer.yielding(wave)
                 compliance = float(np.abs(self.solid.symbol(wave, yielding))[0])
-                # Half way, since of a thin incompressible layer the whole step would lead back and forth.
+                # Half the step, since for a thin incompressible layer whole steps oscillate.
                 size = math.sqrt(size * compliance ** (1.0 / (self.geometry.dimension + 1.0)))
         return size
 
     def height_on(self, window: Grid, shift: float) -> Array:
-        """Height of the indenter at the collocation points, so many cells behind the cell centres."""
+        """Height of the indenter at the collocation points, `shift` cells behind the cell centres."""
         return self.shape.height((window.x - shift * window.spacing)[:, None], window.y)

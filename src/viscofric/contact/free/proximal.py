@@ -1,15 +1,15 @@
-"""Proximal points, for contact sets that full steps of the active set miss.
+"""Proximal points, for contacts where the active set does not converge.
 
 The contact problem asks for the pressures at which 0 ∈ A p + N(p), A p = K p + h − δ and N the normal cone of p ≥ 0.
-Where the solid's short waves lag by a quarter of a wave, K is nearly skew and the active set cycles however near
-it starts.  With some compliance σ added to each cell, like a Winkler foundation's, K + σ is not skew for waves
-with |K̂| < σ.  Rockafellar's iteration [1]_ takes the addition back step by step: ::
+Where the solid's short waves lag by a quarter of a wave, K is nearly skew and the active set cycles even near the
+solution. With some compliance σ added to each cell, like a Winkler foundation's, K + σ is not skew for waves with |K̂|
+< σ. Rockafellar's iteration [1]_ takes the addition back step by step: ::
 
     p_{n+1}  solves  0 ∈ (K + σ_n) p + h − σ_n p_n − δ + N(p)
 
-It converges for every positive K, symmetric or not, and all σ_n > 0, and the quicker the smaller they are; each
-step need be solved to a part of σ_n |p_{n+1} − p_n| only.  So σ falls as long as its steps converge and rises where
-one does not.  Once σ hardly matters any more, the problem itself is tried.
+It converges for every positive K, symmetric or not, and all σ_n > 0, faster for smaller ones; each step need be
+solved only to a part of σ_n |p_{n+1} − p_n|.  So σ falls as long as its steps converge and rises where one does not.
+Once σ is negligible, the problem itself is tried.
 
 .. [1] R. T. Rockafellar, SIAM J. Control Optim. 14 (1976) 877, doi:10.1137/0314056.
 """
@@ -32,15 +32,15 @@ if TYPE_CHECKING:
 
 logger = logging.getLogger(__name__)
 
-# σ, relative to the compliance of waves four cells long: at first, and how it goes on.  Where a step failed at some σ,
-# the next ones go there slowly, and its failure counts for less from step to step.
+# σ, relative to the compliance of waves four cells long: at first, and its later factors.  Where a step failed at some
+# σ, the next ones approach it slowly, and the failure has less weight from step to step.
 _FIRST, _FALL, _QUICK_FALL, _SLOW_FALL, _RISE, _FADE = 3.0, 0.5, 0.35, 0.8, 3.0, 0.9
 _QUICK = 4  # updates of the contact set within which a step is an easy one
 _LOOKS = 4  # updates without progress that end a step's attempt
-_STEP_TOLERANCE = 0.3  # of each step, relative to what is violated before it
-_NEAR = 1e-6  # what is violated where the problem itself is tried, if the tolerance is not looser than that
-_HIGHEST = 1e4  # σ that is given up at
-# Products after which to give up: so many times so many cells, about a minute's work, but not fewer than these.
+_STEP_TOLERANCE = 0.3  # of each step, relative to the violation before it
+_NEAR = 1e-6  # violation at which the problem itself is tried, if the tolerance is not larger
+_HIGHEST = 1e4  # largest σ
+# Limit of products: products times cells, about a minute's work, but not fewer products than the second number.
 _CELL_PRODUCTS, _FEWEST_PRODUCTS = 6e8, 150
 
 

@@ -35,7 +35,7 @@ class Stage:
 
     @cached_property
     def pressure_friction(self) -> float:
-        """Friction coefficient from the lean of the pressure, ∫ p ∂h/∂x dA / F."""
+        """Friction coefficient from the asymmetry of the pressure, ∫ p ∂h/∂x dA / F."""
         slope = self.problem.shape.slope(self.window.x[:, None], self.window.y)
         return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / self.load
 
@@ -84,7 +84,7 @@ class Stage:
 
     @property
     def gap(self) -> Array:
-        """Between surface and indenter, as the contact conditions see it."""
+        """Gap between surface and indenter in the contact conditions."""
         gap: Array = self.result.displacement + self.problem.height_on(self.window, self.operator.shift)
         gap -= self.result.indentation
         return gap
@@ -189,7 +189,7 @@ def contact_area(window: Grid, pressure: Array) -> float:
 
 
 def _rim(pressure: Array) -> float:
-    """Sum up what the contact covers beyond its loaded cells' edges along the first axis, in cells."""
+    """Return the area of the contact beyond its loaded cells' edges along the first axis, in cells."""
     padded = np.pad(pressure, [(2, 2), (0, 0)])
     total = 0.0
     for one in (padded, padded[::-1]):

@@ -28,16 +28,16 @@ if TYPE_CHECKING:
 # A mode with a memory shorter than this (in cells) dissipates by its leading term, λ² ∂²/∂x²: the next one
 # is λ² = 1e-6 smaller, while the difference of its two potentials would have lost that much to rounding.
 SHORT_MEMORY = 1e-3
-# Memory length, in cells, from which on a mode's dissipation is rather found from slopes than from bends.
+# Memory length, in cells, from which on a mode's dissipation follows from slopes instead of bends.
 _BEND_MEMORY = 10.0
-# Cells of which something is found in one go: few enough for the cache.
+# Cells processed together: few enough for the cache.
 _CELLS_AT_ONCE = 20_000
 # Cells from which on corrections are in single precision.
 _FEWEST_SINGLE = 2**18
 # Cells along an edge from which on residuals are extended.
 _FEWEST_EXTENDED = 128
 _SINGLE = {"f": np.float32, "c": np.complex64}
-# Loss angle of waves four cells long from which displacements are looked at behind the cell centres.
+# Loss angle of waves four cells long from which displacements are taken behind the cell centres.
 _TOLERATED_ANGLE = np.pi / 4.0
 
 
@@ -55,7 +55,7 @@ class SteadyMaterial:
 
         `yielding` is Θ of a layer at these wavenumbers, the factor of the first term.
         """
-        with np.errstate(over="ignore"):  # where the square of a phase overflows, its mode is as good as rigid
+        with np.errstate(over="ignore"):  # where the square of a phase overflows, its mode is practically rigid
             phase = np.multiply.outer(qx, self.memory_lengths)
             wave = 1.0 / (1.0 + phase**2)
         result = self.glassy + wave @ self.compliances + 1j * ((phase * wave) @ self.compliances)
@@ -88,7 +88,7 @@ class ConvolutionOperator(ABC):
     Linear and positive definite, but *not* symmetric, because of the solid's memory.
     """
 
-    #: What the cell's potential is multiplied by for a compliance of one, but for the cell's length.
+    #: Factor of the cell's potential for a compliance of one, without the cell's length.
     unit: ClassVar[float]
 
     window: Grid
@@ -123,7 +123,7 @@ class ConvolutionOperator(ABC):
 
     @abstractmethod
     def _influence(self) -> Influence:
-        """Influence coefficients of the displacement and of what dissipates."""
+        """Influence coefficients of the displacement and of its dissipating part."""
 
     @property
     def dtype(self) -> Any:
@@ -163,7 +163,7 @@ class ConvolutionOperator(ABC):
         return self.backend.transforms.convolved(values, spectrum, self._padded)
 
     def precondition(self, residual: AnyArray) -> AnyArray:
-        """Pressure that would cause a displacement, nearly: the inverse of the nearest periodic operator."""
+        """Approximate pressure of a displacement: the inverse of the nearest periodic operator."""
         waves = self.backend.transforms.forward(residual)
         waves *= self._inverse_symbol
         return self.backend.transforms.inverse(waves, self.window.shape)
@@ -197,10 +197,9 @@ class ConvolutionOperator(ABC):
         """Friction force from the dissipated energy, that of short memories from the bends of the surface.
 
         The displacement of one mode, y_k − l_k ∂y_k/∂x = c_k L p, dissipates −∫ p ∂y_k/∂x dA = −l_k ∫ p ∂²y_k/∂x² dA,
-        since the slope of c_k L p does no work.  With second differences in place of ∂²/∂x² every part of the
-        displacement is dissipated as short waves bend it, and what cells leave out can be found from the bends of the
-        gap; see `viscofric.contact.free.balance`.  Modes whose memory is long against the cell keep the slope, which is
-        more accurate for them; `bent_share` says how much of each mode.
+        since the slope of c_k L p does no work.  With second differences in place of ∂²/∂x² the part that cells leave
+        out follows from the bends of the gap; see `viscofric.contact.free.balance`.  For modes whose memory is long
+        against the cell the slope is more accurate; `bent_share` is the part of each mode that is found from bends.
         """
         return self._resistance(self._bent_dissipation, pressure, overlaps)
 
@@ -218,8 +217,8 @@ class ConvolutionOperator(ABC):
     def extension(self, dtype: Any) -> Extension | None:
         """Return what extends residuals before they are preconditioned, in some precision.
 
-        None in small windows, where it would save nothing, in line contacts, and where cells yield by themselves: their
-        displacement does break off at the edge of a contact.
+        None in small windows, where it would save nothing, in line contacts, and where cells have a compliance of their
+        own: their displacement is discontinuous at the edge of a contact.
         """
         if min(self.window.shape) < _FEWEST_EXTENDED or self._is_damped:
             return None
@@ -302,11 +301,11 @@ def second_difference(values: Array) -> Array:
 def collocation_shift(material: SteadyMaterial, spacing: float) -> float:
     """Distance of the collocation points behind the cell centres, in cells: 0 to 1/2.
 
-    Where a cell is long against the shortest memory but short against the next, the operator answers to
-    pressures that alternate from cell to cell with a displacement nearly a quarter of a wave behind: it is almost
-    skew, like an advection taken at mid-cell, and no method for the complementarity problem converges well.
-    Looked at farther behind (as in an upwind scheme), the same pressures are answered in phase.  The shift sets in
-    where the loss angle of waves four cells long exceeds `_TOLERATED_ANGLE`; it vanishes as the grid is refined.
+    Where a cell is long against the shortest memory but short against the next, pressures that alternate from cell
+    to cell cause a displacement nearly a quarter of a wave behind: the operator is almost skew, like an advection
+    evaluated at mid-cell, and no method for the complementarity problem converges well.  Evaluated farther behind (as
+    in an upwind scheme), the displacement is in phase with these pressures.  The shift sets in where the loss angle of
+    waves four cells long exceeds `_TOLERATED_ANGLE`; it vanishes as the grid is refined.
     """
     angle = abs(float(np.angle(material.symbol(np.array([0.5 * np.pi / spacing])))[0]))
     return 0.5 * max(0.0, (angle - _TOLERATED_ANGLE) / (0.5 * np.pi - _TOLERATED_ANGLE))

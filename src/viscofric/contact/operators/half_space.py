@@ -42,8 +42,8 @@ class LineOperator(ConvolutionOperator):
     """Displacement of the free half-space under pressures on a strip of cells, the same all along y.
 
     In plane strain the displacement has no level: it grows without bound as the load's length grows.  Here its
-    zero is put a little below the least influence within the strip, wherever the displacement is looked at, which
-    keeps the operator positive definite.  Only differences of displacements mean something.
+    zero is a little below the least influence within the strip, wherever the displacement is evaluated, which keeps
+    the operator positive definite.  Only differences of displacements are meaningful.
     """
 
     unit = 2.0 / np.pi

@@ -87,8 +87,8 @@ class LayerOperator(ConvolutionOperator):
 class LineLayerOperator(ConvolutionOperator):
     """Displacement of a layer under pressures on a strip of cells, the same all along y.
 
-    The surface far away stays where it was, unless the indenter is elastic: of its displacement, as of the
-    half-space's in plane strain, only differences mean something, and the zero is put below the least of them.
+    The surface far away does not move, unless the indenter is elastic: of its displacement, as of the half-space's in
+    plane strain, only differences are meaningful, and the zero is below the least of them.
     """
 
     layer: ScaledLayer = field(kw_only=True)

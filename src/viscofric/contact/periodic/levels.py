@@ -1,4 +1,4 @@
-"""Periodic contact on nested grids: a coarse likeness of the surface is solved first, then its finer ones.
+"""Periodic contact on nested grids: a coarse approximation of the surface is solved first, then finer ones.
 
 Everything here is dimensionless: depths in rms heights of the surface, compliances relative to the largest.
 """
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 logger = logging.getLogger(__name__)
 
 COARSEST = 32  # points along the longer edge of the coarsest grid, about
-COARSE_TOLERANCE = 2e-4  # a coarser surface is another one: more would be wasted on it
+COARSE_TOLERANCE = 2e-4  # a coarser surface differs anyway: more accuracy would be wasted
 
-_MOST_COARSE_PRODUCTS = 2000  # on a grid that only gives the next one its start
+_MOST_COARSE_PRODUCTS = 2000  # on a grid that only provides the start of the next one
 
 
 @dataclass(frozen=True)

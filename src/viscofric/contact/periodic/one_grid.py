@@ -1,4 +1,4 @@
-"""The periodic contact on one grid: some splitting, then the active set; where that fails, slower and more robust ways.
+"""The periodic contact on one grid: some splitting, then the active set; where that fails, slower and robust methods.
 
 Everything here is dimensionless: depths in rms heights of the surface, compliances relative to the largest.
 """
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 _PATIENCE = 3  # updates of the contact set without a smaller residual before splitting takes over
 _FEW_DIRECTIONS = (6, 12)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
-_FEW_PRODUCTS = 300  # enough for most contacts, where what follows is not needed
+_FEW_PRODUCTS = 300  # enough for most contacts, without the following methods
 _FIRST_STEPS = (5, 7)  # of the splitting on each grid, likewise
 _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
-_MORE_STEPS = 40  # of the splitting where the contact set does not settle; then twice as many, and so on
+_MORE_STEPS = 40  # of the splitting where the contact set does not converge; then twice as many, and so on
 # In turn, with more directions: oblique motions in particular may not converge with the whole of it.
 _SHARES_OF_LAG = (1.0, 0.5)
 # ρ of the splitting over the smallest compliance of a wave, where coarser grids have settled the long waves.
@@ -40,7 +40,7 @@ _ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the sm
 _GROWTH = 2.0  # of the splitting's steps from round to round
 # Of the continuation through softer contacts: the part of the relaxed compliance that is added first; the largest and
 # the least factor from one added compliance to the next, and how much longer its logarithm grows after a success;
-# the tolerance and the products of each contact on the way; the part of the least compliance of any wave below which
+# the tolerance and the products of each intermediate contact; the part of the least compliance of any wave below which
 # nothing is added.
 _ADDED_FIRST, _ADDED_LAST = 0.3, 0.3
 _FACTOR, _LEAST_FACTOR, _LONGER = 1.8, 1.02, 1.3
@@ -101,7 +101,7 @@ class OneGrid:
         for share in (1.0,) if self.elastic else _SHARES_OF_LAG:
             if result.converged or self.products >= self.most_products:
                 break
-            # A little more of the cheap kind brings most of those that remain near enough.
+            # A few more of these cheap steps are sufficient for most of the remaining contacts.
             pressure = self._split(self.single, start, _MORE_STEPS, self.rho(_ALL_WAVES[0]))
             self.extension = self._extension(share)
             result = self._active_set(pressure, 2 * _PATIENCE, _MANY_DIRECTIONS, _FEW_PRODUCTS)
@@ -112,24 +112,24 @@ class OneGrid:
             result = result if found is None else found
         steps, turn = 2 * _MORE_STEPS, 0
         while not result.converged and self.products < self.most_products:
-            # Not from where the active set went: only its own steps bring the splitting nearer and nearer.
+            # Not from the active set's result: the splitting converges only along its own steps.
             turn += 1
             allowed = min(steps, self.most_products - self.products)
             pressure = self._split(self.exact, pressure, allowed, self.rho(_ALL_WAVES[turn % 2]), accelerated=True)
-            # The active set gets as much to spend as the splitting, which may well be the one to converge.
+            # The active set has the same limit as the splitting, which may be the one to converge.
             result = self._active_set(pressure, _PATIENCE, _MANY_DIRECTIONS, allowed)
             steps = int(_GROWTH * steps)
         return result
 
     def _extension(self, share: float) -> Extension:
-        """Return the extension of residuals, with a share of the lag behind moving edges."""
+        """Return the extension of residuals, with a part of the lag behind moving edges."""
         stage = self.stage
         late = share * lag(stage.transfer, self.shape[1], stage.toward)
         return Extension(self.backend, self.shape, self.single.dtype, stage.toward, late)
 
     @property
     def quick_rho(self) -> float:
-        """ρ of the splitting that settles short waves in a few steps."""
+        """ρ of the splitting for which short waves converge in a few steps."""
         return _SHORT_WAVES[0 if self.elastic else 1] * self.exact.compliance_range[0]
 
     def rho(self, stiffness: float) -> float:

@@ -63,8 +63,8 @@ class PeriodicOperator:
     def inverse(self) -> AnyArray:
         """Inverse of the transfer function.
 
-        A uniform pressure, which moves nothing, is treated like the most compliant wave: where the load is given that
-        makes no difference, where the indentation is, it must not be zero.
+        A uniform pressure, which moves nothing, has the compliance of the most compliant wave: with a given load this
+        has no effect, with a given indentation it must not be zero.
         """
         xp = self.backend.xp
         found = xp.asarray(self.transfer, copy=True)

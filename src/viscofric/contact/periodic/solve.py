@@ -41,10 +41,10 @@ TIGHTEST, LOOSEST = 1e-12, 1e-2  # of the complementarity, in rms heights
 FRICTION_FLOOR = 1e-3
 #: Relative loss of rms height up to which a coarser surface counts as the same.
 LIKENESS = 1e-10
-# Part of the load on points at the edges of the contact that friction may be wrong by, where no coarser grid has all
-# the waves.  Seen in random contacts that the other estimate does not cover: 1 to 11 %, 26 % where all points are such.
+# Error of friction as a part of the load on points at the edges of the contact, where no coarser grid has all the
+# waves.  Found in random contacts that the other estimate does not cover: 1 to 11 %, 26 % where all points are such.
 _UNSURE_AT_EDGES = 0.25
-# By which errors fall at the least where points are twice as close: pressures rise like square roots at the edges.
+# Least factor by which errors fall where points are twice as close: pressures rise like square roots at the edges.
 _FADING = 0.5**1.5
 
 
@@ -160,7 +160,7 @@ def solve_periodic(
     given = _Given.of(surface, pressure, gap)
     depth = surface.rms_height
     finest = solid.transfer(surface.shape, surface.spacing)
-    # The unit of compliance, m/Pa: that of the wave which yields most.
+    # The unit of compliance, m/Pa: that of the most compliant wave.
     unit = float(np.abs(finest).max())
     finest /= unit
     coarser = surface.coarser(coarser_shapes(surface.shape))

@@ -1,4 +1,4 @@
-"""Operator splitting for the periodic contact: it converges from anywhere, however skew the operator is.
+"""Operator splitting for the periodic contact: it converges from any start, however skew the operator is.
 
 The contact problem asks for a p at which 0 ∈ A p + N(p), with A p = K p + h − δ, the load or δ given, and N the
 normal cone of p ≥ 0: a sum of two monotone operators.  Douglas and Rachford's splitting [1]_ alternates their
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from viscofric.contact.periodic.operator import PeriodicOperator
 
 
-_MEMORY = 8  # earlier steps that the acceleration looks back on
-_GROWTH = 2.0  # of the best residual, at which the acceleration goes back to it and starts anew
+_MEMORY = 8  # earlier steps that the acceleration uses
+_GROWTH = 2.0  # of the best residual, at which the acceleration restarts from it
 
 
 def split_steps(

@@ -138,7 +138,7 @@ class PeriodicSurface:
 
 
 def interpolated(values: Array, shape: tuple[int, int]) -> Array:
-    """Carry values to a grid of other points in the same period, linearly along each axis."""
+    """Interpolate values on a grid of other points in the same period, linearly along each axis."""
     for axis, points in enumerate(shape):
         given = values.shape[axis]
         if given == points:
@@ -155,7 +155,7 @@ def interpolated(values: Array, shape: tuple[int, int]) -> Array:
 
 
 def _doubled(values: Array, axis: int) -> Array:
-    """Put the mean of each two neighbours between them, along one axis."""
+    """Insert the mean of each two neighbours between them, along one axis."""
     nx, ny = values.shape
     found = np.empty((nx, 2, ny) if axis == 0 else (nx, ny, 2))
     between = found[:, 1, :] if axis == 0 else found[:, :, 1]
