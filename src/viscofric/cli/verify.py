@@ -31,7 +31,7 @@ _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
     "folder",
     metavar="FOLDER",
     type=click.Path(path_type=Path),
-    help="Predict a friction test instead, and compare it point by point.",
+    help="Predict the friction test in FOLDER instead, and compare point by point.",
 )
 @click.option("--only", "names", metavar="NAME", multiple=True, help="Run this check or group only; may be repeated.")
 @click.option("--list", "listed", is_flag=True, help="List the checks and exit.")
@@ -52,7 +52,7 @@ def command(
     Each check compares computed values with a closed form, a reference value, or an equivalent computation. Its
     line shows the worst comparison. Exit status 1 if any check fails.
 
-    With --test, FOLDER holds sweeps, measured friction, and a run file with citation and licence. The comparison is
+    With --test, FOLDER contains sweeps, measured friction, and a run file with citation and licence. The comparison is
     printed and written as a page.
     """
     if folder is not None:
