@@ -178,7 +178,7 @@ def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> 
         "columns": {"frequency": "v1 (Hz)", "loss_modulus": "Beta (Pa)"},
     }
     assert "frequency: v1 (Hz)" in tab.text("#step-sweeps")
-    step.get_by_role("button", name="Forget the named columns").click()
+    step.get_by_role("button", name="Clear the column names").click()
     step.get_by_label("Column of the frequency").wait_for()
 
 

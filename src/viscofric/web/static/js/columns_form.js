@@ -19,7 +19,7 @@ export function columnsForm(app, { choose, chosen }) {
   const { h, button } = app.fields;
   const rows = h("div", { class: "form columns-form" });
   const read = button({ label: "Read with these columns", kind: "main", onClick: () => choose(answer()) });
-  const forget = button({ label: "Forget the named columns", kind: "quiet small", onClick: () => choose(undefined) });
+  const forget = button({ label: "Clear the column names", kind: "quiet small", onClick: () => choose(undefined) });
   const kept = h("p", { class: "help" });
   const about = h("p", { class: "help" }, "Which column holds what? Units that the file states need not be repeated.");
   const asked = h("div", { class: "panel" }, about, rows, h("div", { class: "row" }, read));
