@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from readers.samples.pcs import TRACTION_SAMPLES
+from readers.samples.pcs_binary import BINARY_SAMPLES
 from viscofric.errors import LONGEST_SENTENCE, DataFileError
 from viscofric.readers import read_mtm
 
@@ -25,13 +26,14 @@ damage = settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 every_sample = pytest.mark.parametrize("name", sorted(TRACTION_SAMPLES))
+every_file = pytest.mark.parametrize("name", sorted({**TRACTION_SAMPLES, **BINARY_SAMPLES}))
 
 
 @pytest.fixture(scope="module")
 def sample_bytes(tmp_path_factory):
     """Name of a sample -> content of its file."""
     folder = tmp_path_factory.mktemp("samples")
-    return {name: write(folder).read_bytes() for name, write in TRACTION_SAMPLES.items()}
+    return {name: write(folder).read_bytes() for name, write in {**TRACTION_SAMPLES, **BINARY_SAMPLES}.items()}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -73,7 +75,7 @@ def name_of(data):
     return "delimited" if b"started at" not in data else "export"
 
 
-@every_sample
+@every_file
 @damage
 @given(share=st.floats(0.0, 1.0))
 def test_a_file_torn_off_anywhere(tmp_path, sample_bytes, name, share):
@@ -81,7 +83,7 @@ def test_a_file_torn_off_anywhere(tmp_path, sample_bytes, name, share):
     read_or_refuse(tmp_path, data[: int(share * len(data))])
 
 
-@every_sample
+@every_file
 @damage
 @given(seed=st.integers(0, 10**6), count=st.integers(1, 30))
 def test_flipped_bytes(tmp_path, sample_bytes, name, seed, count):

@@ -66,7 +66,9 @@ def _as_text(rows: Rows) -> str:
     lines = []
     for row in rows:
         cells = (" ".join(one.split()) if isinstance(one, str) else repr(float(one)).removesuffix(".0") for one in row)
-        lines.append("\t".join(cells).rstrip("\t"))
+        line = "\t".join(cells)
+        bare = line.rstrip("\t")
+        lines.append(line if "\t" in bare else bare)  # a row of one cell is a line of text
     return "\n".join(lines) + "\n"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.names import DMA
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
+from viscofric.readers.mtm.reduced import force, missing, speeds
 from viscofric.readers.tables import find_tables, holds_table, name_columns
 
 if TYPE_CHECKING:
@@ -31,13 +32,19 @@ TRACTION = Vocabulary(
         "ball speed": frozenset({"ball speed", "u ball"}),
         "load": frozenset({"load", "ball load", "normal load", "normal force"}),
         "traction force": frozenset({"traction force", "traction"}),
+        "rolling speed": frozenset({"rolling speed", "entrainment speed", "entrainment velocity", "mean speed"}),
+        "sliding speed": frozenset({"sliding speed", "slip speed", "sliding velocity"}),
+        "slide to roll ratio": frozenset(
+            {"srr", "slide-to-roll ratio", "slide-roll ratio", "slide roll ratio", "slide to roll ratio"}
+        ),
+        "traction coefficient": frozenset({"traction coefficient", "traction coeff", "traction coeff."}),
         "zero force": frozenset({"zero force", "zero traction force"}),
         "time": frozenset({"t", "time", "step time"}),
         "track radius": frozenset({"track radius", "disc track radius"}),
         "replicate": frozenset({"replicate", "repetition", "repeat"}),
         "step": frozenset({"step", "step number"}),
     },
-    needed=(("disc speed", "ball speed"), ("traction force",)),
+    needed=(("disc speed", "ball speed", "rolling speed"), ("traction force", "traction coefficient")),
     example="a table of traction runs has e.g. 'temperature (degC)', 'disc speed (mm/s)', 'ball speed (mm/s)', "
     "'load (N)', 'traction force (N)'",
     key="measurement.columns",
@@ -47,42 +54,57 @@ TRACTION = Vocabulary(
         ("ball speed", "mm/s"),
         ("load", "N"),
         ("traction force", "N"),
+        ("rolling speed", "mm/s"),
+        ("slide to roll ratio", "%"),
+        ("traction coefficient", ""),
         ("replicate", ""),
     ),
 )
-#: Quantity -> SI unit; the optional ones may have empty cells.
-REQUIRED = {"disc speed": "m/s", "ball speed": "m/s", "traction force": "N", "load": "N", "temperature": "K"}
+#: Quantity -> SI unit; cells may be empty.
 OPTIONAL = {"zero force": "N", "time": "s", "track radius": "m"}
 
 LARGEST_COUNT = 1e9
+_COLDEST = "absolute zero"
 
 
 def read(source: Source) -> TractionReadings:
     """Return the rows of a table, or raise `DataFileError`."""
     table = _table(source)
-    places = _columns(table)
-    values = {name: table.values(places[name], unit) for name, unit in REQUIRED.items()}
-    for name, limit in (("load", "zero"), ("temperature", "absolute zero")):
-        _insist_on_positive(table, places[name], values[name], limit)
-    notes = _unused(table, places)
+    lacking = missing(table)
+    if lacking:
+        problem = f"no column for {' or '.join(lacking)}; {TRACTION.example}, this one has {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, lacking), lacking)
+    load, temperature = (_positive(table, *what) for what in (("load", "N", "zero"), ("temperature", "K", _COLDEST)))
+    notes: list[Note] = []
+    disc, ball, of_speeds = speeds(table, notes)
+    traction, of_force = force(table, load, disc - ball, notes)
+    notes += _unused(table, {"load", "temperature", of_force, *of_speeds, *OPTIONAL, "replicate", "step"})
     optional = {name: _optional(table, name) for name in OPTIONAL}
     time = optional["time"]
     if time is not None and not np.all(np.isnan(time)):
         time = time - np.nanmin(time)
+    kept = np.flatnonzero(~np.isnan(traction))
+    if not kept.size:
+        problem = "no row has a slip, which gives a coefficient of traction its sign."
+        raise DataFileError(table.path, problem, code="no-points")
+
+    def rows(column: Any) -> Any:
+        return None if column is None else column[kept]
+
     return TractionReadings(
         source=source.path,
-        disc_speed=values["disc speed"],
-        ball_speed=values["ball speed"],
-        traction_force=values["traction force"],
-        load=values["load"],
-        temperature=values["temperature"],
-        row=np.arange(len(table.rows)),
-        replicate=_whole_numbers(table, "replicate"),
-        zero_force=optional["zero force"],
-        time=time,
-        track_radius=optional["track radius"],
-        step=_whole_numbers(table, "step"),
-        notes=notes,
+        disc_speed=disc[kept],
+        ball_speed=ball[kept],
+        traction_force=traction[kept],
+        load=load[kept],
+        temperature=temperature[kept],
+        row=np.arange(kept.size),
+        replicate=rows(_whole_numbers(table, "replicate")),
+        zero_force=rows(optional["zero force"]),
+        time=rows(time),
+        track_radius=rows(optional["track radius"]),
+        step=rows(_whole_numbers(table, "step")),
+        notes=tuple(notes),
     )
 
 
@@ -114,19 +136,9 @@ def _refuse_sweeps(source: Source) -> None:
         )
 
 
-def _columns(table: Table) -> dict[str, int]:
-    places = {name: table.place(name) for name in REQUIRED}
-    missing = [name for name, place in places.items() if place is None]
-    if missing:
-        problem = f"no column for {' or '.join(missing)}; {TRACTION.example}, this one has {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing), missing)
-    return {name: place for name, place in places.items() if place is not None}
-
-
-def _unused(table: Table, places: dict[str, int]) -> tuple[str, ...]:
+def _unused(table: Table, used: set[str]) -> tuple[Note, ...]:
     """Return a note on unread columns; refuse numbered forces and speeds, which are separate readings."""
-    others = [place for name in (*OPTIONAL, "replicate", "step") if (place := table.place(name)) is not None]
-    unused = table.unused([*places.values(), *others])
+    unused = [column for column in table.columns if column.name and column.quantity not in used]
     readings = frozenset[str]().union(
         *(TRACTION.quantities[name] for name in ("traction force", "disc speed", "ball speed")), {"tf"}
     )
@@ -153,6 +165,15 @@ def _optional(table: Table, name: str) -> Array | None:
     values = factor * table.numbers_or_missing(place) + offset
     if name == "track radius":
         _insist_on_positive(table, place, values, "zero")
+    return values
+
+
+def _positive(table: Table, what: str, unit: str, limit: str) -> Array:
+    """Return a column of which all values must be above a limit."""
+    place = table.place(what)
+    assert place is not None  # see `missing`
+    values = table.values(place, unit)
+    _insist_on_positive(table, place, values, limit)
     return values
 
 

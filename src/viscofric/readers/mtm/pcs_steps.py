@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 
-_START = re.compile(r"\s*Step\s+(\d{1,6})\s+started\s+at\b(.*)", re.IGNORECASE)
+_START = re.compile(r"\s*Step\s+(\d{1,6})(?:\s+\"[^\"]{0,200}\")?\s+started\s+at\b(.*)", re.IGNORECASE)
 NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*", re.ASCII)
 #: Above every force, speed, temperature or time of a tribometer, in printed units.
 LARGEST = 1e9
@@ -34,7 +34,14 @@ UNITS = {
     "traction force": "N",
     "traction coeff": "",
 }
-_ALSO = {"lube temp": "lube rtd temp", "lubricant temp": "lube rtd temp", "pot temp": "pot rtd temp"}
+_ALSO = {
+    "lube temp": "lube rtd temp",
+    "lubricant temp": "lube rtd temp",
+    "pot temp": "pot rtd temp",
+    **{f"traction force {place}": f"tf{place}" for place in (1, 2, 3, 4)},  # as an EHD rig names them
+    "ball speed": "ball speed 1",
+    "disc speed": "disc speed 1",
+}
 _SPEED_UNITS = ("rolling speed", "sliding speed")
 
 

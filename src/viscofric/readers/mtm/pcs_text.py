@@ -29,7 +29,9 @@ if TYPE_CHECKING:
 
 NAME = "a text export of PCS Instruments' MTM or ETM"
 
-_SIGNATURE = re.compile(r"(?:\A|[\r\n])[ \t]*Step[ \t]+\d+[ \t]+started[ \t]+at\b", re.IGNORECASE)
+_SIGNATURE = re.compile(
+    r'(?:\A|[\r\n])[ \t]*Step[ \t]+\d+[ \t]+(?:"[^"\r\n]{0,200}"[ \t]+)?started[ \t]+at\b', re.IGNORECASE
+)
 #: With a larger difference, not both thermometers of a pot are in their places.
 _THERMOMETERS_AGREE = 10.0  # K
 #: Slip over speed above which its sign is certain.

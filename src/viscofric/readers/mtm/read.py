@@ -12,10 +12,10 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError, check_choice, short_notes
 from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
-from viscofric.notes import Note, note_of
-from viscofric.readers.mtm import delimited, pcs_text
+from viscofric.notes import Note, note_of, setting
+from viscofric.readers.mtm import delimited, pcs_binary, pcs_text
 from viscofric.readers.source import Source, checked_sheet, insist_on_content
-from viscofric.readers.workbook import is_workbook
+from viscofric.readers.workbook import is_workbook, sheet_texts
 from viscofric.traction import TractionRuns, TractionStep, notes_on_friction
 
 if TYPE_CHECKING:
@@ -29,17 +29,37 @@ if TYPE_CHECKING:
 def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:
     """Return the readings of a file, or raise `DataFileError` for an empty, binary or damaged one."""
     insist_on_content(source)
-    if pcs_text.recognises(source):
-        return pcs_text.read(source, thermometer)
+    if pcs_binary.recognises(source):
+        return pcs_binary.read(source, thermometer)
+    export = _export(source)
+    if export is not None:
+        return pcs_text.read(export, thermometer)
     if source.text is None and not is_workbook(source):
-        what = f"Supported formats: {pcs_text.NAME} and {delimited.NAME}"
-        raise DataFileError(source.path, f"is a binary file of an unknown format. {what}.", code="unknown-format")
+        known = f"Supported formats: {pcs_text.NAME}, {pcs_binary.NAME} and {delimited.NAME}"
+        problem = f"is a binary file of an unknown format; export the test as text. {known}."
+        raise DataFileError(source.path, problem, code="unknown-format")
     return delimited.read(source)
+
+
+def _export(source: Source) -> Source | None:
+    """Return the text export of an instrument, or the one sheet of a workbook that holds it; None without any."""
+    if source.columns:
+        return None
+    if not is_workbook(source):
+        return source if pcs_text.recognises(source) else None
+    found = {name: text for name, text in sheet_texts(source).items() if pcs_text.recognises(text)}
+    if len(found) > 1:
+        problem = f"the sheets {', '.join(map(repr, found))} each contain a traction test; choose one with "
+        remedy = setting("measurement.sheet", "Sheet", repr(next(iter(found)))) + "."
+        raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
+    return next(iter(found.values()), None)
 
 
 def format_name(source: Source) -> str:
     """Return the format of a file in words."""
-    return pcs_text.NAME if pcs_text.recognises(source) else delimited.NAME
+    if pcs_binary.recognises(source):
+        return pcs_binary.NAME
+    return delimited.NAME if _export(source) is None else pcs_text.NAME
 
 
 _MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature")
@@ -53,9 +73,11 @@ def read_mtm(
 ) -> TractionRuns:
     """Read signed traction readings from one or several files of a tribometer (MTM, ETM or your own tables).
 
-    The format is recognised by the content, never by the name: text exports of PCS Instruments' MTM and ETM, and text
-    tables with a header that names disc speed, ball speed, temperature, load and traction force, each with its
-    unit, and optionally replicate and step (whole numbers), zero force, time and track radius, in any order.
+    The format is recognised by the content, never by the name: text exports and binary files of PCS Instruments' MTM
+    and ETM, and text tables or workbooks with a header that names disc speed, ball speed, temperature, load and
+    traction force, each with its unit, and optionally replicate and step (whole numbers), zero force, time and track
+    radius, in any order.  Rolling speed and slide-to-roll ratio (or sliding speed) may replace the two speeds, a
+    coefficient of traction the force.
 
     Parameters
     ----------
@@ -66,8 +88,8 @@ def read_mtm(
         If a file has only one of them, that one is used, with a note.
     columns : mapping, optional
         Headings of a table that are not understood, by quantity, as for `read_dma`: ``{"disc_speed": "V1 (m/s)"}``.
-        Quantities are temperature, disc_speed, ball_speed, load, traction_force, zero_force, time, track_radius,
-        replicate and step.
+        Quantities are temperature, disc_speed, ball_speed, load, traction_force, rolling_speed, sliding_speed,
+        slide_to_roll_ratio, traction_coefficient, zero_force, time, track_radius, replicate and step.
     sheet : str, optional
         Name of the sheet of a workbook.
 
