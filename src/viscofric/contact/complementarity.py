@@ -1,4 +1,4 @@
-"""The contact problem on a grid: pressures and gaps that are never negative and never both positive.
+"""The contact problem on a grid: pressures and gaps are not negative, and never both positive.
 
 Find p and the indentation δ with ::
 
@@ -10,11 +10,11 @@ inverse of a periodic operator near K, restricted to the contact, as preconditio
 indentation is eliminated by projecting the mean out of residuals and search directions, so that the load never
 changes within a linear solve.  Where K is nearly skew the set can cycle; see `viscofric.contact.free.proximal`.
 
-How tightly the linear problems are solved is the caller's choice.  "without headway": to a tenth of their initial
-residual at first, and ten times more tightly whenever the number of wrongly classified cells fails to halve, since
-loose solves alone can make the set cycle; right for one contact, however skew its operator.  "near the end":
-loosely while many cells are wrongly classified, tightly once few are; right for rough surfaces, where tight solves
-on a wrong set make all the spots overshoot.
+The caller chooses the tolerance of the linear problems.  "without headway": a tenth of their initial residual at
+first, and ten times less whenever the number of wrongly classified cells does not halve, since loose solutions alone
+can make the set cycle; suitable for one contact, however skew its operator.  "near the end": a loose one while many
+cells are wrongly classified, a tight one once few are; suitable for rough surfaces, where tight solutions on a wrong
+set make all spots overshoot.
 
 .. [1] S. C. Eisenstat, H. C. Elman, M. H. Schultz, SIAM J. Numer. Anal. 20 (1983) 345.
 """
@@ -29,15 +29,15 @@ if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
     from viscofric.contact.extension import Extension
 
-# How far a linear residual is reduced while more than the given part of the contact's cells is wrongly classified.
+# Reduction of a linear residual while more than the given part of the contact's cells is wrongly classified.
 _REDUCTIONS = ((0.02, 0.3), (0.0003, 0.1), (1e-5, 1e-2), (0.0, 1e-4))
 _FIRST_REDUCTION = 1e-1
 _LEAST_REDUCTION = 1e-7
-# What is left of an image without those before it, below which it has to be freed of them once more: rounding has put
-# as much of them back.  On fine grids, where long waves yield a million times more than short ones, it does.
+# Part of an image that remains after orthogonalisation, below which it is orthogonalised again: rounding errors are as
+# large.  They are on fine grids, where the compliance of long waves is a million times that of short ones.
 _LITTLE = 0.1
 _DIRECTIONS = 40  # search directions that GCR keeps
-_LINEAR_ITERATIONS = 100  # between two looks at the contact set
+_LINEAR_ITERATIONS = 100  # between two updates of the contact set
 
 
 class ContactOperator(Protocol):
@@ -267,7 +267,7 @@ def solve_on_contact(
     left = first
     target, floor = reduction * first, floor / unit
     correction = xp.zeros_like(residual)
-    # Directions z and their images A z, orthonormal among themselves, in a ring that forgets the oldest.
+    # Directions z and their images A z, orthonormal among themselves, in a ring buffer that drops the oldest.
     kept: list[AnyArray] = []
     images: list[AnyArray] = []
     extended = contact.scattered if extension is None else extension.on(contact)

@@ -1,22 +1,22 @@
 """Extension of residuals on the contact beyond it, for preconditioners that act on the whole grid.
 
 The inverse of a periodic operator K, restricted to the contact, is nearly the inverse of K restricted to it, if it is
-given the whole displacement that a pressure on the contact causes: inside, where that is known, and outside, where
-it is not.  Zeros outside would be a displacement that breaks off at every edge, which takes large pressures along all
-the edges, the larger the more of the solid's answer comes late.  The true displacement goes on smoothly and
-fades: a mean of what is nearby in contact, for distant cells less and less of it, is much nearer to it.  That
-halves the number of steps that generalised conjugate residuals take on rough contacts, and spares a sixth to a third
-of them on one spot in a window, whose periodic operator is another's approximation.
+applied to the whole displacement that a pressure on the contact causes: inside, where that is known, and outside, where
+it is not.  Zeros outside would be a displacement with a jump at every edge, which needs large pressures along all the
+edges, larger ones the more the solid's response lags.  The true displacement is continuous and decays: a mean over
+nearby cells in contact, decreasing with distance, is much closer to it.  That halves the number of steps of
+generalised conjugate residuals on rough contacts, and saves a sixth to a third of them on one spot in a window, whose
+periodic operator approximates another one.
 
 The mean is weighted by the kernel s/(d² + s²)^(3/2) of the distance d (Poisson's, whose transform is e^(−s|q|)): at
-the edge it looks at the few nearest cells, far away at all there are.  It is taken of blocks of cells, and
-interpolated between them.
+the edge over the few nearest cells, far away over all cells.  It is computed for blocks of cells, and interpolated
+between them.
 
-A viscoelastic solid leaves a moving contact otherwise than it enters it: ahead, the displacement falls off at once;
-behind, it recovers late, and goes on as it left the edge.  So the few cells behind each edge take the value of the
-edge, the less the farther they are, and the more the later short waves answer.  That spares a tenth to a quarter of the
-steps on smooth surfaces that slide fast, and half to three quarters on heights with kinks, such as those interpolated
-between measured points, where the shortest memory is some cells long.
+Behind a moving contact a viscoelastic solid differs from the solid ahead of it: ahead, the displacement decays at
+once; behind, it recovers with a lag, and at first keeps its value at the edge.  So the few cells behind each edge take
+the value of the edge, with a weight that decreases with their distance and increases with the lag of short waves.  That
+saves a tenth to a quarter of the steps on smooth surfaces that slide fast, and half to three quarters on heights with
+kinks, such as those interpolated between measured points, where the shortest memory is some cells long.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ if TYPE_CHECKING:
 
 _BLOCK = 8  # cells along an edge of a block at most
 _REACH = 2.5  # s, in cells
-_LEAST = 0.1  # share of the contact in the weights below which the extension fades
-_TRAIL = 5  # cells behind an edge over which its value fades
-_LEAST_WEIGHT = 1e-6  # of a corner that is looked at
+_LEAST = 0.1  # part of the contact in the weights below which the extension decays
+_TRAIL = 5  # cells behind an edge over which its value decays
+_LEAST_WEIGHT = 1e-6  # of a corner that is used
 _LATE = np.pi / 6.0  # loss angle from which on the cell behind an edge takes its value in full
-_SHORT_WAVES = (4, 8, 16)  # cells; the largest of their loss angles counts
+_SHORT_WAVES = (4, 8, 16)  # cells; the largest of their loss angles is used
 
 
 class Extension:
@@ -71,7 +71,7 @@ class Extension:
         self._lines = [self._array(_interpolation(size)) for size in blocks]
 
     def on(self, contact: Cells) -> Callable[[AnyArray], AnyArray]:
-        """Return what extends values on a contact: from (n,) at its cells to (nx, ny)."""
+        """Return the extension of values on a contact: from (n,) at its cells to (nx, ny)."""
         xp = self.backend.xp
         share = self._smoothed(xp.astype(contact.chosen, self.dtype))
         scale = self.backend.reciprocal(xp.clip(share, min=_LEAST))
@@ -91,8 +91,8 @@ class Extension:
     def _trail(self, contact: Cells) -> list[tuple[Cells, float, list[tuple[AnyArray, AnyArray]]]]:
         """Return the cells behind the contact's edges, by distance.
 
-        With the cells, how much of the mean they keep, and where among the contact's cells their edge's values stand,
-        with weights.
+        With the cells, the part of the mean that they keep, and the indices of their edge's values among the contact's
+        cells, with weights.
         """
         xp, found, taken = self.backend.xp, [], contact.chosen
         nx, ny = contact.chosen.shape
@@ -116,7 +116,7 @@ class Extension:
                     for place, (_, weight) in zip(places, corners, strict=True)
                 ]
                 scale = fading / sum(weights)
-                # Outside the contact any place among its cells will do, since the weight is zero.
+                # Outside the contact any index among its cells is correct, since the weight is zero.
                 last = len(contact) - 1
                 sources = [
                     (xp.clip(xp.searchsorted(contact.indices, place), max=last), weight * scale)

@@ -2,8 +2,8 @@
 
 The contact problem asks for the pressures at which 0 ∈ A p + N(p), A p = K p + h − δ and N the normal cone of p ≥ 0.
 Where the solid's short waves lag by a quarter of a wave, K is nearly skew and the active set cycles even near the
-solution. With some compliance σ added to each cell, like a Winkler foundation's, K + σ is not skew for waves with |K̂|
-< σ. Rockafellar's iteration [1]_ takes the addition back step by step: ::
+solution.  With some compliance σ added to each cell, like a Winkler foundation's, K + σ is not skew for waves with
+|K̂| < σ.  Rockafellar's iteration [1]_ removes the addition step by step: ::
 
     p_{n+1}  solves  0 ∈ (K + σ_n) p + h − σ_n p_n − δ + N(p)
 
