@@ -1,4 +1,4 @@
-"""Finite elements (felupe) as a witness: a card's numbers on one element, and a cylinder that slides on a layer."""
+"""Other programs as witnesses: a card's numbers in felupe and simcoon, and felupe's cylinder that slides on a layer."""
 
 from __future__ import annotations
 
@@ -190,3 +190,47 @@ def test_a_cylinder_that_slides_on_a_layer() -> None:
         errors.append(np.abs(found / [load, friction] - 1.0))
     assert np.all(errors[1] < 0.01), errors
     assert np.all(errors[1] < 0.7 * errors[0]), errors
+
+
+# --- shear and bulk at a point ---------------------------------------------------------------------
+
+
+def held_point(simcoon, per_decade):
+    """Return shear and bulk modulus of simcoon's Maxwell law at 1e-8 … 100 s, for strains that are applied at once."""
+    modular = pytest.importorskip("simcoon.modular")
+    modulus, ratio, prony, _ = card_numbers()
+    E, τ = modulus * prony[:, 0], prony[:, 2]
+    branches = [
+        (e, ratio, e * t / (3.0 * (1.0 - 2.0 * ratio)), e * t / (2.0 * (1.0 + ratio)))
+        for e, t in zip(E, τ, strict=True)
+    ]
+    law = modular.viscoelastic_model(modulus, ratio, branches)
+    points = 2  # sheared, and compressed
+    properties = np.asfortranarray(np.repeat(np.array(law.props, dtype=float)[:, None], points, axis=1))
+    state = np.zeros((int(law.nstatev), points), order="F")
+    stress, strain, work = (np.zeros((size, points), order="F") for size in (6, 6, 4))
+    change = np.zeros((6, points), order="F")
+    change[3, 0], change[:3, 1] = STRAIN, STRAIN / 3.0
+    unmoved = np.asfortranarray(np.repeat(np.eye(3)[:, :, None], points, axis=2))
+    ends = np.concatenate([[1e-12], 10.0 ** (np.arange(-9 * per_decade, 2 * per_decade + 1) / per_decade)])
+    moduli, before = [], 0.0
+    for place, end in enumerate(ends):
+        arguments = (strain, change, unmoved, unmoved, stress, unmoved, properties, state, before, end - before, work)
+        stress, state, work, _ = simcoon.umat("MODUL", *arguments, n_threads=1, start=place == 0)
+        strain, change, before = strain + change, np.zeros((6, points), order="F"), end
+        if place > 1 and (place - 1) % (2 * per_decade) == per_decade:
+            moduli.append((stress[3, 0] / STRAIN, stress[0, 1] / STRAIN))
+    return np.array(moduli)
+
+
+@pytest.mark.slow
+def test_shear_and_bulk_relax_as_in_simcoon() -> None:
+    simcoon = pytest.importorskip("simcoon", reason="has no wheel for this platform")
+    _, ratio, _, _ = card_numbers()
+    times = 10.0 ** np.arange(-8.0, 2.5, 2.0)
+    relaxed = card_material().spectrum.to_relaxation().relaxation_modulus(times)
+    expected = relaxed[:, None] / [2.0 * (1.0 + ratio), 3.0 * (1.0 - 2.0 * ratio)]
+    coarse, fine = (held_point(simcoon, per_decade) / expected - 1.0 for per_decade in (50, 100))
+    # Backward differences: first order in the increment, which is 2.3 % of the time at 100 a decade.
+    assert np.all(np.abs(fine) < 0.005)
+    assert np.abs(2.0 * fine - coarse).max() < 2e-4

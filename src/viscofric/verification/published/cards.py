@@ -129,7 +129,8 @@ CHECKS = (
         "simcoon 2.2.0 (generalised Maxwell law, point-level integration)",
         "Backward differences of first order, 1000 increments a decade: 1.15e-3 of a decade each, below 4e-4.",
         _simcoon,
-        obtained="Run by hand for the same rubber, `Viscoelasticity` with the viscosities E τ/(2(1+ν)) and "
-        "E τ/(3(1−2ν)); with 100 increments a decade the differences are ten times larger.",
+        obtained="Computed for the same rubber, `Viscoelasticity` with the viscosities E τ/(2(1+ν)) and "
+        "E τ/(3(1−2ν)); with 100 increments a decade the differences are ten times larger "
+        "(`tests/verification/test_finite_elements.py`).",
     ),
 )
