@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from viscofric.readers.workbook import Rows
 
 
+#: Characters of a text that may hold its header.
+_HEAD = 1_000_000
 #: A longer line names no columns.
 _LONGEST_LINE = 10_000
 _DELIMITERS = "\t;,"
@@ -57,7 +59,7 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
         raise no_header(source, words)
     remarks = [
         tuple(re.split(r"[\t;,]", line))
-        for line in (source.text or "").splitlines()[:DEEPEST_HEADER]
+        for line in (source.text or "")[:_HEAD].splitlines()[:DEEPEST_HEADER]
         if line.lstrip().startswith("#")
     ]
     table = _table_under(source.path, found, words)
@@ -275,7 +277,7 @@ def _lines(text: str, remarks: bool) -> list[tuple[int, str, bool]]:
 
 def _split_lines(source: Source, delimiter: str, remarks: bool = False) -> list[NumberedRow]:
     """Return the cells of the first lines; a line that cannot be split has none."""
-    lines = _lines("\n".join((source.text or "").splitlines()[: 2 * DEEPEST_HEADER]), remarks)
+    lines = _lines("\n".join((source.text or "")[:_HEAD].splitlines()[: 2 * DEEPEST_HEADER]), remarks)
     split = _split_at_blanks if delimiter == _BLANKS else lambda line: _split(line, delimiter)
     return [(number, split(line[:_LONGEST_LINE])) for number, line, _ in lines]
 

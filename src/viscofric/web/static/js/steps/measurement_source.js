@@ -103,7 +103,7 @@ export function source(app, { done, gone }) {
   });
   const drop = fields.fileDrop({
     label: "Drop the files of a traction test",
-    accept: ".txt,.csv,.tsv,.dat,.xlsx,.xls",
+    accept: ".txt,.csv,.tsv,.dat,.xlsx,.xls,.mtmd,.etmd",
     help: "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.",
     onFiles: (files) => take(() => app.api.uploadFiles(files)),
   });
