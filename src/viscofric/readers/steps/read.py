@@ -15,6 +15,7 @@ from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.names import NOT_SAID, said_by_columns, temperature_in_name, tools_in
 from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
 from viscofric.readers.source import STRAIN_FACTORS, Source, checked_sheet, insist_on_content, unit_conversion
+from viscofric.readers.steps import reptate
 from viscofric.readers.steps.starts import start_of
 from viscofric.readers.steps.words import STEPS, kind_in_name
 from viscofric.readers.table import MISSING, make_table
@@ -168,6 +169,7 @@ def _parts(source: Source, kind: StepKind | None) -> list[_Part]:
     insist_on_content(source)
     if trios_text.recognises(source) and not source.columns:
         return _trios_parts(source, kind)
+    source = reptate.with_units(source)
     tables = find_tables(source, STEPS)
     form = "Excel workbook" if any(tables) else "delimited text"
     return [_part(table, source, name or source.stem, kind, form) for name, table in tables.items()]

@@ -56,6 +56,11 @@ def recognises(source: Source) -> bool:
     return without_names or bool({"T", "Mw"} & set(_parameters(first)))
 
 
+def parameters_of(line: str) -> dict[str, str]:
+    """Return the parameters of a first line such as ``T=-35;Mw=2.4;``, none if it is no such line."""
+    return _parameters(line) if _PARAMETERS.fullmatch(line[:2000]) else {}
+
+
 def _parameters(line: str) -> dict[str, str]:
     parts = (part.partition("=") for part in line.strip().split(";") if "=" in part)
     return {name.strip(): value.strip() for name, _, value in parts}
