@@ -188,10 +188,10 @@ def _one_temperature(
     if curves.coulomb is None or curves.slip is None:
         warmed = "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms"
     holds = change <= CHANGE
-    limit = f"within {100 * CHANGE:.0f} %." if holds else f"above {100 * CHANGE:.0f} %; slide more slowly."
+    limit = f"(good if ≤ {100 * CHANGE:.0f} %)" + ("." if holds else "; reduce the slip or the speed.")
     sentence = (
         f"{warmed} the rubber by {bulk:.2g} K at most ({places[worst]}; typical handbook values of {rubber.name} "
-        f"and {counterbody.name} are assumed). This shifts the speed by {decades:.2g} decades and friction by "
-        f"{plain(100 * change, 2)} %, {limit}"
+        f"and {counterbody.name} are assumed). This shifts the speed by {decades:.2g} decades and changes friction by "
+        f"{plain(100 * change, 2)} % {limit}"
     )
     return AssumptionCheck.of("one temperature", holds, sentence, change, CHANGE)

@@ -241,7 +241,7 @@ def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
         "Small strain",
         wide == 0,
         f"The contact extends to {significant(float(reaches.max()), 2)} ball radii from the axis at most; above "
-        f"{SMALL_STRAIN:g} linear theory of a half-space is doubtful.{many}",
+        f"{SMALL_STRAIN:g} the linear theory of a half-space is doubtful.{many}",
         float(reaches.max()),
         SMALL_STRAIN,
     )
