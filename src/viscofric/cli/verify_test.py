@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import TYPE_CHECKING
 
 import click
@@ -28,7 +29,7 @@ _PRINTED = (
 
 def compare_test(folder: Path, as_json: bool) -> None:
     """Run the study of a friction test, and print every point with the errors of both."""
-    from viscofric.cli.run import run_and_report
+    from viscofric.cli.run import SOME_CASES_FAILED, run_and_report
     from viscofric.datasets import plain, record
     from viscofric.report.results import group, is_synthetic, sentences
     from viscofric.report.texts.friction_tables import measurement_table
@@ -39,7 +40,13 @@ def compare_test(folder: Path, as_json: bool) -> None:
     with reported_errors():
         run_file, study = open_friction_test(folder)
     output = run_file.with_suffix(".results")
-    run_and_report(run_file, output, resume=True, quiet=True)
+    status = 0
+    try:
+        run_and_report(run_file, output, resume=True, quiet=True)
+    except SystemExit as stop:
+        if stop.code != SOME_CASES_FAILED:
+            raise
+        status = SOME_CASES_FAILED
     tree = open_results(output).tree
     measurement, agreement, table = group(tree, "measurement"), group(tree, "agreement"), measurement_table(tree)
     said = [] if agreement is None else sentences(agreement.attrs, "sentences")
@@ -57,7 +64,7 @@ def compare_test(folder: Path, as_json: bool) -> None:
             "report": str(output / "report.html"),
         }
         click.echo(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
-        return
+        sys.exit(status)
     click.echo(study.title + (" (SYNTHETIC data: nothing was measured)" if is_synthetic(tree) else ""))
     click.echo(f"{study.citation}; licence: {study.licence}\n")
     chosen = [table.headings.index(heading) for heading in _PRINTED if heading in table.headings]
@@ -67,3 +74,4 @@ def compare_test(folder: Path, as_json: bool) -> None:
     for sentence in said:
         click.echo(sentence)
     click.echo(f"page     {output / 'report.html'}")
+    sys.exit(status)
