@@ -59,6 +59,30 @@ def part(tab: Tab, title: str) -> Locator:
     return tab.page.locator(f"{_STEP} section.card").filter(has=heading)
 
 
+def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> None:
+    rows = [
+        f"{T},25,{s * v},{s * v - 0.1 * r * v},{s * 0.3 + r * 1.2}"
+        for T in (30, 60)
+        for v in (20, 60)
+        for s in (-1, 1)
+        for r in (-1, 1)
+    ]
+    strange = tmp_path / "strange.csv"
+    strange.write_text("\n".join(["T (degC),load (N),V1,ball speed (mm/s),traction force (N)", *rows, ""]))
+    drop(tab, strange)
+    step = tab.page.locator(_STEP)
+    step.get_by_label("Column of the disc speed").select_option(label="V1")
+    step.get_by_label("Unit of the disc speed").fill("mm/s")
+    step.get_by_role("button", name="Read with these columns").click()
+    tab.until("page.state.state.result('measured')?.runs === true", _SECONDS)
+    assert tab.value("page.state.state.get('measurement')") == {
+        "mtm": "strange.csv",
+        "columns": {"disc_speed": "V1 (mm/s)"},
+    }
+    step.get_by_role("button", name="Clear the column names").click()
+    step.get_by_label("Column of the disc speed").wait_for()
+
+
 def test_the_example_from_its_file_to_the_rubber_behind_it(tab: Tab) -> None:
     assert "Drop the files" in tab.text("#figure-measured-friction .plot-empty")
     tab.page.get_by_role("button", name="Use the synthetic example").click()

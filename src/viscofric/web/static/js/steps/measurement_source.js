@@ -97,7 +97,8 @@ export function source(app, { done, gone }) {
   const columns = columnsForm(app, {
     choose: (named) => {
       const { curves, ...before } = state.get("measurement") ?? {};
-      state.set("measurement", { ...before, mtm: dropped ?? before.mtm, columns: named });
+      const files = dropped?.length === 1 ? dropped[0] : dropped;
+      state.set("measurement", { ...before, mtm: files ?? before.mtm, columns: named });
     },
     chosen: () => state.get("measurement.columns"),
   });
