@@ -94,6 +94,11 @@ def superposition():
     return vf.superpose(sweeps(), 300.0)
 
 
+def steps(deformation="tension"):
+    time = np.array([1.0, 10.0, 100.0, 1000.0])
+    return vf.StepTests((vf.StepTest(300.0, time, 1e-7 * time**0.1),), "creep", deformation)
+
+
 @functools.cache
 def master_curve():
     modulus = rubber().complex_modulus(np.geomspace(1.0, 1e5, 20))
@@ -193,6 +198,7 @@ def written():
     atexit.register(folder.cleanup)
     at = Path(folder.name)
     (at / "curve.csv").write_text("frequency (Hz),E' (MPa),E'' (MPa)\n0.01,3.1,0.2\n1,3.6,0.5\n100,5.2,1.6\n")
+    (at / "creep.csv").write_text("T (degC),t (s),J (1/MPa)\n25,1,0.1\n25,10,0.12\n25,100,0.15\n25,1000,0.2\n")
     np.savetxt(at / "scan.csv", [[0.0, 1.0, 0.5], [0.2, 0.8, 0.1]], delimiter=",")
     vf.write_card(rubber(), at / "rubber.json", "json")
     vf.write_friction_curves(curves(), at / "friction.csv")
@@ -398,6 +404,18 @@ CALLS: dict[str, Any] = {
     "fit_retardation_spectrum": lambda: {"master_curve": master_curve(), "tau_ratio": 3.0, "method": "non-negative",
         "modes": None, "regularisation": None, "largest_error": None},
     "check_superposition": lambda: {"fit": superposition()},
+    "StepTest": lambda: {"temperature": 300.0, "time": np.array([1.0, 10.0]), "response": np.array([1e-7, 2e-7])},
+    "StepTest.thinned": lambda: (steps().tests[0], {"per_decade": 20}),
+    "StepTests": lambda: {"tests": steps().tests, "kind": "creep", "deformation": "tension", "source": "", "notes": (),
+        "format": ""},
+    "StepTests.in_tension": lambda: (steps("shear"), {"poisson_ratio": 0.5}),
+    "StepTests.thinned": lambda: (steps(), {"per_decade": 20}),
+    "StepMasterCurve": lambda: {"time": np.array([1.0, 10.0]), "response": np.array([1e-7, 2e-7]),
+        "temperature": np.full(2, 300.0), "reference": 300.0, "kind": "creep"},
+    "RetardationSpectrum.step_curve_dataset": lambda: (rubber().spectrum, {"curve": vf.StepMasterCurve(
+        np.array([1.0, 10.0]), np.array([1e-7, 2e-7]), np.full(2, 300.0), 300.0, "creep")}),
+    "read_step_tests": lambda: {"paths": at("creep.csv"), "kind": None, "deformation": "tension", "temperature": None,
+        "response_unit": None, "columns": None, "sheet": None},
     "superpose": lambda: {"sweeps": sweeps(), "reference": 300.0, "poisson_ratio": 0.5, "vertical": None, "shift": None,
         "fixed": None, "by": "both", "weights": (1.0, 0.5)},
     "MaterialSamples.modulus_band": lambda: (samples(), {**at_frequencies(), "temperature": 300.0, "level": 0.9}),
@@ -484,7 +502,7 @@ KINDS = {
     "fitted_range": "numbers", "coefficients": "numbers", "log10_values": "numbers", "levels": "numbers",
     "temperature of ShiftLaw": "numbers", "prior_band": "numbers", "direction": "numbers", "except_steps": "numbers",
     "steps of TractionRuns.select": "numbers", "rows": "numbers", "x of Topography.crop": "numbers",
-    "temperature of read_dma": "numbers", "temperatures": "numbers",
+    "temperature of read_dma": "numbers", "temperature of read_step_tests": "numbers", "temperatures": "numbers",
     "progress": "function", "value": "function", "spacing": "pair", "zero": "pair",
     "coulomb": "pair", "covariance": "numbers", "window": "numbers", "y of Topography.crop": "numbers",
     "temperature of ParametricLaw": "numbers", "parameters": "numbers", "tolerance of predict_rough_friction": "number",
@@ -498,6 +516,7 @@ RIGHT = {
     ("read_topography", "missing", "0"),
     ("read_topography", "missing", "1"),
     ("read_dma", "temperature", "list of None"),
+    ("read_step_tests", "temperature", "list of None"),
     ("StudyResults.to_csv", "path", "None"),
     ("surface_from_spectrum", "spectrum", "class"),
 }

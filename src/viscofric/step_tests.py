@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import insist_on, sentences, text
+from viscofric.arguments import insist_on, numbers, sentences, text, whole_number
 from viscofric.data import DEFORMATIONS, Deformation, read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
@@ -80,6 +80,7 @@ class StepTest:
         Times and responses are averaged geometrically.  Instruments record at equal intervals, which puts nine tenths
         of the points into the last decade, with errors that are alike from one to the next.
         """
+        whole_number(per_decade, "per_decade", 1, 10_000)
         part = np.floor(np.log10(self.time) * per_decade + 1e-9).astype(np.int64)
         number = np.unique(part, return_inverse=True)[1]
         count = np.bincount(number)
@@ -162,6 +163,7 @@ class StepTests:
 
     def thinned(self, per_decade: int) -> StepTests:
         """Return the tests with the points in each of so many equal parts of a decade averaged; see `StepTest`."""
+        whole_number(per_decade, "per_decade", 1, 10_000)
         return replace(self, tests=tuple(one.thinned(per_decade) for one in self.tests))
 
     def to_dataset(self) -> xarray.Dataset:
@@ -227,7 +229,7 @@ class StepMasterCurve:
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")
-        shape = np.shape(self.time)
+        shape = numbers(self.time, "time of a master curve").shape
         for name in ("time", "response", "temperature"):
             column = read_only(getattr(self, name), f"{name} of a master curve")
             if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):

@@ -127,10 +127,10 @@ def _pairs(found: CheckedStudy) -> list[tuple[Rubber, Any]]:
 def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-    spectrum = rubber.material.spectrum
+    spectrum, measured = rubber.material.spectrum, rubber.sweeps or rubber.step_tests
     return {
         "name": name or rubber.material.name,
-        "isotherms": None if rubber.sweeps is None else len(rubber.sweeps.isotherms),
+        "isotherms": None if measured is None else len(measured),
         "modes": len(spectrum.C) if isinstance(spectrum, RetardationSpectrum) else None,
         "reference_temperature": rubber.material.reference,
         "shift": rubber.shift_used or None,

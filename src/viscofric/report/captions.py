@@ -66,6 +66,8 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: "
         f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them"
         f"{_banded(tree)}; below, the residuals.",
+        "step_master_curve": f"Master curve of {'synthetic' if made else 'measured'} creep or relaxation tests over "
+        f"reduced time at {at}, with the response of the retardation spectrum fitted to them.",
         "spectrum": "Retardation spectrum: compliance of each mode against its retardation time.",
         "shift_factors": f"Shift factors {_origin(tree)}, and a law fitted to them.",
         "vertical_shift": "Vertical shift b of the modulus.",

@@ -48,7 +48,8 @@ class CheckedStudy:
             cases,
             [rubber.material for rubber in self.rubbers],
             accuracy=study.solver.accuracy,
-            sensitive=study.applied_uncertainty.draws > 0 and any(rubber.fit is not None for rubber in self.rubbers),
+            sensitive=study.applied_uncertainty.draws > 0
+            and any((rubber.fit or rubber.step_fit) is not None for rubber in self.rubbers),
             fields=study.outputs.fields == "all",
             each=study.solver.cases == "each",
         )

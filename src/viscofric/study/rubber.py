@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
+from viscofric.data import IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.notes import Note
-from viscofric.readers import read_dma
+from viscofric.readers import read_dma, read_step_tests
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
@@ -19,17 +20,22 @@ from viscofric.rheology.shifts.shift_files import read_shift_factors
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
+from viscofric.rheology.superposition.step_result import PER_DECADE
 from viscofric.rheology.superposition.superpose import superpose
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import xarray
 
-    from viscofric.data import IsothermalSweeps, MasterCurve
+    from viscofric.data import MasterCurve
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.superposition.result import Superposition
+    from viscofric.rheology.superposition.step_result import StepSuperposition
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+    from viscofric.step_tests import StepTests
     from viscofric.study.run_file.material import MaterialTable
 
 
@@ -47,6 +53,8 @@ class Rubber:
         Whether it is synthetic, from the catalogue.
     sweeps, fit : IsothermalSweeps, Superposition or None
         None for a predefined material.
+    step_tests, step_fit : StepTests, StepSuperposition or None
+        Creep or relaxation tests instead of sweeps.
     master_curve : MasterCurve or None
         Given instead of sweeps.
     laws : LawComparison or None
@@ -64,6 +72,8 @@ class Rubber:
     synthetic: bool = False
     sweeps: IsothermalSweeps | None = None
     fit: Superposition | None = None
+    step_tests: StepTests | None = None
+    step_fit: StepSuperposition | None = None
     master_curve: MasterCurve | None = None
     laws: LawComparison | None = None
     shift_used: str = ""
@@ -92,6 +102,9 @@ class Rubber:
         said: dict[str, str | float] = {"poisson_ratio": self.material.poisson_ratio}
         if self.sweeps is not None:
             said |= {"deformation": self.sweeps.deformation, "dma_format": self.sweeps.format}
+        if self.step_tests is not None:
+            tests = self.step_tests
+            said |= {"deformation": tests.deformation, "step_tests": tests.kind, "step_tests_format": tests.format}
         if self.material.name or self.source:
             name = f"“{self.material.name}”" if self.material.name else "one"
             said["material"] = " of ".join(part for part in (name, self.source) if part)
@@ -118,6 +131,8 @@ def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
     """
     if table.dma is not None:
         return _from_sweeps(table, liquids)
+    if table.tests:
+        return _from_step_tests(table)
     return _predefined(table) if table.master_curve is None else _from_master_curve(table, liquids)
 
 
@@ -137,9 +152,53 @@ def _predefined(table: MaterialTable) -> Rubber:
     return Rubber(material, notes=notes, source=source, synthetic=synthetic)
 
 
+def _name_of(files: tuple[Path, ...]) -> str:
+    return str(files[0]) if len(files) == 1 else f"{files[0]} and {len(files) - 1} more"
+
+
+def _from_step_tests(table: MaterialTable) -> Rubber:
+    """Superpose creep or relaxation tests, and fit their spectrum."""
+    tests = read_step_tests(
+        *table.tests,
+        kind="creep" if table.creep is not None else "relaxation",
+        deformation=table.deformation,
+        temperature=table.temperature,
+        response_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
+    )
+    try:
+        fit = _superposed(table, tests)
+        shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
+        spectrum = fit_retardation_spectrum(fit, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
+    except DataFileError:
+        raise  # it names its file
+    except InputError as error:
+        raise error.at(_name_of(table.tests)) from error
+    if spectrum.fit is not None and not fit.check.holds:
+        doubts = (fit.check.sentences[0], *spectrum.fit.notes)
+        spectrum = replace(spectrum, fit=replace(spectrum.fit, notes=doubts))
+    material = Material(
+        spectrum, shift=shift, poisson_ratio=table.poisson_ratio, name=table.name, vertical_shift=fit.vertical_shift
+    )
+    return Rubber(
+        material,
+        step_tests=tests,
+        step_fit=fit,
+        laws=laws,
+        shift_used=used,
+        shift_origin=_origin(table),
+        notes=(*fit.notes, *_undecided(laws, table.shift)),
+    )
+
+
+def _origin(table: MaterialTable) -> str:
+    return "given" if table.shift_factors else "held" if table.fixed_shift_factors else "found"
+
+
 def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
     files = table.dma or ()
-    name = str(files[0]) if len(files) == 1 else f"{files[0]} and {len(files) - 1} more"
+    name = _name_of(files)
     sweeps = read_dma(
         *files,
         deformation=table.deformation,
@@ -164,7 +223,7 @@ def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
         vertical_shift=fit.vertical_shift,
     )
     notes = (*fit.notes, *flowing, *_undecided(laws, table.shift))
-    origin = "given" if table.shift_factors else "held" if table.fixed_shift_factors else "found"
+    origin = _origin(table)
     return Rubber(material, sweeps=sweeps, fit=fit, laws=laws, shift_used=used, shift_origin=origin, notes=notes)
 
 
@@ -225,21 +284,24 @@ def _verdict(fit: Superposition) -> tuple[str, ...]:
     return tuple(failed if check.consistent else [*failed, check.sentences[-1]])
 
 
-def _superposed(table: MaterialTable, sweeps: IsothermalSweeps) -> Superposition:
+@overload
+def _superposed(table: MaterialTable, tests: IsothermalSweeps) -> Superposition: ...
+@overload
+def _superposed(table: MaterialTable, tests: StepTests) -> StepSuperposition: ...
+def _superposed(table: MaterialTable, tests: IsothermalSweeps | StepTests) -> Superposition | StepSuperposition:
     reference = table.reference_temperature
     if reference is None:
         raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
     given = None if table.shift_factors is None else read_shift_factors(table.shift_factors)
-    return superpose(
-        sweeps,
-        reference,
-        poisson_ratio=table.poisson_ratio,
-        vertical=None if table.vertical_shift == "none" else table.vertical_shift,
-        shift=given,
-        fixed=table.fixed_shift_factors or None,
-        by=table.shift_by,
-        weights=table.shift_weights,
-    )
+    common: Any = {
+        "poisson_ratio": table.poisson_ratio,
+        "vertical": None if table.vertical_shift == "none" else table.vertical_shift,
+        "shift": given,
+        "fixed": table.fixed_shift_factors or None,
+    }
+    if isinstance(tests, IsothermalSweeps):
+        return superpose(tests, reference, by=table.shift_by, weights=table.shift_weights, **common)
+    return superpose(tests, reference, **common)
 
 
 def _law_or_table(choice: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:
@@ -296,6 +358,8 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
             temperatures_given=json.dumps(given.tolist()),
         )
         groups["/superposition"] = fit.check.to_dataset()
+    if rubber.step_fit is not None and rubber.step_tests is not None:
+        groups |= _step_groups(rubber, rubber.step_tests, rubber.step_fit)
     curve = rubber.master_curve if fit is None else fit.master_curve
     if curve is not None and isinstance(spectrum, RetardationSpectrum) and spectrum.fit is not None:
         groups["/master_curve"] = spectrum.master_curve_dataset(curve)
@@ -313,14 +377,34 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
     return groups
 
 
+def _step_groups(rubber: Rubber, tests: StepTests, fit: StepSuperposition) -> dict[str, xarray.Dataset]:
+    """Return the data sets of creep or relaxation tests: tensile points, shift factors, check, master curve."""
+    used = tests.in_tension(rubber.material.poisson_ratio).thinned(PER_DECADE)
+    given = np.unique(tests.temperatures)
+    spectrum = rubber.material.spectrum
+    assert isinstance(spectrum, RetardationSpectrum)
+    return {
+        "/step_tests": used.to_dataset(),
+        "/shift_factors": fit.to_dataset().assign_attrs(
+            shift_used=rubber.shift_used,
+            shift_origin=rubber.shift_origin,
+            isotherms_given=len(given),
+            temperatures_given=json.dumps(given.tolist()),
+        ),
+        "/superposition": fit.check.to_dataset(),
+        "/step_master_curve": spectrum.step_curve_dataset(fit.master_curve),
+    }
+
+
 def _shift_law(rubber: Rubber) -> xarray.Dataset:
     """Return the law over the temperatures that it was fitted to, or 50 K about its reference."""
     law = rubber.law
     assert law is not None
     ends = law.fitted_range or (law.reference - 50.0, law.reference + 50.0)
     rms: dict[str, float] = {}
-    if rubber.fit is not None:
-        factors = rubber.fit.shift_factors
+    fit = rubber.fit or rubber.step_fit
+    if fit is not None:
+        factors = fit.shift_factors
         ends = float(factors.temperatures[0]), float(factors.temperatures[-1])
         residual = factors.log10_values - law.log10(factors.temperatures)
         rms["rms"] = float(np.sqrt(np.mean(residual**2)))

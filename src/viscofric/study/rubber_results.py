@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from viscofric.data import IsothermalSweeps, MasterCurve
     from viscofric.rheology.material import Material
+    from viscofric.step_tests import StepMasterCurve
     from viscofric.study.rubber import Rubber
     from viscofric.study.run_file.material import MaterialTable
 
@@ -106,12 +107,15 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
     material = rubber.material
     written = [folder / MATERIAL_FILE]
     write_card(material, written[0], format="json")
-    if rubber.fit is not None:
-        rubber.fit.shift_factors.save(folder / "shift_factors.csv")
+    fit = rubber.fit or rubber.step_fit
+    if fit is not None:
+        fit.shift_factors.save(folder / "shift_factors.csv")
         written.append(folder / "shift_factors.csv")
     curve = rubber.master_curve if rubber.fit is None else rubber.fit.master_curve
     if curve is not None:
         written.append(write_master_curve(curve, folder / "master_curve.csv"))
+    if rubber.step_fit is not None:
+        written.append(write_step_master_curve(rubber.step_fit.master_curve, folder / "master_curve.csv"))
     if isinstance(material.spectrum, RetardationSpectrum):
         written.append(write_spectrum(material.spectrum, folder / "spectrum.csv"))
     return written
@@ -141,6 +145,14 @@ def write_master_curve(curve: MasterCurve, path: str | Path) -> Path:
     columns = (curve.angular_frequency, curve.storage_modulus, curve.loss_modulus, curve.temperature - CELSIUS_ZERO)
     remark = f"reference temperature {shown_celsius(curve.reference, 'z.6g')} degC"
     return _write(path, headings, np.column_stack(columns), remark)
+
+
+def write_step_master_curve(curve: StepMasterCurve, path: str | Path) -> Path:
+    """Write a creep or relaxation master curve: reduced time, tensile response, and the isotherm of each point."""
+    response = "creep compliance (1/Pa)" if curve.kind == "creep" else "relaxation modulus (Pa)"
+    columns = (curve.time, curve.response, curve.temperature - CELSIUS_ZERO)
+    remark = f"reference temperature {shown_celsius(curve.reference, 'z.6g')} degC"
+    return _write(path, ["reduced time (s)", response, "isotherm (degC)"], np.column_stack(columns), remark)
 
 
 def write_spectrum(spectrum: RetardationSpectrum, path: str | Path) -> Path:

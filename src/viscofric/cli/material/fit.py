@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from viscofric.study.results.results import StudyResults
     from viscofric.study.run_file.material import MaterialTable
 
+_KINDS = ("creep", "relaxation", "master_curve")
 _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
 
 
@@ -29,6 +30,8 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 )
 @reading_options
 @click.option("--name", default="", help="Name of the material, for reports and cards.")
+@click.option("--creep", is_flag=True, help="FILES are creep tests, J(t) at several temperatures, instead of sweeps.")
+@click.option("--relaxation", is_flag=True, help="FILES are relaxation tests, E(t) or G(t), instead of sweeps.")
 @click.option("--master-curve", is_flag=True, help="FILES is one finished master curve at the reference temperature.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly.")
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
@@ -98,12 +101,15 @@ def command(
     synthetic: bool,
     **parameters: Any,
 ) -> None:
-    """Fit a material to DMA FILES: shift factors, master curve, spectrum, figures and a report.
+    """Fit a material to FILES of DMA sweeps, creep or relaxation tests: shift factors, master curve, spectrum, report.
 
     The output folder has rubber.json (for run files and the other commands), tables (CSV), figures and report.html.
     """
     if samples < 0:
         raise click.BadParameter("must not be below zero.", param_hint="--samples")
+    kinds = [name for name in _KINDS if parameters[name]]
+    if len(kinds) > 1:
+        raise click.UsageError(" and ".join(f"--{one.replace('_', '-')}" for one in kinds) + " exclude each other.")
     if parameters["master_curve"] and len(files) > 1:
         raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
     with reported_errors():
@@ -163,7 +169,8 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
     if parameters["master_curve"]:
         values["master_curve"] = str(files[0])
     else:
-        values["dma"] = [str(path) for path in files]
+        kind = next((name for name in ("creep", "relaxation") if parameters[name]), "dma")
+        values[kind] = [str(path) for path in files]
     if parameters["fix"]:
         pairs = [_fixed(text) for text in parameters["fix"]]
         values["fixed_shift_factors"] = dict(pairs)
@@ -171,7 +178,7 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
             raise click.BadParameter("holds one temperature twice.", param_hint="--fix")
     defaults = {option.name: option.default for option in command.params}
     for name, value in parameters.items():
-        if name not in ("reference", "fix", "master_curve") and value not in (None, (), {}, defaults.get(name)):
+        if name not in ("reference", "fix", *_KINDS) and value not in (None, (), {}, defaults.get(name)):
             values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
     return material_of(values)
 

@@ -118,8 +118,8 @@ def read_step_tests(
     ...     path = Path(folder) / "creep.txt"
     ...     _ = path.write_text("\n".join(rows))
     ...     creep = vf.read_step_tests(path, deformation="tension")
-    >>> creep.kind, creep.tests[0].response[0]  # 1/Pa
-    ('creep', 1e-07)
+    >>> creep.kind, creep.tests[0].response  # 1/Pa
+    ('creep', array([1.0e-07, 1.2e-07, 1.5e-07, 1.9e-07]))
     """
     if kind is not None:
         check_choice(kind, "kind", "creep", "relaxation")

@@ -22,6 +22,7 @@ from viscofric.report.figures.friction import (
 from viscofric.report.figures.maps import known_shifts, map_figure
 from viscofric.report.figures.rubber import plot_isotherms, plot_master_curve, plot_residuals, plot_retardation_spectrum
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors, plot_vertical_shift
+from viscofric.report.figures.steps import plot_step_master_curve
 from viscofric.report.figures.stored_contacts import shown_contacts, trails
 from viscofric.report.figures.style import new_figure, temperature_bar
 from viscofric.report.figures.superposition import plot_cole_cole, plot_van_gurp_palmen
@@ -79,6 +80,16 @@ def _master_curve(tree: xr.DataTree) -> Figure | None:
     plot_master_curve(top, curve, spectrum, reference_temperature=reference, band=band, synthetic=is_synthetic(tree))
     plot_residuals(bottom, curve, reference_temperature=reference)
     top.set_xlabel("")
+    return figure
+
+
+def _step_master_curve(tree: xr.DataTree) -> Figure | None:
+    curve = group(tree, "step_master_curve")
+    if curve is None:
+        return None
+    figure = new_figure()
+    axes = figure.subplots()
+    temperature_bar(figure, plot_step_master_curve(axes, curve, synthetic=is_synthetic(tree)), [axes])
     return figure
 
 
@@ -245,6 +256,7 @@ FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
 #: … and of the rubber, or of each of several.
 RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "master_curve": _master_curve,
+    "step_master_curve": _step_master_curve,
     "spectrum": _spectrum,
     "shift_factors": _shift_factors,
     "vertical_shift": _vertical_shift,

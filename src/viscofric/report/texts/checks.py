@@ -116,6 +116,16 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
             max(storage, loss),
             _OVERLAP,
         )
+    step = number(factors.attrs, "overlap_rms_log10")
+    if math.isfinite(step):
+        yield Check.of(
+            "Overlap of the isotherms",
+            step <= _OVERLAP and not apart > 0,
+            f"Where shifted tests overlap they differ by {_decades(step)} (rms; good if ≤ {_decades(_OVERLAP)})."
+            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
+            step,
+            _OVERLAP,
+        )
     yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
     whole = group(tree, "superposition")
     if whole is not None:
@@ -142,6 +152,15 @@ def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
 
 
 def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
+    steps = group(tree, "step_master_curve")
+    if steps is not None and math.isfinite(step := number(steps.attrs, "rms_log10_step")):
+        yield Check.of(
+            "Fit of the spectrum",
+            step <= _FIT,
+            f"The spectrum lies {_decades(step)} from the measured response (rms; good if ≤ {_decades(_FIT)}).",
+            step,
+            _FIT,
+        )
     curve = group(tree, "master_curve")
     if curve is None:
         return

@@ -50,6 +50,8 @@ class Misfit(ABC):
     target: Array
     #: 1/E_inf is not below this, 1/Pa.
     least_glass: float
+    #: Whether modes are fitted beside a glass of that compliance at least, or beside any, which is raised to it then.
+    glass_within = False
 
     @property
     def ends(self) -> tuple[float, float]:

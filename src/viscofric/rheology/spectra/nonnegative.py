@@ -60,8 +60,10 @@ def _refined(misfit: Misfit, columns: NDArray[Any], strengths: Array, converged:
             break
         jacobian = misfit.jacobian(columns @ strengths, columns)
         scale = np.linalg.norm(jacobian, axis=0) + 1e-300
-        aim, _ = nnls(jacobian / scale, now + jacobian @ strengths, maxiter=50 * columns.shape[1])
-        step = aim / scale - strengths
+        least = np.zeros(len(strengths))
+        least[0] = misfit.least_glass if misfit.glass_within else 0.0
+        aim, _ = nnls(jacobian / scale, now + jacobian @ (strengths - least), maxiter=50 * columns.shape[1])
+        step = aim / scale + least - strengths
         fraction, before = 1.0, float(now @ now)
         trial = misfit.residual(columns @ (strengths + step))
         while not trial @ trial < before and fraction > 1e-3:

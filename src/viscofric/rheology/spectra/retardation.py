@@ -20,6 +20,7 @@ from viscofric.rheology.spectra.response import (
     mode_column,
     shown_modulus,
 )
+from viscofric.step_tests import StepMasterCurve, step_columns
 from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
@@ -221,6 +222,29 @@ class RetardationSpectrum(FrequencyResponse):
             },
         )
         return master_curve.to_dataset().assign(columns.data_vars).assign_attrs(columns.attrs)
+
+    def step_curve_dataset(self, curve: StepMasterCurve) -> xarray.Dataset:
+        """Return a creep or relaxation master curve with this spectrum at the same points as a labelled data set.
+
+        Parameters
+        ----------
+        curve : StepMasterCurve
+            At the temperature of the spectrum.
+
+        Returns
+        -------
+        xarray.Dataset
+            As `StepMasterCurve.to_dataset`, with ``fitted_creep_compliance`` (1/Pa) or ``fitted_relaxation_modulus``
+            (Pa).  Attribute where the spectrum was fitted: ``rms_log10_step`` (decades).
+        """
+        insist_on(curve, "curve", StepMasterCurve)
+        fitted = self.creep_compliance(curve.time) if curve.kind == "creep" else self.relaxation_modulus(curve.time)
+        columns = dataset(
+            "reading",
+            step_columns(curve.kind, curve.temperature, curve.time, fitted, fitted=True),
+            attributes={"rms_log10_step": None if self.fit is None else self.fit.rms_step},
+        )
+        return curve.to_dataset().assign(columns.data_vars).assign_attrs(columns.attrs)
 
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).

@@ -61,6 +61,8 @@ class StepCheck:
         the tests do not fix every step of α; ``"roughly"`` or ``"fails"``: they lie farther apart.
     sentences : tuple of str
         The verdict in plain words; the first is a `Note` whose code is ``"superposition-"`` and the verdict.
+    temperatures : (n,) array
+        Of the tests, K.
 
     Notes
     -----
@@ -104,8 +106,6 @@ class StepCheck:
                 "roughly": int(self.roughly),
                 "figure_of_merit": self.figure_of_merit,
                 "sentences": json.dumps(list(self.sentences), ensure_ascii=False),
-                "consistent": 1,
-                "causality": "Step tests have one curve for each temperature; there is no second one to test it by.",
             },
         )
 

@@ -128,7 +128,7 @@ class MaterialSamples:
         if self.misfit is not None and np.any(self.misfit.size):
             reduced = np.log10(np.abs(omega) + 1e-300) + self._log10_alpha(temperature)
             missed = NormalDist().inv_cdf(0.5 + 0.5 * level) * self.misfit.at(reduced)
-            storage, loss = _widened(storage, missed[..., 0]), _widened(loss, missed[..., -1])
+            storage, loss = _widened(storage, missed[..., 0]), _widened(loss, missed[..., 1])
         return Band(*(real + 1j * imaginary for real, imaginary in zip(storage, loss, strict=True)))
 
     def to_dataset(

@@ -8,7 +8,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.spectra import regularised, sparse
-from viscofric.rheology.spectra.modulus_misfit import Modes, ModulusMisfit
+from viscofric.rheology.spectra.modulus_misfit import Modes
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 
 if TYPE_CHECKING:
@@ -26,11 +26,11 @@ SAME = 1e-6  # of ln τ
 class Refit:
     """Fits samples of a master curve as a fitted spectrum was, starting from it; InputError if it was not fitted.
 
-    `lowest` and `highest` are the ends of the angular frequencies of all samples, rad/s.  The lattice of times spans
-    them, but each sample uses only its own part of it.
+    `like` is the misfit of the curve; `lowest` and `highest` are the ends of the angular frequencies of all samples,
+    rad/s.  The lattice of times spans them, but each sample uses only its own part of it.
     """
 
-    def __init__(self, spectrum: RetardationSpectrum, lowest: float, highest: float) -> None:
+    def __init__(self, spectrum: RetardationSpectrum, like: Misfit, lowest: float, highest: float) -> None:
         if spectrum.fit is None or not spectrum.fit.method or spectrum.fit.from_friction:
             raise InputError(
                 "spectrum: was not fitted to a master curve, so that it cannot be fitted to samples of one; "
@@ -41,7 +41,8 @@ class Refit:
         self.on_lattice = spectrum.fit.tau_ratio is not None
         self.start = Modes(1.0 / spectrum.E_inf, np.array(spectrum.C), np.array(spectrum.tau))
         if spectrum.fit.tau_ratio is not None:
-            ends = ModulusMisfit(np.array([lowest, highest]), np.full(2, 1.0 + 1.0j))
+            quantities = len(like.target) // len(like.rates)
+            ends = like.of(np.array([lowest, highest]), np.zeros((2, quantities)))
             tau = lattice(ends, spectrum.fit.tau_ratio)
             away = np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).min(axis=1)
             tau = np.sort(

@@ -109,9 +109,9 @@ class SystematicMisfit:
     ----------
     log10_frequency : (n,) array
         log10 of the reduced angular frequencies, ascending.
-    size : (n, m) array
-        Of log10 E' and of log10 E'' there, or of log10 of a step response (m = 1), decades; beyond the ends it keeps
-        its value.
+    size : (n, 2) array
+        Of log10 E' and of log10 E'' there, decades; beyond the ends it keeps its value.  Both are that of log10 of the
+        response where the spectrum was fitted to step tests.
     """
 
     log10_frequency: Array
@@ -121,7 +121,7 @@ class SystematicMisfit:
         return f"SystematicMisfit(up to {float(self.size.max()):.2g} decades)"
 
     def at(self, log10_frequency: Array) -> Array:
-        """Return the size at frequencies, in their shape and (m,), decades."""
+        """Return the size at frequencies, in their shape and (2,), decades."""
         return np.stack([np.interp(log10_frequency, self.log10_frequency, one) for one in self.size.T], axis=-1)
 
     @property
@@ -131,7 +131,7 @@ class SystematicMisfit:
         largest = float(self.size[worst])
         if largest < WORTH_A_NOTE:
             return ()
-        modulus = ("E'", "E''")[worst[1]] if self.size.shape[1] > 1 else "the response"
+        modulus = ("E'", "E''")[worst[1]]
         sentence = (
             f"The fit misses the measured moduli by more than noise, {modulus} by up to {largest:.2g} decades "
             f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, with "
@@ -170,4 +170,4 @@ def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integer
         near = np.abs(log10_frequency - centre) <= WINDOW
         if np.any(near):
             size[place] = np.sqrt(np.maximum(np.mean(squares[near] - NOISE * noise[near], axis=0), 0.0))
-    return SystematicMisfit(grid, size)
+    return SystematicMisfit(grid, size if size.shape[1] > 1 else np.repeat(size, 2, axis=1))

@@ -195,7 +195,7 @@ def _refitted(
         away = _without_offsets(away, isotherm, np.log(10.0) * fit.offsets.standard_deviations)
     residuals = Residuals(away, np.unique(isotherm, return_inverse=True)[1], leverage)
     drawn = np.log(rates) + np.log(10.0) * moved[:, isotherm]
-    refit = Refit(spectrum, float(np.exp(drawn.min())), float(np.exp(drawn.max())))
+    refit = Refit(spectrum, misfit, float(np.exp(drawn.min())), float(np.exp(drawn.max())))
     errors = residuals.draw(random, len(moved)) + np.log(10.0) * levels[:, isotherm]
     fitted = []
     for rate, error in zip(drawn, errors, strict=True):

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 _MOST_FILES = MOST_POINTS
 #: Keys for the source of the material; every run file has exactly one of them.
-SOURCES = ("dma", "master_curve", "file", "catalogue")
+SOURCES = ("dma", "creep", "relaxation", "master_curve", "file", "catalogue")
 #: Keys for the conversion of sweeps, invalid for a predefined material …
 _HOW = (
     "deformation",
@@ -53,6 +53,8 @@ _HOW = (
     "modes",
     "tau_ratio",
 )
+#: … those invalid for step tests, which have one curve for each temperature …
+_OF_TWO_MODULI = ("shift_by", "shift_weights")
 #: … and those invalid for a master curve.
 _OF_SWEEPS = ("temperature", "vertical_shift", "shift_by", "shift_weights", "fixed_shift_factors")
 
@@ -68,7 +70,12 @@ def _by_kelvin(value: object) -> object:
 
 
 def _unit_of_modulus(value: str) -> str:
-    conversion(value, "Pa", "modulus_unit")
+    try:
+        conversion(value, "Pa", "modulus_unit")
+    except InputError:
+        if not value.strip().startswith("1/"):
+            raise
+        conversion(value, "1/Pa", "modulus_unit")
     return value
 
 
@@ -82,6 +89,10 @@ class MaterialTable(Table):
     """[material]: DMA files and how the material model is fitted to them, or a predefined material."""
 
     dma: FileNames | None = Field(None, description="DMA sweeps: a file, a list, or a pattern such as 'sweeps/*.txt'.")
+    creep: FileNames | None = Field(None, description="Instead: creep tests, J(t) after a step of stress.")
+    relaxation: FileNames | None = Field(
+        None, description="Instead: relaxation tests, E(t) or G(t) after a step of strain."
+    )
     master_curve: FileName | None = Field(None, description="Instead: a master curve.")
     file: FileName | None = Field(
         None, description="Instead: a predefined material, rubber.json or another program's card."
@@ -101,7 +112,7 @@ class MaterialTable(Table):
         | None
     ) = Field(None, description="Temperature of files that do not state it: one for all, or one for each.")
     modulus_unit: Annotated[Words, AfterValidator(_unit_of_modulus)] | None = Field(
-        None, description="Unit of moduli in files that do not state it, such as 'MPa'."
+        None, description="Unit of moduli (of creep compliances '1/MPa') in files that do not state it, such as 'MPa'."
     )
     columns: Headings = Field(
         {}, description="Headings of tables that are not understood: { frequency = 'f in Hz' }; '#2 (Hz)' is column 2."
@@ -164,6 +175,10 @@ class MaterialTable(Table):
                 yield f"{' and '.join(useless)} cannot be chosen for a master curve, only for sweeps (dma)"
             if self.shift != "measured" and self.shift_factors is None:
                 yield "a law for shift needs the shift factors of the master curve; give them as shift_factors"
+        if given in (["creep"], ["relaxation"]):
+            useless = [name for name in _OF_TWO_MODULI if name in chosen]
+            if useless:
+                yield f"{' and '.join(useless)} cannot be chosen for {given[0]} tests, only for sweeps (dma)"
         yield from self._doubts_of_shifts()
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
@@ -182,18 +197,24 @@ class MaterialTable(Table):
     def relative_to(self, folder: Path) -> MaterialTable:
         """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
         changes: dict[str, Any] = {}
-        if self.dma is not None:
-            changes["dma"] = tuple(path for one in self.dma for path in files_of(folder, one))
+        for name in ("dma", "creep", "relaxation"):
+            if (paths := getattr(self, name)) is not None:
+                changes[name] = tuple(path for one in paths for path in files_of(folder, one))
         for name in ("master_curve", "file", "shift_factors"):
             if (path := getattr(self, name)) is not None:
                 changes[name] = folder / path
         return self.model_copy(update=changes)
 
     @property
+    def tests(self) -> tuple[Path, ...]:
+        """Files of sweeps, or of creep or relaxation tests."""
+        return self.dma or self.creep or self.relaxation or ()
+
+    @property
     def inputs(self) -> tuple[Path, ...]:
         """All files of the material."""
         return (
-            *(self.dma or ()),
+            *self.tests,
             *(path for path in (self.master_curve, self.file, self.shift_factors) if path is not None),
         )
 
