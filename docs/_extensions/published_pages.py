@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import matplotlib
@@ -39,11 +40,17 @@ def numbers(outcomes: list[Outcome]) -> str:
     return table(["check", "case", "quantity", "theirs", "viscofric", "difference", "bound"], rows)
 
 
+def linked(text: str) -> str:
+    """Return a text with its DOIs as links."""
+    return re.sub(r"doi:(10\.[^\s,;()]+)", r"[doi:\1](https://doi.org/\1)", text)
+
+
 def origins(outcomes: list[Outcome]) -> str:
     entries = []
     for outcome in outcomes:
         check = outcome.check
-        entry = f"`{check.name}`\n: {check.title}.\n\n  **Source:** {check.source}.\n\n  **Obtained:** {check.obtained}"
+        entry = f"`{check.name}`\n: {check.title}.\n\n  **Source:** {linked(check.source)}."
+        entry += f"\n\n  **Obtained:** {check.obtained}"
         if check.unstated:
             entry += f"\n\n  **Not stated:** {check.unstated}"
         entries.append(f"{entry}\n\n  **Bounds:** {check.reason}")

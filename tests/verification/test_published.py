@@ -139,8 +139,14 @@ def test_the_page_holds_every_comparison_and_origin(pages: ModuleType) -> None:
     assert len(rows) == sum(len(outcome.comparisons) for outcome in outcomes)
     text = pages.origins(outcomes)
     for outcome in outcomes:
-        for part in (outcome.check.source, outcome.check.obtained, outcome.check.unstated, outcome.check.reason):
+        for part in (
+            pages.linked(outcome.check.source),
+            outcome.check.obtained,
+            outcome.check.unstated,
+            outcome.check.reason,
+        ):
             assert part in text
+    assert "[doi:10.1063/1.1388626](https://doi.org/10.1063/1.1388626), with" in text
     page = (DOCS / "published.md").read_text(encoding="utf-8")
     included = set(re.findall(r"_generated/published/(\w+)\.(?:md|svg)", page))
     assert included == {"numbers", "origins", "deviations"}
