@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 import pickle
+import re
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 import viscofric as vf
 from readers.refusal import noted, refused
@@ -228,6 +231,58 @@ def test_case_counts_where_both_spellings_are_units():
     assert unit_conversion("mpa", "Pa")[0] == pytest.approx(1e6)
     assert to_rad_per_second("mHz", angular=False) == pytest.approx(2e-3 * math.pi)
     assert to_rad_per_second("RAD/S", angular=True) == 1.0
+
+
+LAYOUTS = st.fixed_dictionaries(
+    {
+        "order": st.permutations(range(5)),
+        "delimiter": st.sampled_from(["\t", ";", ","]),
+        "units": st.sampled_from(["bracket", "slash", "in", "row", "mapped"]),
+        "headings": st.lists(st.text("ABCDEFGHxyz_ ()#/'", min_size=1, max_size=12), min_size=5, max_size=5),
+        "above": st.lists(st.sampled_from(["", "Sample: A7", "run;2", "# remark, 3", "Operator\tnobody"]), max_size=4),
+        "blank": st.lists(st.integers(0, 20), max_size=40),
+        "comma": st.booleans(),
+        "encoding": st.sampled_from(["utf-8", "utf-8-sig", "utf-16", "cp1252"]),
+        "seed": st.integers(0, 10**6),
+    }
+)
+
+
+@settings(max_examples=40, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(layout=LAYOUTS)
+def test_any_layout_gives_the_same_numbers_where_the_user_names_its_columns(tmp_path, layout):
+    """Headings without any sense, units anywhere, rows of nothing between: named by place, the numbers come back."""
+    random = np.random.default_rng(layout["seed"])
+    kelvin = np.repeat([253.15, 293.15, 333.15], 6)
+    hertz = np.tile(np.geomspace(0.1, 30.0, 6), 3)
+    storage, loss = 10.0 ** random.uniform(0, 3, 18), 10.0 ** random.uniform(-1, 2, 18)
+    columns = [kelvin - 273.15, hertz, storage, loss, random.uniform(0, 1, 18)]
+    units, names = ["degC", "Hz", "MPa", "MPa", ""], list(NAMES)
+    mark, comma = layout["delimiter"], layout["comma"] and layout["delimiter"] != ","
+    forms = {"bracket": "{} ({})", "slash": "{} / {}", "in": "{} in {}"}
+    headings = [f"q{n}{''.join(text.split(mark))}" for n, text in enumerate(layout["headings"])]
+    form = forms.get(layout["units"], "{}")
+    shown = [
+        form.format(re.sub(r"[^A-Za-z0-9]", "", one), u) if u else one for one, u in zip(headings, units, strict=True)
+    ]
+    rows = [[f"{column[n]:.9g}" for column in columns] for n in range(18)]
+    lines = [mark.join(shown[place] for place in layout["order"])]
+    if layout["units"] == "row":
+        lines.append(mark.join(units[place] for place in layout["order"]))
+    for n, row in enumerate(rows):
+        lines += [mark * 4] * layout["blank"].count(n)
+        lines.append(mark.join(row[place] for place in layout["order"]).replace(*((".", ",") if comma else ("", ""))))
+    path = tmp_path / "any.csv"
+    path.write_bytes("\n".join([*layout["above"], *lines]).encode(layout["encoding"]))
+    given = layout["units"] == "mapped"
+    asked = {
+        name: f"#{layout['order'].index(n) + 1}" + (f" ({units[n]})" if given else "") for n, name in enumerate(names)
+    }
+    sweeps = read_dma(path, deformation="tension", columns=asked)
+    assert sweeps.temperatures == pytest.approx([253.15, 293.15, 333.15])
+    found = np.concatenate([one.storage_modulus for one in sweeps.isotherms])
+    assert found == pytest.approx(1e6 * storage, rel=1e-8)
+    assert np.concatenate([one.loss_modulus for one in sweeps.isotherms]) == pytest.approx(1e6 * loss, rel=1e-8)
 
 
 def test_a_header_in_a_remark(tmp_path):

@@ -103,7 +103,7 @@ class Vocabulary:
         return [one[0] for one in self.needed if not named & set(one)]
 
     def checked(self, columns: Mapping[Any, Any] | None) -> dict[str, str]:
-        """Return the user's own headings by quantity, which he may write with underscores, or raise `InputError`."""
+        """Return the user's own headings by quantity, which may be written with underscores, or raise `InputError`."""
         asked: dict[str, str] = {}
         if columns is not None and not isinstance(columns, Mapping):
             raise InputError(
@@ -162,7 +162,7 @@ NO_WORDS = Vocabulary("a table", {}, (), key="")
 
 
 def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:
-    """Return the place of the column that the user means, None if there is none, and the unit that he adds, or "".
+    """Return the place of the column that the user means, None if there is none, and the unit added to it, or "".
 
     `said` is a heading as printed, without regard to case, or the number of a column (``"#3"``); a unit may follow in
     brackets, which then counts instead of that of the file.  Of several equal headings the first counts.

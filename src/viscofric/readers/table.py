@@ -261,7 +261,7 @@ def or_name_it(key: str, what: str, said: str) -> Remedy:
         f", or name it: columns={{{name!r}: {shown}}}.",
         f", or name it: --column {name}={shown}.",
         f", or name it: columns = {{ {name} = {shown} }} under [{key.partition('.')[0]}].",
-        ", or choose the columns below.",
+        ", or choose the columns in the form.",
         key or None,
     )
 

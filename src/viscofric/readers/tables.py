@@ -148,7 +148,7 @@ def name_columns(key: str, missing: Sequence[str]) -> Remedy:
         f"; name them, e.g. columns={{'{name}': 'heading'}}.",
         f"; name them, e.g. --column {name}=HEADING.",
         f'; name them, e.g. columns = {{ {name} = "heading" }} under [{key.partition(".")[0]}].',
-        "; choose the columns below.",
+        "; choose the columns in the form.",
         key,
     )
 
@@ -255,7 +255,7 @@ def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> 
         rows: list[NumberedRow] = [(number, _split_at_blanks(line)) for number, line, _ in lines]
     else:
         rows = [(number, split_cells(source.path, number, line, delimiter)) for number, line, _ in lines]
-    found = header_of(rows, words)
+    found = header_of(_filled(rows), words)
     if found is None:
         return None
     above = found.rows[: found.header + 1]
@@ -279,7 +279,12 @@ def _split_lines(source: Source, delimiter: str, remarks: bool = False) -> list[
     """Return the cells of the first lines; a line that cannot be split has none."""
     lines = _lines("\n".join((source.text or "")[:_HEAD].splitlines()[: 2 * DEEPEST_HEADER]), remarks)
     split = _split_at_blanks if delimiter == _BLANKS else lambda line: _split(line, delimiter)
-    return [(number, split(line[:_LONGEST_LINE])) for number, line, _ in lines]
+    return _filled([(number, split(line[:_LONGEST_LINE])) for number, line, _ in lines])
+
+
+def _filled(rows: list[NumberedRow]) -> list[NumberedRow]:
+    """Return the rows that are more than delimiters."""
+    return [row for row in rows if any(cell.strip() for cell in row[1])]
 
 
 def _fits_below(found: Found) -> bool:

@@ -36,10 +36,15 @@ export function columnsForm(app, { choose, chosen }) {
       values.headings.map((heading, index) => h("option", { value: String(index) }, heading || `column ${index + 1}`)),
     );
     select.value = before < 0 ? "" : String(before);
-    const input = h("input", { type: "text", placeholder: unit, "aria-label": `Unit of the ${quantity}`, size: "6" });
+    const input = h("input", {
+      type: "text",
+      placeholder: unit && `e.g. ${unit}`,
+      "aria-label": `Unit of the ${quantity}`,
+    });
     controls.push({ quantity, select, input, before });
     const name = quantity[0].toUpperCase() + quantity.slice(1);
-    return h("div", { class: "field" }, h("span", { class: "field-label" }, name), h("span", { class: "row" }, select, input));
+    const both = h("span", { class: "row" }, select, input);
+    return h("div", { class: "field" }, h("span", { class: "field-label" }, name), both);
   }
 
   function answer() {
