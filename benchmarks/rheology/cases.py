@@ -15,7 +15,16 @@ import viscofric as vf
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "rheology"))
-from planted import FREQUENCIES, PROGRAMME, Planted, planted_sweeps, synthetic_polymer, synthetic_soft_rubber  # noqa: E402
+from planted import (  # noqa: E402
+    FREQUENCIES,
+    PROGRAMME,
+    STEP_PROGRAMMES,
+    Planted,
+    planted_steps,
+    planted_sweeps,
+    synthetic_polymer,
+    synthetic_soft_rubber,
+)
 
 if TYPE_CHECKING:
     from viscofric.data import IsothermalSweeps, MasterCurve
@@ -91,6 +100,27 @@ def offset_case(problem: dict[str, Any], seed: int) -> tuple[Planted, str]:
         **shift,
     )
     return planted, reference
+
+
+def step_problems() -> list[dict[str, Any]]:
+    """Return problems of creep and relaxation tests with noise of their points and offsets of whole tests."""
+    return [
+        {
+            "name": name,
+            "kind": kind,
+            "noise": noise,
+            "offset": offset,
+            "title": f"{kind}, {name}: {noise:.1%}, {offset:.0%}",
+        }
+        for kind in ("creep", "relaxation")
+        for name in STEP_PROGRAMMES
+        for noise, offset in ((0.005, 0.0), (0.02, 0.0), (0.005, 0.01))
+    ]
+
+
+def step_case(problem: dict[str, Any], seed: int) -> tuple[Any, vf.Material, str]:
+    """Return planted tests of such a problem, the true material, and the reference."""
+    return planted_steps(seed, problem["noise"], name=problem["name"], kind=problem["kind"], offset=problem["offset"])
 
 
 def planted_case(seed: int = 0, material: str = "synthetic fluoroelastomer") -> Case:

@@ -131,6 +131,45 @@ def with_offsets(problem: dict[str, Any], seeds: int, samples: int = 100) -> dic
     return row | {"doubtful": doubtful}
 
 
+def steps(problem: dict[str, Any], seeds: int, samples: int = 100) -> dict[str, Any]:
+    """Count the same for creep and relaxation tests; the response over the master curve, E(ω) over its range."""
+    from cases import step_case
+
+    from viscofric.rheology.uncertainty.sampling import sample_materials
+
+    start = time.process_time()
+    inside: dict[str, list[float]] = {kind: [] for kind in ("alpha", "response", "storage", "loss")}
+    errors, doubtful = [], 0
+    for seed in range(seeds):
+        tests, material, reference = step_case(problem, seed)
+        fit = vf.superpose(tests, reference)
+        factors, curve = fit.shift_factors, fit.master_curve
+        known = factors.standard_errors > 1e-9
+        true = material.shift.at_reference(reference).log10(factors.temperatures)
+        away = np.abs(factors.log10_values - true)[known]
+        inside["alpha"].append(np.mean(away <= LEVEL_95 * factors.standard_errors[known]))
+        errors.append(np.median(factors.standard_errors[known]))
+        doubtful += fit.check.verdict not in ("holds", "not identified")
+        drawn = sample_materials(fit, samples=samples, seed=seed)
+        at, spectrum = np.geomspace(curve.time[0], curve.time[-1], 60), material.at(reference)
+        limits = drawn.band(lambda one, at=at: _response(one.spectrum, problem["kind"], at))
+        inside["response"].append(_inside(_response(spectrum, problem["kind"], at), limits.lower, limits.upper))
+        omega = np.geomspace(*drawn.frequency_range, 60)
+        band, modulus = drawn.modulus_band(omega), spectrum.complex_modulus(omega)
+        inside["storage"].append(_inside(modulus.real, band.lower.real, band.upper.real))
+        inside["loss"].append(_inside(modulus.imag, band.lower.imag, band.upper.imag))
+    row = {"tool": problem["title"], "seeds": seeds, "seconds": (time.process_time() - start) / max(seeds, 1)}
+    return (
+        row
+        | {kind: _mean(shares) for kind, shares in inside.items()}
+        | {"alpha_error": _mean(errors), "doubtful": doubtful}
+    )
+
+
+def _response(spectrum: Any, kind: str, at: Any) -> Any:
+    return spectrum.creep_compliance(at) if kind == "creep" else spectrum.relaxation_modulus(at)
+
+
 def _tangent(modulus: Any) -> Any:
     return modulus.imag / modulus.real
 

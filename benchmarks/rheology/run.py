@@ -1,6 +1,6 @@
 """viscofric's rheology beside its peers, on the same data and in the same run.
 
-Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--only TEXT] [--json FILE]
+Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--steps N] [--only TEXT] [--json FILE]
        [--environment FOLDER] [--limit SECONDS]
 
 Shifting of measured and of planted sweeps, spectra of the master curve, honesty of the stated 95 % bands over many
@@ -62,6 +62,16 @@ OFFSETS = (
     ("μ ends", "friction", ".1%"),
     ("doubtful", "doubtful", "d"),
 )
+STEPS = (
+    ("CPU s", "seconds", ".2f"),
+    ("seeds", "seeds", "d"),
+    ("α(T)", "alpha", ".1%"),
+    ("± α", "alpha_error", ".4f"),
+    ("J, E(t)", "response", ".1%"),
+    ("E'(ω)", "storage", ".1%"),
+    ("E''(ω)", "loss", ".1%"),
+    ("doubtful", "doubtful", "d"),
+)
 ROUND_TRIP = (("CPU s", "seconds", ".4f"), ("modes", "modes", "d"), ("error", "error", ".1e"))
 
 
@@ -95,6 +105,10 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
             for problem in cases.offset_problems()
             if options.only in problem["title"]
         ]
+    if options.steps:
+        tables["step tests: planted truth within the stated 95 % bands"] = [
+            own.steps(problem, options.steps) for problem in cases.step_problems() if options.only in problem["title"]
+        ]
     tables["retardation spectrum to Prony series and back"] = [own.round_trip()]
     return {"tables": tables, "left_out": left_out}
 
@@ -106,6 +120,7 @@ def columns_of(title: str) -> tuple[tuple[str, str, str], ...]:
         "spectrum": SPECTRUM,
         "planted": COVERAGE,
         "offsets": OFFSETS,
+        "step tests": STEPS,
         "retardation": ROUND_TRIP,
     }
     return next(columns for start, columns in kinds.items() if title.startswith(start))
@@ -138,7 +153,8 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--peers", action="store_true", help="run the peers too (minutes)")
     parser.add_argument("--seeds", type=int, default=20, help="planted sweeps for the bands; 0 leaves them out")
     parser.add_argument("--offsets", type=int, default=0, help="planted sweeps with offsets of isotherms (minutes)")
-    parser.add_argument("--only", default="", metavar="TEXT", help="of these, problems whose title holds a text")
+    parser.add_argument("--steps", type=int, default=0, help="planted creep and relaxation tests (minutes)")
+    parser.add_argument("--only", default="", metavar="TEXT", help="of both, problems whose title holds a text")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--environment", type=Path, default=HERE / ".peers", help="the peers' environment")
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for each answer of a peer")
