@@ -138,6 +138,7 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
     tab.page.set_input_files(_DROP, bare)
     unit = tab.page.get_by_label("Unit of the moduli")
     unit.wait_for()
+    assert tab.page.get_by_label("Column of the frequency").count() == 0
     tab.until("document.querySelector('#step-sweeps').textContent.includes('or give it by “Unit of the moduli”')")
     unit.fill("Pa")
     unit.press("Tab")
@@ -193,6 +194,7 @@ def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     tab.page.locator(_DROP).first.set_input_files(curve)
     unit = tab.page.get_by_label("Unit of the moduli")
     unit.wait_for()
+    assert tab.page.get_by_label("Column of the frequency").count() == 0
     unit.fill("Pa")
     unit.press("Tab")
     tab.until("page.state.state.result('rubber')?.spectrum.measured?.storage.length === 11")

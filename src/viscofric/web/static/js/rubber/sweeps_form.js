@@ -238,7 +238,7 @@ export function sourceForm(app, onError) {
   const element = card("Material", several, group, questions, columns, ...Object.values(panels), making);
   element.ask = (key, values) => {
     if (asks[key]) asks[key].hidden = false;
-    columns.ask(values);
+    columns.ask(asks[key] ? null : values); // one question at a time
   };
   element.show = (answer) => {
     columns.ask(null);
