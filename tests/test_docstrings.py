@@ -77,6 +77,7 @@ RETURNED = {
     "FrictionDerivatives",
     "FrictionMasterCurve",
     "IdentifiedMaterial",
+    "JointSuperposition",
     "LawComparison",
     "MaterialSamples",
     "OverlapQuality",

@@ -95,6 +95,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum as RetardationSpectrum
     from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
     from viscofric.rheology.superposition.consistency import SuperpositionCheck as SuperpositionCheck
+    from viscofric.rheology.superposition.joint import JointSuperposition as JointSuperposition
     from viscofric.rheology.superposition.overlap import OverlapQuality as OverlapQuality
     from viscofric.rheology.superposition.result import Superposition as Superposition
     from viscofric.rheology.superposition.result import check_superposition as check_superposition
@@ -232,6 +233,7 @@ _HOME = {
     "OverlapQuality": "viscofric.rheology.superposition.overlap",
     "superpose": "viscofric.rheology.superposition.superpose",
     "Superposition": "viscofric.rheology.superposition.result",
+    "JointSuperposition": "viscofric.rheology.superposition.joint",
     "StepCheck": "viscofric.rheology.superposition.step_result",
     "StepSuperposition": "viscofric.rheology.superposition.step_result",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum as RetardationSpectrum
     from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum as fit_retardation_spectrum
     from viscofric.rheology.superposition.consistency import SuperpositionCheck as SuperpositionCheck
+    from viscofric.rheology.superposition.joint import JointSuperposition as JointSuperposition
     from viscofric.rheology.superposition.result import Superposition as Superposition
     from viscofric.rheology.superposition.result import check_superposition as check_superposition
     from viscofric.rheology.superposition.step_result import StepCheck as StepCheck
@@ -73,6 +74,7 @@ _HOME = {
     "SuperpositionCheck": "viscofric.rheology.superposition.consistency",
     "check_superposition": "viscofric.rheology.superposition.result",
     "Superposition": "viscofric.rheology.superposition.result",
+    "JointSuperposition": "viscofric.rheology.superposition.joint",
     "StepCheck": "viscofric.rheology.superposition.step_result",
     "StepSuperposition": "viscofric.rheology.superposition.step_result",
     "superpose": "viscofric.rheology.superposition.superpose",

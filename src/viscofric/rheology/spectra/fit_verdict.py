@@ -19,6 +19,8 @@ from viscofric.rheology.spectra.step_misfit import frequencies_of
 from viscofric.step_tests import StepMasterCurve
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from viscofric.arrays import Array
     from viscofric.data import MasterCurve
     from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
@@ -117,6 +119,50 @@ def judged(
     )
     notes = (*_about_rubber(spectrum, fit, seen), *_about_glass(spectrum, fit, seen), *notes)
     return RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, replace(fit, notes=notes))
+
+
+def judged_jointly(
+    spectrum: RetardationSpectrum,
+    curves: Sequence[Curve],
+    ends: tuple[int, int],
+    *,
+    method: str,
+    tau_ratio: float | None,
+    regularisation: float | None,
+    notes: tuple[str, ...],
+) -> RetardationSpectrum:
+    """Return the spectrum with its `fit` judged against curves of several kinds; `ends` reach lowest and highest."""
+    fits = []
+    for curve in curves:
+        fit = judged(spectrum, curve).fit
+        assert fit is not None
+        fits.append(fit)
+    low, high = (fits[place] for place in ends)
+    known = [one.measured_storage for one in fits if one.measured_storage is not None]
+
+    def first(name: str) -> float | None:
+        return next((getattr(one, name) for one in fits if getattr(one, name) is not None), None)
+
+    plateau = [note for note in low.notes if str(getattr(note, "code", "")).startswith("plateau")]
+    glass = [note for note in high.notes if str(getattr(note, "code", "")).startswith("glass")]
+    fit = SpectrumFit(
+        first("rms_storage"),
+        first("rms_loss"),
+        E0_extrapolated=low.E0_extrapolated,
+        E_inf_extrapolated=high.E_inf_extrapolated,
+        frequency_range=(low.frequency_range[0], high.frequency_range[1]),
+        notes=(*plateau, *glass, *notes),
+        method=method,
+        modes=len(spectrum),
+        tau_ratio=tau_ratio,
+        regularisation=regularisation,
+        measured_storage=(min(one[0] for one in known), max(one[1] for one in known)),
+        E_inf_at_limit=high.E_inf_at_limit,
+        E0_missed=low.E0_missed,
+        E_inf_missed=high.E_inf_missed,
+        rms_step=first("rms_step"),
+    )
+    return replace(spectrum, fit=fit)
 
 
 @dataclass(frozen=True)

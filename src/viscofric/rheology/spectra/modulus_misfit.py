@@ -56,8 +56,12 @@ class Misfit(ABC):
     @property
     def ends(self) -> tuple[float, float]:
         """Logarithms of the shortest and the longest retardation time that a mode may have."""
+        return self.ends_of(float(self.rates[0]), float(self.rates[-1]))
+
+    def ends_of(self, lowest: float, highest: float) -> tuple[float, float]:
+        """Return the same for other rates, 1/s."""
         edge = math.log(EDGE)
-        return -math.log(self.rates[-1]) - edge, edge - math.log(self.rates[0])
+        return -math.log(highest) - edge, edge - math.log(lowest)
 
     def size_at(self, tau: Array) -> Array:
         """Return the size of the modulus at the rates 1/τ, Pa."""

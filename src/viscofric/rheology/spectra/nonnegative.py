@@ -22,7 +22,12 @@ CONVERGED = 1e-6  # relative fall of the misfit
 
 def lattice(misfit: Misfit, ratio: float) -> Array:
     """Return times on the fixed lattice ratio^k: frequencies shifted by the ratio give the same fit."""
-    low, high = (end / math.log(ratio) for end in misfit.ends)
+    return lattice_between(misfit.ends, ratio)
+
+
+def lattice_between(ends: tuple[float, float], ratio: float) -> Array:
+    """Return the times ratio^k between two, given by their logarithms."""
+    low, high = (end / math.log(ratio) for end in ends)
     return np.asarray(ratio ** np.arange(math.ceil(low), math.floor(high) + 1, dtype=float))
 
 

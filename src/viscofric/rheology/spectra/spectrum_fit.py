@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
@@ -11,10 +12,11 @@ from viscofric.arguments import whole_number
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice
 from viscofric.rheology.spectra import regularised, sparse
-from viscofric.rheology.spectra.fit_verdict import Curve, judged, solid_modes
+from viscofric.rheology.spectra.fit_verdict import Curve, judged, judged_jointly, solid_modes
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.spectra.step_misfit import by_rate, misfit_of
+from viscofric.rheology.spectra.step_misfit import by_rate, frequencies_of, joint_misfit, misfit_of, rates_of
+from viscofric.rheology.superposition.joint import JointSuperposition, level_note
 from viscofric.step_tests import StepMasterCurve
 from viscofric.threads import one_blas_thread
 from viscofric.units import positive
@@ -29,6 +31,8 @@ Method: TypeAlias = Literal["non-negative", "regularised", "sparse"]
 METHODS = ("non-negative", "regularised", "sparse")
 #: Factor by which the error of a sparse spectrum may exceed that of many modes, unless another error is requested.
 ALLOWANCE = 1.05
+#: A level of one kind of tests beside another is worth a note from here on.
+LEVEL_WORTH_A_NOTE = 0.005  # decades
 #: Curvature needs three neighbours; fewer than four are nearly a straight line.
 LEAST_SMOOTH = 4
 #: Fewest points per sparse mode, which has two parameters and affects two moduli.
@@ -37,7 +41,7 @@ POINTS_PER_MODE = 3
 
 @one_blas_thread
 def fit_retardation_spectrum(
-    master_curve: MasterCurve | StepMasterCurve | Superposition | StepSuperposition,
+    master_curve: MasterCurve | StepMasterCurve | Superposition | StepSuperposition | JointSuperposition,
     *,
     tau_ratio: float = math.e,
     method: Method = "non-negative",
@@ -49,8 +53,10 @@ def fit_retardation_spectrum(
 
     Parameters
     ----------
-    master_curve : MasterCurve, StepMasterCurve, Superposition or StepSuperposition
-        At least four points; of a superposition its master curve is taken.
+    master_curve : MasterCurve, StepMasterCurve, Superposition, StepSuperposition or JointSuperposition
+        At least four points; of a superposition its master curve is taken, of a joint one those of all kinds.  The
+        level of the first kind is kept; a kind that overlaps it by half a decade has a level of its own, which a note
+        states.
     tau_ratio : float
         Ratio of neighbouring retardation times, above 1; e in the paper.  Without effect on sparse modes.
     method : {"non-negative", "regularised", "sparse"}
@@ -98,6 +104,8 @@ def fit_retardation_spectrum(
     >>> 20 < len(spectrum) < 40, spectrum.fit.rms_storage < 0.01  # decades
     (True, True)
     """
+    if isinstance(master_curve, JointSuperposition):
+        return _of_several(master_curve, method, tau_ratio, modes, regularisation, largest_error)
     master_curve = _curve_of(master_curve)
     _check(master_curve, method, tau_ratio, modes, regularisation, largest_error)
     misfit = misfit_of(master_curve)
@@ -112,6 +120,60 @@ def fit_retardation_spectrum(
     return judged(
         as_spectrum(fitted), master_curve, method=method, tau_ratio=tau_ratio, regularisation=strength, notes=notes
     )
+
+
+def _of_several(
+    joint: JointSuperposition,
+    method: Method,
+    tau_ratio: float,
+    modes: int | None,
+    regularisation: float | Literal["l-curve", "cross-validation"] | None,
+    largest_error: float | None,
+) -> RetardationSpectrum:
+    """Fit one spectrum to the master curves of several kinds of tests."""
+    curves = [part.master_curve for part in joint.parts]
+    for curve in curves:
+        _check(curve, method, tau_ratio, None if modes is None else 1, regularisation, largest_error)
+    misfit = joint_misfit(curves)
+    low = curves[int(np.argmin([rates_of(curve)[0] for curve in curves]))]
+    high = curves[int(np.argmax([frequencies_of(curve)[1] for curve in curves]))]
+    fitted = solid_modes(misfit, lattice(misfit, min(tau_ratio, math.e)), low)
+    strength: float | None = None
+    notes: tuple[str, ...] = ()
+    if method == "sparse":
+        fitted, notes = _sparse(misfit, tau_ratio, modes, largest_error)
+    elif method == "regularised":
+        corner = "l-curve" if regularisation in (None, "cross-validation") else regularisation
+        fitted, strength, notes = _regularised(misfit, tau_ratio, low, corner)
+    elif tau_ratio > math.e:
+        fitted = nonnegative_modes(misfit, lattice(misfit, tau_ratio))
+    spectrum = as_spectrum(fitted)
+    levels = misfit.levels(misfit.compliance(spectrum))
+    told = [
+        level_note(str(getattr(curve, "kind", "sweep")), float(level), joint.shift_factors.reference)
+        for curve, level, free in zip(curves, levels, misfit.free, strict=True)
+        if free and abs(level) > LEVEL_WORTH_A_NOTE
+    ]
+    at_level = [
+        _at_level(curve, float(level) if free else 0.0)
+        for curve, level, free in zip(curves, levels, misfit.free, strict=True)
+    ]
+    return judged_jointly(
+        spectrum,
+        at_level,
+        (curves.index(low), curves.index(high)),
+        method=method,
+        tau_ratio=None if method == "sparse" else tau_ratio,
+        regularisation=strength,
+        notes=(*told, *notes),
+    )
+
+
+def _at_level(curve: Curve, decades: float) -> Curve:
+    """Return a curve with its moduli divided by a level."""
+    if isinstance(curve, MasterCurve) or decades == 0.0:
+        return curve
+    return replace(curve, response=curve.response * 10.0 ** (decades if curve.kind == "creep" else -decades))
 
 
 def _curve_of(given: object) -> Curve:

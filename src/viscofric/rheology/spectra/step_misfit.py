@@ -20,9 +20,11 @@ from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, ModulusM
 from viscofric.step_tests import StepMasterCurve
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
-    from viscofric.arrays import Array, ComplexArray
+    from viscofric.arrays import Array, ComplexArray, Mask
     from viscofric.data import MasterCurve
 
 
@@ -87,11 +89,10 @@ class RelaxationMisfit(Misfit):
         self.least_glass = 1.0 / (STIFFEST * float(np.max(moduli)))
         self._nodes, self._weights = _contour()
 
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Logarithms of the retardation times, from `FASTER` times below those that creep would show."""
-        fastest, slowest = super().ends
-        return fastest - np.log(FASTER), slowest
+    def ends_of(self, lowest: float, highest: float) -> tuple[float, float]:
+        """Return the ends of the retardation times, from `FASTER` times below those that creep would show."""
+        fastest, slowest = super().ends_of(lowest, highest)
+        return fastest - float(np.log(FASTER)), slowest
 
     def of(self, rates: Array, logarithms: Array) -> RelaxationMisfit:
         """Return the same for other rates and ln E (N, 1)."""
@@ -124,6 +125,87 @@ class RelaxationMisfit(Misfit):
 
     def _modulus(self, compliance: NDArray[Any]) -> Array:
         return np.asarray((self._weights / compliance.reshape(len(self.rates), -1)).real.sum(axis=1))
+
+
+class JointMisfit(Misfit):
+    """Misfits of several kinds of tests; the level of a `free` one is that which suits the modes best."""
+
+    def __init__(self, parts: Sequence[Misfit], free: Sequence[bool]) -> None:
+        self.parts, self.free = parts, free
+        rates = np.concatenate([part.rates for part in parts])
+        order = np.argsort(rates, kind="stable")
+        self.rates = rates[order]
+        self.sizes = np.concatenate([part.sizes for part in parts])[order]
+        self.target = np.concatenate([part.target for part in parts])
+        self.least_glass = min(part.least_glass for part in parts)
+        self.glass_within = True
+
+    def ends_of(self, lowest: float, highest: float) -> tuple[float, float]:
+        """Return the ends of the retardation times that any of the kinds allows."""
+        ends = [part.ends_of(lowest, highest) for part in self.parts]
+        return min(low for low, _ in ends), max(high for _, high in ends)
+
+    def at_rates(self, low: float, high: float) -> Mask:
+        """Say which of the residuals belong to rates from one to another."""
+        return np.concatenate([part.at_rates(low, high) for part in self.parts])
+
+    def of(self, rates: Array, logarithms: Array) -> Misfit:
+        """Refuse: points of several kinds have no common logarithms."""
+        raise NotImplementedError
+
+    def relaxed(self, tau: Array) -> NDArray[Any]:
+        """Return the compliance of modes of strength one, kind by kind."""
+        return np.concatenate([part.relaxed(tau) for part in self.parts])
+
+    def moved(self, relaxed: NDArray[Any], C: Array, tau: Array) -> NDArray[Any]:
+        """Return the change of the compliance of modes with ln τ, kind by kind."""
+        pieces = zip(self.parts, self._split(relaxed, tau), strict=True)
+        return np.concatenate([part.moved(piece, C, tau) for part, piece in pieces])
+
+    def residual(self, compliance: NDArray[Any]) -> Array:
+        """Return logarithms measured less computed, kind by kind; those of a free level less their mean."""
+        found = []
+        for part, piece, free in zip(self.parts, self._split(compliance), self.free, strict=True):
+            away = part.residual(piece)
+            found.append(away - away.mean() if free and np.all(np.isfinite(away)) else away)
+        return np.concatenate(found)
+
+    def jacobian(self, compliance: NDArray[Any], change: NDArray[Any]) -> Array:
+        """Return the change of the computed logarithms, kind by kind; of a free level less their mean."""
+        pieces = zip(self.parts, self._split(compliance), self._split(change), self.free, strict=True)
+        found = [(part.jacobian(one, moved), free) for part, one, moved, free in pieces]
+        return np.concatenate([one - one.mean(axis=0) if free else one for one, free in found])
+
+    def relative(self, tau: Array) -> tuple[Array, Array]:
+        """Return the rows of all kinds for a start."""
+        rows, wanted = zip(*(part.relative(tau) for part in self.parts), strict=True)
+        return np.concatenate(rows), np.concatenate(wanted)
+
+    def levels(self, compliance: NDArray[Any]) -> Array:
+        """Return how far the measured moduli of each kind lie above those of the modes, decades."""
+        pieces = zip(self.parts, self._split(compliance), strict=True)
+        means = [float(part.residual(piece).mean()) for part, piece in pieces]
+        return np.array(means) / float(np.log(10.0))
+
+    def _split(self, values: NDArray[Any], tau: Array | None = None) -> list[NDArray[Any]]:
+        """Return the rows of each kind."""
+        one = np.ones(1) if tau is None else tau[:1]
+        counts = [len(part.relaxed(one)) for part in self.parts]
+        pieces = np.split(values, np.cumsum(counts[:-1]))
+        real = [isinstance(part, CreepMisfit) for part in self.parts]
+        return [piece.real if flag else piece for piece, flag in zip(pieces, real, strict=True)]
+
+
+#: A kind of tests has a level of its own where its rates overlap those of the first kind by so much.
+LEVEL_OVERLAP = 0.5  # decades
+
+
+def joint_misfit(curves: Sequence[MasterCurve | StepMasterCurve], parts: Sequence[Misfit] | None = None) -> JointMisfit:
+    """Return what a fit to master curves of several kinds minimises, or to samples of them, given as misfits."""
+    parts = [misfit_of(curve) for curve in curves] if parts is None else parts
+    first, *others = [np.log10(rates_of(curve)[[0, -1]]) for curve in curves]
+    common = [min(first[1], one[1]) - max(first[0], one[0]) for one in others]
+    return JointMisfit(parts, [False, *(bool(one >= LEVEL_OVERLAP) for one in common)])
 
 
 def _contour() -> tuple[ComplexArray, ComplexArray]:

@@ -12,6 +12,7 @@ from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
+from viscofric.rheology.superposition.joint import JointSuperposition, insist_on_kinds, joined_kinds
 from viscofric.rheology.superposition.overlap import LogSweep
 from viscofric.rheology.superposition.quantity import STEP, Quantities
 from viscofric.rheology.superposition.result import Superposition
@@ -56,9 +57,9 @@ def superpose(
     by: ShiftBy = "both",
     weights: Sequence[float] | None = None,
 ) -> StepSuperposition: ...
-@one_blas_thread
+@overload
 def superpose(
-    sweeps: IsothermalSweeps | StepTests,
+    sweeps: Sequence[IsothermalSweeps | StepTests],
     reference: Quantity,
     poisson_ratio: float = 0.5,
     *,
@@ -67,7 +68,19 @@ def superpose(
     fixed: Mapping[Any, float] | None = None,
     by: ShiftBy = "both",
     weights: Sequence[float] | None = None,
-) -> Superposition | StepSuperposition:
+) -> JointSuperposition: ...
+@one_blas_thread
+def superpose(
+    sweeps: IsothermalSweeps | StepTests | Sequence[IsothermalSweeps | StepTests],
+    reference: Quantity,
+    poisson_ratio: float = 0.5,
+    *,
+    vertical: Literal["free", "density"] | VerticalShift | None = None,
+    shift: ShiftLaw | None = None,
+    fixed: Mapping[Any, float] | None = None,
+    by: ShiftBy = "both",
+    weights: Sequence[float] | None = None,
+) -> Superposition | StepSuperposition | JointSuperposition:
     """Shift isotherms onto one master curve, by E' and E'' jointly, all at once.
 
     E(ω, T) = b(T) E(α(T) ω, reference); of creep and relaxation tests J(t, T) = J(t/α(T), reference)/b(T) and
@@ -75,8 +88,9 @@ def superpose(
 
     Parameters
     ----------
-    sweeps : IsothermalSweeps or StepTests
-        At least two isotherms that overlap.
+    sweeps : IsothermalSweeps or StepTests, or a list of them
+        At least two isotherms that overlap.  Several kinds of tests of one material in a list have one table of shift
+        factors; the reference must lie within the temperatures of each.
     reference : float or quantity
         Temperature of the master curve, measured or in between (or at most half a kelvin outside); K, or
         text such as ``"30 degC"``.
@@ -100,7 +114,7 @@ def superpose(
 
     Returns
     -------
-    Superposition, or StepSuperposition of step tests
+    Superposition, StepSuperposition of step tests, or JointSuperposition of several kinds
 
     Raises
     ------
@@ -162,6 +176,16 @@ def superpose(
     >>> f"{fit.shift_factors.log10('60 degC'):.1f} ± {fit.shift_factors.standard_error('60 degC'):.2f}"
     '-2.1 ± 0.02'
     """
+    if isinstance(sweeps, (list, tuple)):
+        insist_on_kinds(sweeps, vertical, shift, fixed)
+        both: Any = {"by": by, "weights": weights}
+        alone = [
+            superpose(
+                one, reference, poisson_ratio, vertical=vertical, **(both if isinstance(one, IsothermalSweeps) else {})
+            )
+            for one in sweeps
+        ]
+        return joined_kinds(alone, positive(reference, "K", "reference"))
     if not isinstance(sweeps, (IsothermalSweeps, StepTests)):
         raise InputError(
             f"sweeps must be IsothermalSweeps, not {type(sweeps).__name__}; read them with read_dma(…), as in "

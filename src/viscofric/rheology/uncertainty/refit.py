@@ -9,7 +9,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.modulus_misfit import Modes
-from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
+from viscofric.rheology.spectra.nonnegative import lattice_between, nonnegative_modes
 
 if TYPE_CHECKING:
     from viscofric.rheology.spectra.modulus_misfit import Misfit
@@ -41,9 +41,7 @@ class Refit:
         self.on_lattice = spectrum.fit.tau_ratio is not None
         self.start = Modes(1.0 / spectrum.E_inf, np.array(spectrum.C), np.array(spectrum.tau))
         if spectrum.fit.tau_ratio is not None:
-            quantities = len(like.target) // len(like.rates)
-            ends = like.of(np.array([lowest, highest]), np.zeros((2, quantities)))
-            tau = lattice(ends, spectrum.fit.tau_ratio)
+            tau = lattice_between(like.ends_of(lowest, highest), spectrum.fit.tau_ratio)
             away = np.abs(np.log(self.start.tau)[:, None] - np.log(tau)).min(axis=1)
             tau = np.sort(
                 np.append(tau, self.start.tau[away > SAME])

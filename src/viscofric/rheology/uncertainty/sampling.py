@@ -15,7 +15,15 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
-from viscofric.rheology.spectra.step_misfit import by_rate, frequencies_of, misfit_of, moduli_of
+from viscofric.rheology.spectra.step_misfit import (
+    JointMisfit,
+    by_rate,
+    frequencies_of,
+    joint_misfit,
+    misfit_of,
+    moduli_of,
+)
+from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -43,7 +51,7 @@ SCATTER = 1e-7, 10.0
 
 @one_blas_thread
 def sample_materials(
-    fit: Superposition | StepSuperposition,
+    fit: Superposition | StepSuperposition | JointSuperposition,
     spectrum: RetardationSpectrum | None = None,
     *,
     samples: int = 200,
@@ -56,7 +64,7 @@ def sample_materials(
 
     Parameters
     ----------
-    fit : Superposition or StepSuperposition
+    fit : Superposition, StepSuperposition or JointSuperposition
         From `superpose`.
     spectrum : RetardationSpectrum, optional
         From `fit_retardation_spectrum` on its master curve; fitted here with non-negative modes if not given.
@@ -110,11 +118,13 @@ def sample_materials(
     >>> bool((band.lower.real < band.upper.real).all())
     True
     """
-    insist_on(fit, "fit", Superposition, StepSuperposition, right="what superpose(…) returned")
+    insist_on(fit, "fit", Superposition, StepSuperposition, JointSuperposition, right="what superpose(…) returned")
     insist_on(spectrum, "spectrum", RetardationSpectrum, type(None), right="a RetardationSpectrum or None")
     whole_number(samples, "samples", FEWEST_SAMPLES, 10**6)
     whole_number(seed, "seed", 0)
     text(name, "name")
+    if isinstance(fit, JointSuperposition):
+        return _of_several(fit, spectrum, samples, seed, law, poisson_ratio, name)
     curve, shifts = fit.master_curve, fit.shift_factors
     spectrum = fit_retardation_spectrum(curve) if spectrum is None else spectrum
     _insist_on_same_curve(spectrum, curve)
@@ -137,6 +147,46 @@ def sample_materials(
         np.array([modes.tau for modes in fitted]),
         frequencies_of(curve),
         _misfit(curve, shifts, spectrum),
+    )
+
+
+def _of_several(
+    fit: JointSuperposition,
+    spectrum: RetardationSpectrum | None,
+    samples: int,
+    seed: int,
+    law: str | None,
+    poisson_ratio: float,
+    name: str,
+) -> MaterialSamples:
+    """Draw samples from several kinds of tests: each with its own errors, shifts in common, one spectrum."""
+    common, curves = fit.shift_factors, [part.master_curve for part in fit.parts]
+    spectrum = fit_retardation_spectrum(fit) if spectrum is None else spectrum
+    random = np.random.default_rng(seed)
+    alone = [(one, *_tables(random, one, samples)) for one in fit.alone]
+    moved = np.zeros((samples, len(common.temperatures)))
+    for (one, tables, _, _), gain in zip(alone, fit.gains, strict=True):
+        moved += (np.array([table.log10_values for table in tables]) - one.shift_factors.log10_values) @ gain.T
+    drawn = []
+    for part, (_, _, _, offsets) in zip(fit.parts, alone, strict=True):
+        own = part.shift_factors.temperatures
+        place = np.abs(own[:, None] - common.temperatures).argmin(axis=1)
+        drawn.append(_Resampled(random, part, spectrum, moved[:, place], offsets))
+    joint = joint_misfit(curves)
+    refit = Refit(spectrum, joint, min(one.ends[0] for one in drawn), max(one.ends[1] for one in drawn))
+    fitted = [refit(JointMisfit([one(number) for one in drawn], joint.free)) for number in range(samples)]
+    tables = [ShiftFactors(common.temperatures, common.log10_values + row, common.reference) for row in moved]
+    laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, common, moved, common.law(law))
+    materials = tuple(
+        Material(as_spectrum(modes), shift, poisson_ratio, name, fit.vertical_shift)
+        for modes, shift in zip(fitted, laws, strict=True)
+    )
+    assert spectrum.fit is not None
+    return MaterialSamples(
+        materials,
+        np.array([modes.C for modes in fitted]),
+        np.array([modes.tau for modes in fitted]),
+        spectrum.fit.frequency_range,
     )
 
 
@@ -174,34 +224,49 @@ def _misfit(curve: Curve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -
 def _refitted(
     random: np.random.Generator, fit: Fit, spectrum: RetardationSpectrum, moved: Array, levels: Array
 ) -> list[Modes]:
-    """Fit the spectrum to samples of the master curve; see `sample_materials`.
+    """Fit the spectrum to samples of the master curve; see `_Resampled`."""
+    drawn = _Resampled(random, fit, spectrum, moved, levels)
+    refit = Refit(spectrum, drawn.misfit, *drawn.ends)
+    return [refit(drawn(number)) for number in range(len(moved))]
+
+
+class _Resampled:
+    """Samples of a master curve as misfits; see `sample_materials`.
 
     `moved` (samples, isotherms) are errors of log10 α, `levels` (samples, isotherms, m) errors of log10 E' and log10
     E'' (or of log10 of a step response) that all points of an isotherm share.
     """
-    curve, isotherm = fit.master_curve, _isotherm_of_points(fit.master_curve, fit.shift_factors)
-    whole = misfit_of(curve)
-    # By isotherm, rates ascending in each: errors are correlated along isotherms.
-    order = np.lexsort((whole.rates, isotherm))
-    isotherm, rates = isotherm[order], whole.rates[order]
-    misfit = whole.of(rates, whole.target.reshape(-1, len(rates)).T[order])
-    compliance = misfit.compliance(spectrum)
-    away = misfit.residual(compliance)
-    logarithms = (misfit.target - away).reshape(-1, len(rates)).T
-    away = away.reshape(-1, len(rates)).T
-    fitted_shift = fit.shift_factors.standard_errors[isotherm] > 0.0
-    leverage = _leverage(misfit, spectrum, np.where(fitted_shift, isotherm, -1)).reshape(-1, len(rates)).T
-    if fit.offsets is not None:
-        away = _without_offsets(away, isotherm, np.log(10.0) * fit.offsets.standard_deviations)
-    residuals = Residuals(away, np.unique(isotherm, return_inverse=True)[1], leverage)
-    drawn = np.log(rates) + np.log(10.0) * moved[:, isotherm]
-    refit = Refit(spectrum, misfit, float(np.exp(drawn.min())), float(np.exp(drawn.max())))
-    errors = residuals.draw(random, len(moved)) + np.log(10.0) * levels[:, isotherm]
-    fitted = []
-    for rate, error in zip(drawn, errors, strict=True):
-        ascending = np.argsort(rate, kind="stable")
-        fitted.append(refit(misfit.of(np.exp(rate[ascending]), (logarithms + error)[ascending])))
-    return fitted
+
+    def __init__(
+        self, random: np.random.Generator, fit: Fit, spectrum: RetardationSpectrum, moved: Array, levels: Array
+    ) -> None:
+        isotherm = _isotherm_of_points(fit.master_curve, fit.shift_factors)
+        whole = misfit_of(fit.master_curve)
+        # By isotherm, rates ascending in each: errors are correlated along isotherms.
+        order = np.lexsort((whole.rates, isotherm))
+        isotherm, rates = isotherm[order], whole.rates[order]
+        self.misfit = misfit = whole.of(rates, whole.target.reshape(-1, len(rates)).T[order])
+        away = misfit.residual(misfit.compliance(spectrum))
+        self.logarithms = (misfit.target - away).reshape(-1, len(rates)).T
+        away = away.reshape(-1, len(rates)).T
+        fitted_shift = fit.shift_factors.standard_errors[isotherm] > 0.0
+        leverage = _leverage(misfit, spectrum, np.where(fitted_shift, isotherm, -1)).reshape(-1, len(rates)).T
+        if fit.offsets is not None:
+            away = _without_offsets(away, isotherm, np.log(10.0) * fit.offsets.standard_deviations)
+        residuals = Residuals(away, np.unique(isotherm, return_inverse=True)[1], leverage)
+        self.rates = np.log(rates) + np.log(10.0) * moved[:, isotherm]
+        self.errors = residuals.draw(random, len(moved)) + np.log(10.0) * levels[:, isotherm]
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The lowest and the highest rate of all samples, 1/s."""
+        return float(np.exp(self.rates.min())), float(np.exp(self.rates.max()))
+
+    def __call__(self, number: int) -> Misfit:
+        """Return the misfit of one sample."""
+        ascending = np.argsort(self.rates[number], kind="stable")
+        values = (self.logarithms + self.errors[number])[ascending]
+        return self.misfit.of(np.exp(self.rates[number][ascending]), values)
 
 
 def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Array:

@@ -1,0 +1,176 @@
+"""Sweeps and step tests of one material together: one table of shift factors, one spectrum."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from viscofric.data import MasterCurve
+from viscofric.errors import InputError
+from viscofric.notes import Note
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.step_tests import StepMasterCurve
+from viscofric.units import shown_celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray
+
+    from viscofric.arrays import Array
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+
+Part: TypeAlias = Superposition | StepSuperposition
+
+#: Temperatures of two kinds of tests closer than this are one temperature of the material.
+SAME = 0.5  # K
+#: Kinds disagree if their common shift factors differ by more than their errors make once in a thousand.
+RARE = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class JointSuperposition:
+    """The result of `superpose` of several kinds of tests of one material.
+
+    Parameters
+    ----------
+    parts : tuple of Superposition or StepSuperposition
+        Of each kind, in the order given, with the common shift factors.
+    shift_factors : ShiftFactors
+        α at the temperatures of all kinds, with standard errors: the generalised least squares mean of the factors of
+        each kind.
+    alone : tuple of Superposition or StepSuperposition
+        Each kind with the factors that it gives by itself.
+    gains : tuple of (n, n_p) array
+        What errors of the factors of each kind add to those of the common ones.
+    notes : tuple of str
+        Those of the kinds, and whether they agree.
+    """
+
+    parts: tuple[Part, ...]
+    shift_factors: ShiftFactors
+    alone: tuple[Part, ...]
+    gains: tuple[Array, ...]
+    notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        factors = self.shift_factors
+        return f"JointSuperposition({len(self.parts)} kinds of tests, {len(factors.temperatures)} temperatures)"
+
+    @property
+    def vertical_shift(self) -> VerticalShift | None:
+        """The vertical shift b(T), where one was requested; the same for all kinds."""
+        return self.parts[0].vertical_shift
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the common shift factors as a labelled data set; see `ShiftFactors.to_dataset`."""
+        return self.shift_factors.to_dataset()
+
+
+def joined_kinds(alone: Sequence[Part], reference: float) -> JointSuperposition:
+    """Join superpositions of several kinds about one reference, K."""
+    kelvin = np.sort(np.concatenate([one.shift_factors.temperatures for one in alone]))
+    groups = np.concatenate([[0], np.cumsum(np.diff(kelvin) > SAME)])
+    temperatures = np.bincount(groups, weights=kelvin) / np.bincount(groups)
+    size = len(temperatures)
+    picks, onto, inverse = [], [], []
+    for one in alone:
+        own = one.shift_factors
+        pick = np.eye(size)[np.abs(own.temperatures[:, None] - temperatures).argmin(axis=1)]
+        weights = _weights(own.temperatures, reference)
+        picks.append(pick)
+        onto.append(pick - weights @ pick)
+        inverse.append(np.linalg.pinv(own.covariance, rcond=1e-10, hermitian=True))
+    gauge = _weights(temperatures, reference)
+    information = sum((R.T @ V @ R for R, V in zip(onto, inverse, strict=True)), np.zeros((size, size)))
+    information += float(np.trace(information)) * np.outer(gauge, gauge)
+    solved = np.linalg.pinv(information, rcond=1e-14, hermitian=True)
+    gains = tuple(solved @ R.T @ V for R, V in zip(onto, inverse, strict=True))
+    values = sum((G @ one.shift_factors.log10_values for G, one in zip(gains, alone, strict=True)), np.zeros(size))
+    covariance = sum(
+        (G @ one.shift_factors.covariance @ G.T for G, one in zip(gains, alone, strict=True)), 0.0 * solved
+    )
+    misfit, freedom = 0.0, 1 - size
+    for one, R, V in zip(alone, onto, inverse, strict=True):
+        away = one.shift_factors.log10_values - R @ values
+        misfit += float(away @ V @ away)
+        freedom += len(away) - 1
+    notes = [note for one in alone for note in one.notes]
+    notes += _agreement(misfit, freedom)
+    excess = max(misfit / freedom, 1.0) if freedom > 0 else 1.0
+    covariance = excess * covariance
+    gains = tuple(np.sqrt(excess) * one for one in gains)
+    common = ShiftFactors(temperatures, values, reference, covariance)
+    parts = tuple(_shifted(one, pick @ common.log10_values) for one, pick in zip(alone, picks, strict=True))
+    return JointSuperposition(parts, common, tuple(alone), gains, tuple(dict.fromkeys(notes)))
+
+
+def _weights(temperatures: Array, reference: float) -> Array:
+    """Return the weights (n,) of interpolation at the reference, linear in 1/T."""
+    inverse = 1.0 / temperatures[::-1]
+    return np.array([np.interp(1.0 / reference, inverse, unit) for unit in np.eye(len(inverse))])[::-1]
+
+
+def _agreement(misfit: float, freedom: int) -> list[str]:
+    """Say whether kinds of tests agree on the shift factors that they share."""
+    from scipy.stats import chi2
+
+    if freedom < 1 or chi2.sf(misfit, freedom) > RARE:
+        return []
+    said = (
+        "The kinds of tests disagree on α at the temperatures that they share: χ² is "
+        f"{misfit:.3g} for {freedom} differences; the errors of the common factors were increased accordingly."
+    )
+    return [Note("kinds-disagree", said)]
+
+
+def _shifted(part: Part, values: Array) -> Part:
+    """Return one kind with other shift factors (n,) at its temperatures."""
+    own = part.shift_factors
+    change = values - own.log10_values
+    curve = part.master_curve
+    place = np.abs(curve.temperature[:, None] - own.temperatures).argmin(axis=1)
+    factors = ShiftFactors(own.temperatures, values, own.reference, own.covariance)
+    if isinstance(part, StepSuperposition):
+        assert isinstance(curve, StepMasterCurve)
+        time = curve.time * 10.0 ** -change[place]
+        order = np.argsort(time, kind="stable")
+        moved = StepMasterCurve(
+            time[order], curve.response[order], curve.temperature[order], curve.reference, curve.kind
+        )
+        return replace(part, shift_factors=factors, master_curve=moved)
+    assert isinstance(curve, MasterCurve)
+    omega = curve.angular_frequency * 10.0 ** change[place]
+    order = np.argsort(omega, kind="stable")
+    storage, loss, kelvin = (one[order] for one in (curve.storage_modulus, curve.loss_modulus, curve.temperature))
+    sweeps = MasterCurve(omega[order], storage, loss, kelvin, curve.reference)
+    return replace(part, shift_factors=factors, master_curve=sweeps)
+
+
+def insist_on_kinds(tests: Sequence[object], vertical: object, shift: object, fixed: object) -> None:
+    """Refuse lists of tests, and choices for them, that cannot be superposed together."""
+    if shift is not None or fixed:
+        raise InputError(
+            "shift and fixed are for one kind of tests; superpose each kind by itself.", code="not-for-several"
+        )
+    if not tests:
+        raise InputError("superpose needs sweeps or step tests; the list is empty.", code="no-tests")
+    if vertical == "free":
+        raise InputError(
+            "vertical='free' is fitted to one kind of tests; for several give 'density', a VerticalShift or None.",
+            code="no-free-vertical",
+        )
+
+
+def level_note(kind: str, decades: float, kelvin: float) -> Note:
+    """Say how far the moduli of one kind of tests lie from those of the first."""
+    percent = 100.0 * (10.0**decades - 1.0)
+    return Note(
+        "kinds-offset",
+        f"Moduli of the {kind} tests lie {abs(percent):.1f} % {'above' if percent > 0 else 'below'} those of the first "
+        f"kind of tests at {shown_celsius(kelvin)} °C; the spectrum has the level of the first.",
+    )
