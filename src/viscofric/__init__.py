@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from viscofric.lazy import loaded_when_used
 
 if TYPE_CHECKING:
+    from viscofric.amplitudes import AmplitudeSweep as AmplitudeSweep
     from viscofric.contact.arrays.backend import Backend as Backend
     from viscofric.contact.bodies import Layer as Layer
     from viscofric.contact.derivatives.friction import FrictionDerivatives as FrictionDerivatives
@@ -63,10 +64,14 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
     from viscofric.literature.citations import Citations as Citations
     from viscofric.literature.citations import citations as citations
+    from viscofric.ramps import TemperatureRamp as TemperatureRamp
+    from viscofric.ramps import TemperatureRamps as TemperatureRamps
     from viscofric.readers import read_dma as read_dma
     from viscofric.readers import read_mtm as read_mtm
     from viscofric.readers import read_step_tests as read_step_tests
+    from viscofric.readers.dma.amplitudes import read_amplitude_sweep as read_amplitude_sweep
     from viscofric.readers.dma.master_curves import read_master_curve as read_master_curve
+    from viscofric.readers.dma.ramps import read_ramps as read_ramps
     from viscofric.rheology.cards import Card as Card
     from viscofric.rheology.cards import open_card as open_card
     from viscofric.rheology.cards import read_card as read_card
@@ -76,6 +81,16 @@ if TYPE_CHECKING:
     from viscofric.rheology.catalogue import catalogue_material as catalogue_material
     from viscofric.rheology.catalogue import synthetic_fluoroelastomer as synthetic_fluoroelastomer
     from viscofric.rheology.material import Material as Material
+    from viscofric.rheology.payne import KrausLaw as KrausLaw
+    from viscofric.rheology.payne import LinearRange as LinearRange
+    from viscofric.rheology.payne import PayneFit as PayneFit
+    from viscofric.rheology.payne import fit_kraus as fit_kraus
+    from viscofric.rheology.payne import material_at_strain as material_at_strain
+    from viscofric.rheology.ramps.glass_transition import GlassTransition as GlassTransition
+    from viscofric.rheology.ramps.glass_transition import glass_transition as glass_transition
+    from viscofric.rheology.ramps.superpose import RampCheck as RampCheck
+    from viscofric.rheology.ramps.superpose import RampSuperposition as RampSuperposition
+    from viscofric.rheology.ramps.superpose import superpose_ramps as superpose_ramps
     from viscofric.rheology.shifts.law_comparison import LawComparison as LawComparison
     from viscofric.rheology.shifts.laws import VFT as VFT
     from viscofric.rheology.shifts.laws import WLF as WLF
@@ -169,6 +184,9 @@ _HOME = {
     "StepMasterCurve": "viscofric.step_tests",
     "StepTest": "viscofric.step_tests",
     "StepTests": "viscofric.step_tests",
+    "TemperatureRamp": "viscofric.ramps",
+    "TemperatureRamps": "viscofric.ramps",
+    "AmplitudeSweep": "viscofric.amplitudes",
     "TractionRuns": "viscofric.traction",
     "ConvergenceError": "viscofric.errors",
     "DataFileError": "viscofric.errors",
@@ -201,6 +219,8 @@ _HOME = {
     "read_mtm": "viscofric.readers",
     "read_step_tests": "viscofric.readers",
     "read_master_curve": "viscofric.readers.dma.master_curves",
+    "read_ramps": "viscofric.readers.dma.ramps",
+    "read_amplitude_sweep": "viscofric.readers.dma.amplitudes",
     "Card": "viscofric.rheology.cards",
     "open_card": "viscofric.rheology.cards",
     "read_card": "viscofric.rheology.cards",
@@ -236,6 +256,16 @@ _HOME = {
     "JointSuperposition": "viscofric.rheology.superposition.joint",
     "StepCheck": "viscofric.rheology.superposition.step_result",
     "StepSuperposition": "viscofric.rheology.superposition.step_result",
+    "GlassTransition": "viscofric.rheology.ramps.glass_transition",
+    "glass_transition": "viscofric.rheology.ramps.glass_transition",
+    "RampCheck": "viscofric.rheology.ramps.superpose",
+    "RampSuperposition": "viscofric.rheology.ramps.superpose",
+    "superpose_ramps": "viscofric.rheology.ramps.superpose",
+    "KrausLaw": "viscofric.rheology.payne",
+    "LinearRange": "viscofric.rheology.payne",
+    "PayneFit": "viscofric.rheology.payne",
+    "fit_kraus": "viscofric.rheology.payne",
+    "material_at_strain": "viscofric.rheology.payne",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
     "RoughFriction": "viscofric.roughness.ensemble",

@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from viscofric.arguments import insist_on
 from viscofric.errors import DataFileError, InputError, brief
@@ -16,6 +16,10 @@ from viscofric.units import conversion
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+
+
+#: What a test sweeps: the frequency, the temperature or the strain amplitude.
+Test: TypeAlias = Literal["frequency", "temperature", "amplitude"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +32,7 @@ class Source:
     modulus_unit: str = ""  # of the moduli, if the file does not name it
     columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, in the user's words
     sheet: str = ""  # of a workbook, the only one to read
+    test: Test = "frequency"  # what was swept in the steps to be read, where the file tells steps apart
 
     @cached_property
     def text(self) -> str | None:

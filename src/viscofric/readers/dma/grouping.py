@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
+from viscofric.readers.dma.readings import AS_RAMPS
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -142,8 +143,9 @@ def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
     raise DataFileError(
         source,
         f"the temperatures run continuously from {shown_celsius(low)} to {shown_celsius(high)} °C, without a gap of "
-        f"{ISOTHERM_GAP:g} K; isothermal sweeps are needed, not a temperature ramp.",
+        f"{ISOTHERM_GAP:g} K; isothermal sweeps are needed, not a temperature ramp",
         code="temperature-ramp",
+        remedy=AS_RAMPS,
     )
 
 
@@ -214,7 +216,7 @@ def _insist_on_several(points: Points, groups: list[Indices], source: str) -> li
     counts = [len(_printed_frequencies(points, group)) for group in groups]
     if len(groups) >= TEMPERATURE_SWEEP and max(counts) == 1:
         problem = f"each of the {len(groups)} temperatures has one frequency; frequency sweeps are needed, not a "
-        raise DataFileError(source, problem + "temperature sweep.", code="temperature-sweep")
+        raise DataFileError(source, problem + "temperature sweep", code="temperature-sweep", remedy=AS_RAMPS)
     # one frequency next to three, two next to six
     needed = min(3, 1 + max(counts) // 3)
     return [group for group, count in zip(groups, counts, strict=True) if count >= needed]

@@ -72,17 +72,14 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     """
     if not readings:
         raise InputError("at least one file of DMA sweeps is needed.", code="no-file")
-    source = _source(readings)
-    kind, on_deformation = _deformation(readings, deformation)
+    source, kind, opened = opening(readings, deformation)
     points = joined(readings)
     keep, on_left_out = usable(points, source)
     groups, on_groups = isotherm_groups(points, keep, source)
     single = [of_one_amplitude(points, rows, source) for rows in groups]
     sweeps = [_isotherm(points, rows) for rows, _ in single]
     notes: list[Note] = [
-        *_on_formats(readings),
-        *on_deformation,
-        *_own_notes(readings),
+        *opened,
         *on_left_out,
         *on_groups,
         *(note for _, some in single for note in some),
@@ -94,6 +91,12 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     known = deformation is not None or any(one.deformation is not None for one in readings)
     found = IsothermalSweeps(isotherms, kind, source, short_notes(notes), ", ".join(formats))
     return TracedSweeps(found, tuple(readings), points, tuple(sweeps), known)
+
+
+def opening(readings: Sequence[Readings], deformation: Deformation | None) -> tuple[str, Deformation, list[Note]]:
+    """Return the name of the files, the kind of deformation, and the notes on both and of the readers."""
+    kind, on_deformation = _deformation(readings, deformation)
+    return _source(readings), kind, [*_on_formats(readings), *on_deformation, *_own_notes(readings)]
 
 
 def _source(readings: Sequence[Readings]) -> str:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from viscofric.data import Deformation, IsothermalSweeps
     from viscofric.readers.dma.isotherms import TracedSweeps
     from viscofric.readers.dma.readings import Readings
+    from viscofric.readers.source import Test
     from viscofric.units import Quantity
 
 
@@ -190,15 +191,30 @@ def trace_dma(
 
     If nothing decides between tension and shear, this raises no error, so that the page can show the sweeps and ask.
     """
+    readings = read_files(paths, "read_dma", "frequency", deformation, temperature, modulus_unit, columns, sheet)
+    return traced_sweeps(readings, deformation)
+
+
+def read_files(
+    paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]],
+    reader: str,
+    test: Test,
+    deformation: Deformation | None,
+    temperature: Quantity | Sequence[Quantity | None] | None,
+    modulus_unit: str | None,
+    columns: Mapping[str, str] | None,
+    sheet: str | None,
+) -> list[Readings]:
+    """Read the points of a test from files of one specimen, neither sorted nor checked yet."""
     if deformation is not None:
         check_choice(deformation, "deformation", *DEFORMATIONS)
-    files = files_of(paths, "read_dma")
+    files = files_of(paths, reader)
     given = temperatures_of(temperature, len(files))
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
     asked, one_sheet = DMA.checked(columns), checked_sheet(sheet)
     sources = [
-        Source(path, bytes_of(path), kelvin, modulus_unit or "", asked, one_sheet)
+        Source(path, bytes_of(path), kelvin, modulus_unit or "", asked, one_sheet, test)
         for path, kelvin in zip(files, given, strict=True)
     ]
     insist_on_different(sources)
@@ -208,7 +224,7 @@ def trace_dma(
             f"modulus_unit = {modulus_unit!r}: the files state the units of their moduli; leave it out.",
             code="unit-not-needed",
         )
-    return traced_sweeps(readings, deformation)
+    return readings
 
 
 def _read(source: Source) -> Readings:

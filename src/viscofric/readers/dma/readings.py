@@ -32,6 +32,21 @@ AS_SWEEPS = Remedy(
     page="; under “Data” choose “Sweeps of a DMA or rheometer” as the source, and drop it there.",
     field="material.master_curve",
 )
+#: What to do with a temperature ramp, or an amplitude sweep, in place of frequency sweeps.
+AS_RAMPS = Remedy(
+    "; use read_ramps for it.",
+    "; `viscofric material ramp` reads it.",
+    "; name it as ramps.",
+    "; read it by `viscofric material ramp`, and choose the material file that it writes.",
+    "material.dma",
+)
+AS_AMPLITUDES = Remedy(
+    "; use read_amplitude_sweep for it.",
+    "; `viscofric material amplitude` reads it.",
+    "; name it as amplitude_sweep, beside the frequency sweeps.",
+    "; `viscofric material amplitude` reads it.",
+    "material.dma",
+)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.readings import at
+from viscofric.readers.dma.readings import AS_AMPLITUDES, at
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -210,7 +210,10 @@ def of_one_amplitude(points: Points, rows: Indices, source: str) -> tuple[Indice
             f"{at([kelvin])} the strain amplitude runs from {span} at one frequency ({points.named(swept)}); frequency "
         )
         raise DataFileError(
-            source, problem + "sweeps at one amplitude are needed, not an amplitude sweep.", code="amplitude-sweep"
+            source,
+            problem + "sweeps at one amplitude are needed, not an amplitude sweep",
+            code="amplitude-sweep",
+            remedy=AS_AMPLITUDES,
         )
     beside = np.isin(known, swept) & ~near[best]
     out = known[beside]

@@ -55,6 +55,10 @@ class Smoother:
         smoothing, scatter = _restricted_likelihood(basis * root, penalty, moduli * root)
         return cls(knots, degree, penalty, smoothing, scatter)
 
+    def basis(self, frequency: Array) -> Array:
+        """Return the basis functions (n, K) at other places."""
+        return np.asarray(_splines(self.knots, self.degree, frequency)[0])
+
     def curves(self, frequency: Array, moduli: Array, weights: Array | None = None) -> Curves:
         """Draw the curves through points; shapes as for `fitted`."""
         root = _roots(frequency, weights)

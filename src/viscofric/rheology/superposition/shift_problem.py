@@ -26,6 +26,8 @@ TREND = 1.0  # decades
 PRIOR = 3.0  # decades
 #: Standard deviation of the difference of neighbours' vertical shifts: three times the effect of ρT in 10 K.
 VERTICAL_PRIOR = 0.03  # decades
+#: The correlation of neighbouring errors, beside what curves follow of them, is found in so many passes; at most this.
+CORRELATION_PASSES, LARGEST_CORRELATION = 8, 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +201,7 @@ class ShiftProblem:
             scatters = smoother.scatter
             if expected is not None:
                 beside = smoother.curves(frequency, moduli - piece.own(self._of_isotherms(expected)), weights)
-                scatters = scatters * np.sqrt([_inflation(one, piece.same) for one in beside.residual.T])
+                scatters = scatters * np.sqrt([inflation(one, piece.same) for one in beside.residual.T])
             belongs = np.eye(piece.size)[piece.isotherm]
             level = belongs * curves.root
             slopes = curves.slopes_of_basis @ curves.coefficients
@@ -289,7 +291,7 @@ def _derivatives(
             second = square - bent @ curves.inverse[modulus] @ bent.T
             second[: piece.size, : piece.size] -= np.diag(piece.gathered(bends[:, modulus] * residual))
             curvature += weight * second
-            alike = _inflation(lifted[:, modulus], piece.same)
+            alike = inflation(lifted[:, modulus], piece.same)
             score += (weight * smoother.scatter[modulus]) ** 2 * alike * information
     moves = np.eye(count)
     moves[: piece.size, : piece.size] -= 1.0 / piece.size  # see `Piece.reduced`
@@ -297,8 +299,17 @@ def _derivatives(
     return State(curves.cost(weights), moves @ gradient, normal, curvature, score, freedom)
 
 
-def _inflation(residual: Array, same: Mask) -> float:
-    """Return the factor by which correlated residuals reduce the information of points."""
+def inflation(residual: Array, same: Mask, smoothed: tuple[float, float] | None = None) -> float:
+    """Return the factor by which correlated residuals reduce the information of points.
+
+    A curve follows part of what is correlated.  `smoothed` are the means of the diagonal of its hat matrix, and of the
+    entries of neighbouring points; with them the correlation of the errors is estimated from that of the residuals.
+    """
     squares = float(residual @ residual)
-    alike = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0
+    seen = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0
+    alike = seen
+    for _ in range(CORRELATION_PASSES if smoothed else 0):
+        grown = (1.0 + alike) / (1.0 - alike)
+        own, next_to = smoothed  # type: ignore[misc]
+        alike = min(seen * (1.0 - min(grown * own, 1.0)) + grown * next_to, LARGEST_CORRELATION)
     return (1.0 + alike) / (1.0 - alike) if alike > 0.0 else 1.0

@@ -61,7 +61,8 @@ def read(source: Source) -> Readings:
     for interval in oscillating:
         rows = _complete(interval)
         frequency = _column(source.path, interval, "angular frequency", rows, decimals)
-        if frequency.size < 2 or np.ptp(frequency) <= _SAME_FREQUENCY * np.max(np.abs(frequency)):
+        held = source.test != "frequency"
+        if not held and (frequency.size < 2 or np.ptp(frequency) <= _SAME_FREQUENCY * np.max(np.abs(frequency))):
             continue
         tables.append(_table(source, interval, rows, frequency, decimals))
         lines += [line for line, _ in rows]

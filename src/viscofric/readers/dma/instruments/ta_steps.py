@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from viscofric.arrays import Array
+    from viscofric.readers.source import Test
 
 
 #: What a column holds -> its names, in small letters.
@@ -35,6 +36,8 @@ ROLES = {
 _AMPLITUDE = re.compile(r"amplitude|(strain|stress|force|displacement) sweep", re.IGNORECASE)
 #: Relative range of the measured values of one set frequency; every sweep is wider.
 _SAME_FREQUENCY = 0.05
+#: A temperature ramp ranges over more than this (K or °C), an amplitude sweep over more than this factor.
+RAMP, SWEPT = 5.0, 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +74,20 @@ class Step:
             and "storage modulus" in self.signals
             and ("loss modulus" in self.signals or "tan delta" in self.signals)
         )
+
+    def is_of(self, test: Test) -> bool:
+        """Whether the step sweeps the frequency, the temperature or the strain amplitude, with moduli."""
+        if test == "frequency":
+            return self.is_frequency_sweep
+        technique = self.name.lower() if self.named_by_instrument else ""
+        signal = self.signals.get("strain" if test == "amplitude" else "temperature")
+        if signal is None or not self.has_moduli:
+            return False
+        values = signal.values[np.isfinite(signal.values)]
+        if test == "temperature":
+            return bool(values.size and np.ptp(values) > RAMP and not _AMPLITUDE.search(technique))
+        values = values[values > 0.0]
+        return bool(values.size and values.max() > SWEPT * values.min())
 
     @property
     def is_frequency_sweep(self) -> bool:

@@ -23,7 +23,11 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.readers.dma.instruments.ta_steps import Signal, Step
-    from viscofric.readers.source import Source
+    from viscofric.readers.source import Source, Test
+
+
+#: Tests in words.
+TESTS = {"frequency": "frequency sweep", "temperature": "temperature ramp", "amplitude": "amplitude sweep"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,14 +52,14 @@ def readings_of(
         If no step is a frequency sweep with points, a column or unit is missing or wrong, or two columns of
         frequency contradict each other.
     """
-    sweeps = [(number, step) for number, step in enumerate(steps, start=1) if step.is_frequency_sweep]
+    sweeps = [(number, step) for number, step in enumerate(steps, start=1) if step.is_of(source.test)]
     if not sweeps:
         raise DataFileError(
             source.path,
-            f"contains no frequency sweep of an oscillation; {_contents(steps)}.",
-            code="no-frequency-sweep",
+            f"contains no {TESTS[source.test]} of an oscillation; {_contents(steps)}.",
+            code=f"no-{TESTS[source.test].replace(' ', '-')}",
         )
-    notes = [*notes, *_passed_over(steps)]
+    notes = [*notes, *_passed_over(steps, source.test)]
     with np.errstate(all="ignore"):  # what overflows is no modulus and is left out
         parts = [_points(source, step, notes) for _, step in sweeps]
     left_out = [place for part in parts for place in part.left_out]
@@ -108,14 +112,14 @@ def _contents(steps: Sequence[Step]) -> str:
     return f"{listed},{which} with moduli, but not over frequency"
 
 
-def _passed_over(steps: Sequence[Step]) -> list[str]:
-    others = [repr(step.name) for step in steps if not step.is_frequency_sweep]
+def _passed_over(steps: Sequence[Step], test: Test) -> list[str]:
+    others = [repr(step.name) for step in steps if not step.is_of(test)]
     if not others:
         return []
-    what = "1 step that is not a frequency sweep was"
+    what = f"1 step that is not {'an' if test == 'amplitude' else 'a'} {TESTS[test]} was"
     if len(others) > 1:
-        what = f"{len(others)} steps that are not frequency sweeps were"
-    return [Note("no-frequency-sweep", f"{what} skipped: {_listed(others)}.")]
+        what = f"{len(others)} steps that are not {TESTS[test]}s were"
+    return [Note(f"no-{TESTS[test].replace(' ', '-')}", f"{what} skipped: {_listed(others)}.")]
 
 
 def _listed(names: Sequence[str], most: int = 6) -> str:

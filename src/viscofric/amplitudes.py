@@ -1,0 +1,137 @@
+"""Amplitude sweeps: moduli against the amplitude of the strain, at one frequency and one temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.arguments import sentences, text
+from viscofric.data import Deformation, read_only
+from viscofric.datasets import dataset
+from viscofric.errors import InputError, check_choice
+from viscofric.notes import Note
+from viscofric.units import angular_frequency, checked_poisson_ratio, positive, shown_celsius
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class AmplitudeSweep:
+    """Moduli of one specimen at growing amplitudes of the strain.
+
+    Parameters
+    ----------
+    strain_amplitude : (n,) array
+        Of the oscillation, ascending, as a fraction (0.01 is 1 %).
+    storage_modulus, loss_modulus : (n,) array
+        As measured, positive, Pa.
+    angular_frequency : float or quantity
+        rad/s, or text such as ``"10 Hz"``.
+    temperature : float or quantity
+        K, or text such as ``"60 degC"``.
+    deformation : {"tension", "shear"}
+        Whether the moduli are E and the strain is that of tension, or G and a shear.
+    source : str
+        Origin, such as a file's name.
+    notes : tuple of str
+        What the reader found doubtful, left out or averaged: one sentence each.
+    format : str
+        The recognised format in words; empty for a sweep from no file.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> sweep = vf.AmplitudeSweep([1e-3, 1e-2, 1e-1], [5e6, 4e6, 2e6], [4e5, 6e5, 3e5], "10 Hz", "60 degC", "shear")
+    >>> sweep.in_tension(0.5).storage_modulus  # E = 2(1+ν)G
+    array([15000000., 12000000.,  6000000.])
+    """
+
+    strain_amplitude: Array
+    storage_modulus: Array
+    loss_modulus: Array
+    angular_frequency: float
+    temperature: float
+    deformation: Deformation = "tension"
+    source: str = ""
+    notes: tuple[str, ...] = ()
+    format: str = ""
+
+    def __post_init__(self) -> None:
+        check_choice(self.deformation, "deformation", "tension", "shear")
+        shape = read_only(self.strain_amplitude, "strain_amplitude of an amplitude sweep").shape
+        for name in ("strain_amplitude", "storage_modulus", "loss_modulus"):
+            column = read_only(getattr(self, name), f"{name} of an amplitude sweep")
+            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
+                raise InputError(
+                    f"{name} of an amplitude sweep must be one row of positive numbers, one per amplitude."
+                )
+            object.__setattr__(self, name, column)
+        if np.any(np.diff(self.strain_amplitude) <= 0.0):
+            raise InputError("the amplitudes of an amplitude sweep must ascend without repeats.")
+        object.__setattr__(self, "angular_frequency", _rad_per_second(self.angular_frequency))
+        object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an amplitude sweep"))
+        for name in ("source", "format"):
+            text(getattr(self, name), f"{name} of the sweep")
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of the sweep"))
+
+    def __len__(self) -> int:
+        return len(self.strain_amplitude)
+
+    def __repr__(self) -> str:
+        low, high = 100.0 * self.strain_amplitude[[0, -1]]
+        return (
+            f"AmplitudeSweep({low:.3g} to {high:.3g} % at {self.angular_frequency / (2.0 * np.pi):.3g} Hz, "
+            f"{shown_celsius(self.temperature)} °C, {self.deformation})"
+        )
+
+    def in_tension(self, poisson_ratio: float) -> AmplitudeSweep:
+        """Return the sweep as tensile moduli and strains of tension, E = 2(1+ν)G and ε = γ/√3, if it was in shear.
+
+        A tension and a shear of these amplitudes have the same energy of distortion.
+        """
+        if self.deformation == "tension":
+            return self
+        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
+        said = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}, strains by ε = γ/√3."
+        return replace(
+            self,
+            strain_amplitude=self.strain_amplitude / np.sqrt(3.0),
+            storage_modulus=factor * self.storage_modulus,
+            loss_modulus=factor * self.loss_modulus,
+            deformation="tension",
+            notes=(*self.notes, Note("in-tension", said)),
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the moduli along ``strain_amplitude``.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``storage_modulus`` and ``loss_modulus`` (Pa); the attributes are ``angular_frequency`` (rad/s),
+            ``temperature`` (K), ``deformation``, ``source`` and ``format``.
+        """
+        return dataset(
+            "strain_amplitude",
+            {
+                "storage_modulus": (self.storage_modulus, "Pa", "storage modulus"),
+                "loss_modulus": (self.loss_modulus, "Pa", "loss modulus"),
+            },
+            coordinates={"strain_amplitude": (self.strain_amplitude, "1", "strain amplitude")},
+            attributes={
+                "angular_frequency": self.angular_frequency,
+                "temperature": self.temperature,
+                "deformation": self.deformation,
+                "source": self.source,
+                "format": self.format,
+            },
+        )
+
+
+def _rad_per_second(value: object) -> float:
+    return angular_frequency(value, "angular_frequency of an amplitude sweep")  # type: ignore[arg-type]

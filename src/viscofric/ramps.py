@@ -1,0 +1,197 @@
+"""Temperature ramps of a dynamic mechanical analyser: moduli against temperature at one or several frequencies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.arguments import insist_on, sentences, text
+from viscofric.data import Deformation, read_only
+from viscofric.datasets import dataset
+from viscofric.errors import InputError, check_choice
+from viscofric.notes import Note
+from viscofric.units import angular_frequency, celsius, checked_poisson_ratio, positive
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.arrays import Array
+    from viscofric.units import Quantity
+
+
+@dataclass(frozen=True, eq=False)
+class TemperatureRamp:
+    """Moduli at one frequency while the temperature changes.
+
+    Parameters
+    ----------
+    angular_frequency : float or quantity
+        rad/s, or text such as ``"1 Hz"``.
+    temperature : (n,) array
+        Ascending, K; whether the sample was heated or cooled is up to `TemperatureRamps`.
+    storage_modulus, loss_modulus : (n,) array
+        As measured (tensile or shear, see `TemperatureRamps.deformation`), positive, Pa.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> ramp = vf.TemperatureRamp("1 Hz", [253.15, 263.15, 273.15], [9e8, 2e8, 2e7], [5e7, 9e7, 1e7])
+    >>> len(ramp), ramp.loss_tangent.round(2)
+    (3, array([0.06, 0.45, 0.5 ]))
+    """
+
+    angular_frequency: float
+    temperature: Array
+    storage_modulus: Array
+    loss_modulus: Array
+
+    def __init__(
+        self, angular_frequency: Quantity, temperature: object, storage_modulus: object, loss_modulus: object
+    ) -> None:
+        object.__setattr__(self, "angular_frequency", _rad_per_second(angular_frequency))
+        columns = {"temperature": temperature, "storage_modulus": storage_modulus, "loss_modulus": loss_modulus}
+        shape = read_only(temperature, "temperature of a ramp").shape
+        for name, values in columns.items():
+            column = read_only(values, f"{name} of a ramp")
+            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
+                raise InputError(f"{name} of a ramp must be one row of positive numbers, one per temperature.")
+            object.__setattr__(self, name, column)
+        if np.any(np.diff(self.temperature) < 0):
+            raise InputError("the temperatures of a ramp must ascend.")
+
+    def __len__(self) -> int:
+        return len(self.temperature)
+
+    @property
+    def loss_tangent(self) -> Array:
+        """E''/E' (or G''/G')."""
+        return np.asarray(self.loss_modulus / self.storage_modulus)
+
+
+def _rad_per_second(value: Quantity) -> float:
+    return angular_frequency(value, "angular_frequency of a ramp")
+
+
+@dataclass(frozen=True, eq=False)
+class TemperatureRamps:
+    """Temperature ramps of one specimen, one for each frequency.
+
+    Parameters
+    ----------
+    ramps : tuple of TemperatureRamp
+        In ascending frequency.
+    deformation : {"tension", "shear"}
+        Whether the moduli are E (tension) or G (shear).
+    heating_rate : float or None
+        K/s, below zero for cooling; None where it is unknown.
+    source : str
+        Origin, such as a file's name.
+    notes : tuple of str
+        What the reader found doubtful, left out or averaged: one sentence each.
+    format : str
+        The recognised format in words; empty for ramps from no file.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> ramp = vf.TemperatureRamp("1 Hz", [253.15, 263.15, 273.15], [9e8, 2e8, 2e7], [5e7, 9e7, 1e7])
+    >>> vf.TemperatureRamps((ramp,), deformation="shear").in_tension(0.5).ramps[0].storage_modulus[0]  # E = 2(1+ν)G
+    np.float64(2700000000.0)
+    """
+
+    ramps: tuple[TemperatureRamp, ...]
+    deformation: Deformation = "tension"
+    heating_rate: float | None = None
+    source: str = ""
+    notes: tuple[str, ...] = ()
+    format: str = ""
+
+    def __post_init__(self) -> None:
+        check_choice(self.deformation, "deformation", "tension", "shear")
+        insist_on(self.ramps, "ramps", tuple, list, right="a tuple of TemperatureRamp")
+        for one in self.ramps:
+            insist_on(one, "one of the ramps", TemperatureRamp)
+        if not self.ramps:
+            raise InputError("ramps must hold at least one TemperatureRamp.")
+        if self.heating_rate is not None and not np.isfinite(self.heating_rate):
+            raise InputError("heating_rate must be a number of K/s, or None.")
+        for name in ("source", "format"):
+            text(getattr(self, name), f"{name} of the ramps")
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of the ramps"))
+        object.__setattr__(self, "ramps", tuple(sorted(self.ramps, key=lambda ramp: ramp.angular_frequency)))
+        if np.any(np.diff(self.angular_frequencies) <= 0.0):
+            raise InputError("two ramps have the same frequency; join them to one.")
+
+    def __len__(self) -> int:
+        return len(self.ramps)
+
+    def __repr__(self) -> str:
+        low, high = self.temperature_range
+        hertz = ", ".join(f"{one / (2 * np.pi):.3g}" for one in self.angular_frequencies)
+        return f"TemperatureRamps({celsius(low):z.1f} to {celsius(high):z.1f} °C at {hertz} Hz, {self.deformation})"
+
+    @property
+    def angular_frequencies(self) -> Array:
+        """Of the ramps, rad/s, ascending."""
+        return np.array([ramp.angular_frequency for ramp in self.ramps])
+
+    @property
+    def temperature_range(self) -> tuple[float, float]:
+        """Lowest and highest temperature, K."""
+        return float(min(r.temperature[0] for r in self.ramps)), float(max(r.temperature[-1] for r in self.ramps))
+
+    def between(self, lowest: Quantity, highest: Quantity) -> TemperatureRamps:
+        """Return the points between two temperatures (K, or text such as ``"-40 degC"``)."""
+        low, high = positive(lowest, "K", "lowest"), positive(highest, "K", "highest")
+        cut = []
+        for ramp in self.ramps:
+            inside = (ramp.temperature >= low) & (ramp.temperature <= high)
+            if np.any(inside):
+                columns = (ramp.temperature, ramp.storage_modulus, ramp.loss_modulus)
+                cut.append(TemperatureRamp(ramp.angular_frequency, *(column[inside] for column in columns)))
+        if not cut:
+            raise InputError(
+                f"no point lies between {celsius(low):z.1f} and {celsius(high):z.1f} °C.", code="no-points"
+            )
+        return replace(self, ramps=tuple(cut))
+
+    def in_tension(self, poisson_ratio: float) -> TemperatureRamps:
+        """Return the ramps as tensile moduli, E = 2(1+ν)G if they were measured in shear."""
+        if self.deformation == "tension":
+            return self
+        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
+        ramps = tuple(
+            TemperatureRamp(
+                one.angular_frequency, one.temperature, factor * one.storage_modulus, factor * one.loss_modulus
+            )
+            for one in self.ramps
+        )
+        said = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
+        return replace(self, ramps=ramps, deformation="tension", notes=(*self.notes, Note("in-tension", said)))
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the points along the dimension ``reading``, ramp by ramp.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``temperature`` (K), ``angular_frequency`` (rad/s), ``storage_modulus`` and ``loss_modulus`` (Pa); the
+            attributes are ``deformation``, ``source``, ``format``, and ``heating_rate`` (K/s) where it is known.
+        """
+        counts = [len(one) for one in self.ramps]
+        attributes = {"deformation": self.deformation, "source": self.source, "format": self.format}
+        rate = {} if self.heating_rate is None else {"heating_rate": self.heating_rate}
+        return dataset(
+            "reading",
+            {
+                "temperature": (np.concatenate([one.temperature for one in self.ramps]), "K", "temperature"),
+                "angular_frequency": (np.repeat(self.angular_frequencies, counts), "rad/s", "angular frequency"),
+                "storage_modulus": (
+                    np.concatenate([one.storage_modulus for one in self.ramps]), "Pa", "storage modulus",
+                ),
+                "loss_modulus": (np.concatenate([one.loss_modulus for one in self.ramps]), "Pa", "loss modulus"),
+            },
+            attributes=attributes | rate,
+        )  # fmt: skip

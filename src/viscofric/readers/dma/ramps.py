@@ -1,0 +1,150 @@
+"""Temperature ramps from files of a dynamic mechanical analyser, at one or several frequencies."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from viscofric.errors import DataFileError, check_choice, short_notes
+from viscofric.notes import Note
+from viscofric.ramps import TemperatureRamp, TemperatureRamps
+from viscofric.readers.dma.checks import usable
+from viscofric.readers.dma.held_frequencies import by_frequency, legs
+from viscofric.readers.dma.instruments.ta_steps import RAMP
+from viscofric.readers.dma.isotherms import opening
+from viscofric.readers.dma.names import NOT_SAID
+from viscofric.readers.dma.read import read_files
+from viscofric.readers.dma.readings import AS_SWEEPS, joined
+from viscofric.units import celsius, to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from os import PathLike
+
+    from viscofric.arrays import Indices
+    from viscofric.data import Deformation
+    from viscofric.readers.dma.readings import Points
+    from viscofric.units import Quantity
+
+
+#: A ramp has so many points at least.
+FEWEST = 5
+#: A course of temperatures turns where it reverses by more than this, K.
+REVERSAL = 3.0
+
+
+def read_ramps(
+    *paths: str | PathLike[str] | Sequence[str | PathLike[str]],
+    deformation: Deformation | None = None,
+    direction: Literal["heating", "cooling"] | None = None,
+    heating_rate: Quantity | None = None,
+    modulus_unit: str | None = None,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
+) -> TemperatureRamps:
+    """Read temperature ramps at one or several frequencies from files of an analyser or a rheometer.
+
+    Files are those that `read_dma` reads; the points are sorted by frequency instead of temperature.
+
+    Parameters
+    ----------
+    *paths : str or path, or a list of them
+        One or many files of one specimen, such as one for each frequency.
+    deformation : {"tension", "shear"}, optional
+        Kind of the moduli, if the files do not state it.
+    direction : {"heating", "cooling"}, optional
+        Which part of a file is read that holds both; by default the longer one.
+    heating_rate : float or quantity, optional
+        Such as ``"3 K/min"``, K/s if a plain number; files do not state it in a way that is read.
+    modulus_unit, columns, sheet : optional
+        As for `read_dma`.
+
+    Returns
+    -------
+    TemperatureRamps
+        In SI units; the notes name every point left out, and everything doubtful.
+
+    Raises
+    ------
+    DataFileError
+        If a file cannot be read or is not recognised, or no frequency was held over a range of temperatures.
+    InputError
+        If no file is given, or an argument is wrong.
+
+    Examples
+    --------
+    >>> from importlib.resources import files
+    >>> import viscofric as vf
+    >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic: frequency sweeps, read as ramps
+    >>> ramps = vf.read_ramps(path, deformation="tension")
+    >>> len(ramps), len(ramps.ramps[0])
+    (17, 26)
+    """
+    check_choice(direction or "heating", "direction", "heating", "cooling")
+    rate = None if heating_rate is None else to_si(heating_rate, "K/s", "heating_rate")
+    readings = read_files(paths, "temperature", deformation, None, modulus_unit, columns, sheet)
+    source, kind, notes = opening(readings, deformation)
+    if deformation is None and all(one.deformation is None for one in readings):
+        raise DataFileError(source, NOT_SAID)
+    points = joined(readings)
+    keep, on_left_out = usable(points, source)
+    rows, on_direction = _one_direction(points, keep, direction, source)
+    ramps, short = [], []
+    for held in by_frequency(points, rows):
+        if len(held) < FEWEST or np.ptp(points.temperature[held]) <= RAMP:
+            short += held.tolist()
+            continue
+        order = held[np.argsort(points.temperature[held], kind="stable")]
+        frequency = float(np.exp(np.mean(np.log(points.angular_frequency[order]))))
+        columns_of = (points.temperature, points.storage_modulus, points.loss_modulus)
+        ramps.append(TemperatureRamp(frequency, *(column[order] for column in columns_of)))
+    if not ramps:
+        raise DataFileError(
+            source,
+            f"no frequency was held over more than {RAMP:g} K at {FEWEST} temperatures or more; this is no temperature "
+            "ramp",
+            code="no-ramp",
+            remedy=AS_SWEEPS,
+        )
+    notes += [*on_left_out, *on_direction]
+    if short:
+        said = (
+            f"{len(short)} points left out: their frequency was not held over a ramp ({points.named(sorted(short))})."
+        )
+        notes.append(Note("points-left-out", said))
+    formats = ", ".join(dict.fromkeys(one.format for one in readings))
+    return TemperatureRamps(tuple(ramps), kind, rate, source, short_notes(notes), formats)
+
+
+def _one_direction(points: Points, keep: Indices, direction: str | None, source: str) -> tuple[Indices, list[Note]]:
+    """Keep heating or cooling where a file holds both."""
+    rows, left = [], []
+    for number in np.unique(points.file[keep]):
+        own = keep[points.file[keep] == number]
+        kelvin = points.temperature[own]
+        parts = [own[part] for part in legs(kelvin, REVERSAL)]
+        wanted = [part for part in parts if direction is None or _heats(points, part) == (direction == "heating")]
+        if not wanted:
+            raise DataFileError(source, f"it holds no {direction}; leave out direction.", code="no-such-direction")
+        longest = max(wanted, key=lambda part: float(np.ptp(points.temperature[part])))
+        # Parts of a frequency table in blocks repeat the same course: all that go the same way as the longest.
+        same = [part for part in wanted if _heats(points, part) == _heats(points, longest)]
+        rows += same
+        left += [part for part in parts if not any(part is one for one in same)]
+    notes = []
+    others = np.concatenate(left) if left else np.empty(0, dtype=np.intp)
+    if others.size:
+        low, high = (celsius(float(f(points.temperature[others]))) for f in (np.min, np.max))
+        taken = "heating" if _heats(points, rows[0]) else "cooling"
+        said = (
+            f"{len(others)} points left out: only the part with {taken} was read, not the other direction "
+            f"({low:z.1f} to {high:z.1f} °C)."
+        )
+        notes.append(Note("direction", said))
+    return np.sort(np.concatenate(rows)), notes
+
+
+def _heats(points: Points, rows: Indices) -> bool:
+    kelvin = points.temperature[rows]
+    return bool(kelvin[-1] >= kelvin[0])

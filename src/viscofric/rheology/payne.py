@@ -1,0 +1,460 @@
+"""The Payne effect: linear range of an amplitude sweep, Kraus's law, and a material at a strain.
+
+G. Kraus, J. Appl. Polym. Sci. Appl. Polym. Symp. 39 (1984) 75; A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.amplitudes import AmplitudeSweep
+from viscofric.arguments import insist_on, number, real
+from viscofric.datasets import dataset
+from viscofric.errors import InputError
+from viscofric.notes import Note
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.rheology.superposition.common_curve import Smoother
+from viscofric.rheology.superposition.shift_problem import inflation
+from viscofric.threads import one_blas_thread
+from viscofric.units import shown_celsius
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike
+
+    from viscofric.arrays import Array
+
+
+#: Points that the constants of both moduli, six, need.
+FEWEST = 6
+#: Starting values of the exponent m; 0.4 to 0.7 is usual for carbon black (Kraus; 0.5 to 0.6).
+EXPONENTS = (0.35, 0.6, 1.0)
+#: Fits with the weights of both moduli found anew.
+PASSES = 4
+#: Logarithms of constants stay within this of the data.
+WIDEST = math.log(1e4)
+#: Scatter about the law above which it does not describe the sweep, decades.
+LARGEST_SCATTER = 0.03
+#: Beyond the measured amplitudes by more than this factor the law is extrapolated.
+BEYOND = 1.5
+#: Strain of a contact over the slope of its edge: D. Tabor, The Hardness of Metals, 1951, ch. V.
+TABOR = 0.2
+_NAMES = ("storage_linear", "storage_large", "critical_strain", "exponent", "loss_peak", "loss_large")
+
+
+@dataclass(frozen=True, eq=False)
+class KrausLaw:
+    """Kraus's law of the moduli of a filled rubber at a strain amplitude γ.
+
+    G' = G'∞ + (G'0 − G'∞)/(1 + (γ/γc)^2m) and G'' = G''∞ + 2 (G''m − G''∞) (γ/γc)^m/(1 + (γ/γc)^2m); the same for E in
+    tension.
+
+    Parameters
+    ----------
+    storage_linear, storage_large : float
+        G'0 at the smallest and G'∞ at the largest amplitudes, Pa.
+    critical_strain : float
+        γc, where half of the difference is left; a fraction.
+    exponent : float
+        m.
+    loss_peak, loss_large : float
+        G''m at γc, and G''∞ at the smallest and the largest amplitudes, Pa.
+    angular_frequency, temperature : float
+        Where it was measured, rad/s and K.
+    deformation : {"tension", "shear"}
+        Which strain γ and which moduli they are.
+    covariance : (6, 6) array, optional
+        Of the constants in this order, where the law was fitted.
+    strain_range : (float, float), optional
+        Amplitudes of the fit.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
+    >>> law.complex_modulus(0.02) / 1e6
+    np.complex128(3.75+0.9j)
+    """
+
+    storage_linear: float
+    storage_large: float
+    critical_strain: float
+    exponent: float
+    loss_peak: float
+    loss_large: float
+    angular_frequency: float
+    temperature: float
+    deformation: str = "tension"
+    covariance: Array | None = None
+    strain_range: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        for name in (*_NAMES, "angular_frequency", "temperature"):
+            if not (value := number(getattr(self, name), name)) > 0.0:
+                raise InputError(f"{name} = {value:g}: must be above zero.")
+            object.__setattr__(self, name, value)
+
+    def __str__(self) -> str:
+        """Return the constants with their standard errors, as for a report."""
+        letter = "E" if self.deformation == "tension" else "G"
+        errors = (0.0,) * 6 if self.standard_errors is None else self.standard_errors
+        names = (f"{letter}'0", f"{letter}'∞", "γc", "m", f"{letter}''m", f"{letter}''∞")
+        shown = []
+        for place, (name, value, error) in enumerate(zip(names, self.constants, errors, strict=True)):
+            factor, unit = ((100.0, " %") if place == 2 else (1.0, "")) if place in (2, 3) else (1e-6, " MPa")
+            both = f" ± {factor * error:.2g}" if error else ""
+            shown.append(f"{name} = {factor * value:.3g}{both}{unit}")
+        return f"Kraus: {', '.join(shown)}"
+
+    @property
+    def constants(self) -> Array:
+        """The six constants in the order of `covariance`."""
+        return np.array([getattr(self, name) for name in _NAMES])
+
+    @property
+    def standard_errors(self) -> tuple[float, ...] | None:
+        """Standard errors of the constants; None where the law was not fitted."""
+        return None if self.covariance is None else tuple(np.sqrt(np.diag(self.covariance)).tolist())
+
+    def complex_modulus(self, strain: ArrayLike) -> Any:
+        """Return G' + iG'' (or E) at amplitudes above zero, Pa."""
+        amplitude = real(strain)
+        if not np.all((amplitude >= 0.0) & np.isfinite(amplitude)):
+            raise InputError("strain must hold amplitudes as fractions, none below zero.")
+        return _moduli(np.log(np.maximum(self.constants, 1e-300)), amplitude)
+
+    def tensile_strain(self, strain: float) -> float:
+        """Return the amplitude of this law's deformation that a tensile strain corresponds to: γ = √3 ε in shear."""
+        return math.sqrt(3.0) * strain if self.deformation == "shear" else strain
+
+
+def _moduli(logs: Array, strain: Array) -> Any:
+    linear, large, critical, exponent, peak, floor = np.exp(logs)
+    ratio = (strain / critical) ** exponent
+    storage = large + (linear - large) / (1.0 + ratio**2)
+    return storage + 1j * (floor + 2.0 * (peak - floor) * ratio / (1.0 + ratio**2))
+
+
+@dataclass(frozen=True)
+class LinearRange:
+    """The amplitude up to which a sweep is linear.
+
+    Parameters
+    ----------
+    drop : float
+        By which part the storage modulus has fallen there, 0.05 or 0.1.
+    strain : float
+        The amplitude, a fraction; infinite where the modulus falls by less within the sweep.
+    standard_error : float
+        Of the strain, from the scatter of the points.
+    """
+
+    drop: float
+    strain: float
+    standard_error: float
+
+    def __str__(self) -> str:
+        """Return the range as a line of text."""
+        if not math.isfinite(self.strain):
+            return f"the storage modulus falls by less than {100 * self.drop:.0f} % within the sweep"
+        return (
+            f"the storage modulus has fallen by {100 * self.drop:.0f} % at a strain of {100 * self.strain:.3g} ± "
+            f"{100 * self.standard_error:.1g} %"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class PayneFit:
+    """The result of `fit_kraus`.
+
+    Parameters
+    ----------
+    law : KrausLaw
+        With the covariance of its constants.
+    sweep : AmplitudeSweep
+        What it was fitted to.
+    linear_ranges : tuple of LinearRange
+        Where the storage modulus has fallen by 5 and by 10 %, found without the law.
+    scatter : (float, float)
+        Of log10 G' and of log10 G'' about the law, decades.
+    notes : tuple of str
+        What the reader noted, and what is doubtful about the law: one sentence each.
+    """
+
+    law: KrausLaw
+    sweep: AmplitudeSweep
+    linear_ranges: tuple[LinearRange, ...]
+    scatter: tuple[float, float]
+    notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"PayneFit({self.sweep!r}, {self.law})"
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the sweep as `AmplitudeSweep.to_dataset` does, with the law at its amplitudes.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``storage_fitted`` and ``loss_fitted`` (Pa) in addition; constants, their errors and linear ranges among
+            the attributes.
+        """
+        found = self.sweep.to_dataset()
+        fitted = self.law.complex_modulus(self.sweep.strain_amplitude)
+        more = dataset(
+            "strain_amplitude",
+            {
+                "storage_fitted": (fitted.real, "Pa", "storage modulus by Kraus's law"),
+                "loss_fitted": (fitted.imag, "Pa", "loss modulus by Kraus's law"),
+            },
+        )
+        errors = self.law.standard_errors or (math.nan,) * 6
+        constants = dict(zip(_NAMES, self.law.constants.tolist(), strict=True))
+        constants |= {f"{name}_error": error for name, error in zip(_NAMES, errors, strict=True)}
+        for one in self.linear_ranges:
+            constants[f"linear_strain_{100 * one.drop:.0f}_percent"] = one.strain
+            constants[f"linear_strain_{100 * one.drop:.0f}_percent_error"] = one.standard_error
+        return found.assign(more.data_vars).assign_attrs(law=str(self.law), **constants)
+
+
+@one_blas_thread
+def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
+    """Fit Kraus's law to an amplitude sweep, and find its linear range.
+
+    Parameters
+    ----------
+    sweep : AmplitudeSweep
+        Of at least six amplitudes.
+
+    Returns
+    -------
+    PayneFit
+
+    Raises
+    ------
+    InputError
+        If there are fewer amplitudes.
+
+    Notes
+    -----
+    Least squares of log G' and log G'', each with the weight of its own scatter; G' and G'' share γc and m, as Kraus
+    derived.  The loss modulus of many compounds is larger at small amplitudes than the law says (J. D. Ulmer, Rubber
+    Chem. Technol. 69 (1996) 15); its greater scatter then gives it a smaller weight, and a note says so.
+
+    The linear range is found from a smooth curve through log G' over log γ (a spline, smoothed by restricted maximum
+    likelihood) relative to the smallest amplitude, without the law.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
+    >>> strain = np.geomspace(1e-4, 0.5, 30)
+    >>> G = law.complex_modulus(strain)
+    >>> fit = vf.fit_kraus(vf.AmplitudeSweep(strain, G.real, G.imag, "10 Hz", "60 degC", "shear"))
+    >>> f"{fit.law.critical_strain:.4f}, {fit.law.exponent:.3f}"
+    '0.0200, 0.600'
+    """
+    insist_on(sweep, "sweep", AmplitudeSweep, right="an AmplitudeSweep; read it with read_amplitude_sweep(…)")
+    if len(sweep) < FEWEST:
+        raise InputError(
+            f"an amplitude sweep of {len(sweep)} amplitudes is too short; give {FEWEST} or more.", code="too-few-points"
+        )
+    logs, scatter, covariance = _fitted(sweep)
+    constants = np.exp(logs)
+    law = KrausLaw(
+        **dict(zip(_NAMES, constants.tolist(), strict=True)),
+        angular_frequency=sweep.angular_frequency,
+        temperature=sweep.temperature,
+        deformation=sweep.deformation,
+        covariance=constants[:, None] * covariance * constants,
+        strain_range=(float(sweep.strain_amplitude[0]), float(sweep.strain_amplitude[-1])),
+    )
+    ranges = tuple(linear_range(sweep, drop) for drop in (0.05, 0.1))
+    return PayneFit(
+        law, sweep, ranges, (float(scatter[0]), float(scatter[1])), (*sweep.notes, *_doubts(sweep, scatter))
+    )
+
+
+def _doubts(sweep: AmplitudeSweep, scatter: Array) -> list[Note]:
+    notes = []
+    letter = "E" if sweep.deformation == "tension" else "G"
+    for mark, one in zip(("'", "''"), scatter, strict=True):
+        if one > LARGEST_SCATTER:
+            said = f"Kraus's law misses {letter}{mark} by {one:.2g} decades (rms); it describes it roughly only."
+            notes.append(Note("kraus-misfit", said))
+    fall = sweep.storage_modulus.max() / sweep.storage_modulus[-1]
+    if fall < 1.1:
+        said = f"{letter}' falls by {100.0 * (1.0 - 1.0 / fall):.0f} % only: the sweep does not determine the law."
+        notes.append(Note("hardly-nonlinear", said))
+    return notes
+
+
+def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
+    """Return the logarithms of the constants, the scatter of both moduli (decades), and the covariance."""
+    from scipy.optimize import least_squares
+
+    strain = sweep.strain_amplitude
+    measured = np.log(np.stack([sweep.storage_modulus, sweep.loss_modulus]))
+    low, high = measured.min(axis=1) - WIDEST, measured.max(axis=1) + WIDEST
+    ends = np.log(strain[[0, -1]])
+    bounds = (
+        np.array([low[0], low[0], ends[0] - 3.0, math.log(0.05), low[1], low[1]]),
+        np.array([high[0], high[0], ends[1] + 3.0, math.log(5.0), high[1], high[1]]),
+    )
+    scatter = np.ones(2)
+
+    def away(logs: Array) -> Array:
+        found = _moduli(logs, strain)
+        difference = np.log(np.stack([np.maximum(found.real, 1e-300), np.maximum(found.imag, 1e-300)])) - measured
+        return np.asarray((difference / scatter[:, None]).ravel())
+
+    middle = float(np.log(strain[np.argmin(np.abs(measured[0] - measured[0].mean()))]))
+    starts = [
+        [measured[0, 0], measured[0, -1] - 0.1, middle, math.log(m), measured[1].max(), measured[1].min() - 0.2]
+        for m in EXPONENTS
+    ]
+    best = min((least_squares(away, start, bounds=bounds) for start in starts), key=lambda one: float(one.cost))
+    freedom = len(strain) - 3.0
+    for _ in range(PASSES):
+        residual = (best.fun.reshape(2, -1)) * scatter[:, None]
+        scatter = np.maximum(np.sqrt(np.sum(residual**2, axis=1) / freedom), 1e-9)
+        best = least_squares(away, best.x, bounds=bounds)
+    residual = best.fun.reshape(2, -1)
+    same = np.ones(len(strain) - 1, dtype=bool)
+    alike = np.repeat([inflation(one, same) for one in residual], len(strain))
+    slope = np.asarray(best.jac)
+    inverse = np.linalg.pinv(slope.T @ slope, rcond=1e-12)
+    return best.x, scatter / math.log(10.0), inverse @ (slope.T * alike @ slope) @ inverse
+
+
+def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
+    """Return the amplitude where the storage modulus has fallen by a part, from a smooth curve without a law."""
+    insist_on(sweep, "sweep", AmplitudeSweep)
+    if not 0.0 < (part := number(drop, "drop")) < 1.0:
+        raise InputError(f"drop = {part:g}: must lie between 0 and 1, such as 0.05.")
+    logarithm = np.log10(sweep.strain_amplitude)
+    storage = np.log10(sweep.storage_modulus)[:, None]
+    smoother = Smoother.fitted(logarithm, storage)
+    fine = np.linspace(logarithm[0], logarithm[-1], 2001)
+    curves = smoother.curves(logarithm, storage)
+    basis = smoother.basis(fine)
+    fallen = (basis - basis[0]) @ curves.coefficients[:, 0] - math.log10(1.0 - part)
+    below = np.flatnonzero(fallen < 0.0)
+    if not below.size:
+        return LinearRange(part, math.inf, math.inf)
+    place = int(below[0])
+    slope = (fallen[place] - fallen[place - 1]) / (fine[1] - fine[0])
+    row = basis[place] - basis[0]
+    variance = smoother.scatter[0] ** 2 * float(row @ curves.inverse[0] @ row)
+    variance *= inflation(curves.residual[:, 0], np.ones(len(logarithm) - 1, dtype=bool))
+    strain = float(10.0 ** fine[place])
+    return LinearRange(part, strain, strain * math.log(10.0) * math.sqrt(variance) / abs(float(slope)))
+
+
+def contact_strain(slope: float) -> float:
+    """Return the tensile strain that stands for a contact: a fifth of the slope at its edge.
+
+    The slope is a/R of a ball or a cylinder, with the contact radius (half-width) a, and the cotangent of the half
+    angle of a cone (D. Tabor, The Hardness of Metals, 1951, for the ball; K. L. Johnson, Contact Mechanics, 1985,
+    sec. 6.3, for the cone).
+    """
+    if not (value := number(slope, "slope")) >= 0.0:
+        raise InputError(f"slope = {value:g}: must not be below zero.")
+    return TABOR * value
+
+
+def material_at_strain(
+    material: Material, law: KrausLaw, strain: float, *, measured_at: float | None = None
+) -> Material:
+    """Return a material whose moduli are scaled from a small to a larger strain by Kraus's law: an approximation.
+
+    Parameters
+    ----------
+    material : Material
+        With a spectrum; it holds at the strain of its frequency sweeps.
+    law : KrausLaw
+        From `fit_kraus`, or typed in.
+    strain : float
+        Tensile strain amplitude, a fraction, such as `contact_strain` gives.
+    measured_at : float, optional
+        Tensile strain amplitude of the frequency sweeps; the linear limit of the law without it.
+
+    Returns
+    -------
+    Material
+        Its name says that it is scaled.
+
+    Raises
+    ------
+    InputError
+        If the material is a table, or the law leaves no relaxed modulus above zero.
+
+    Notes
+    -----
+    At the frequency and the temperature of the amplitude sweep the law gives a factor for E' and one for E''.  All
+    relaxation strengths are multiplied by that for E'', and the relaxed modulus by what makes E' right: so E' and E''
+    still belong to each other (Kramers and Kronig).  That the same factors hold at other frequencies and temperatures
+    is assumed; the effect of the filler network fades towards the glass, where this overstates it.  A contact strains
+    its rubber unevenly and not sinusoidally: one amplitude for all of it is rough, too.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
+    >>> soft = vf.material_at_strain(vf.synthetic_fluoroelastomer(), law, strain=0.05)
+    >>> before = vf.synthetic_fluoroelastomer().complex_modulus(62.8, 333.15)
+    >>> ratio = soft.complex_modulus(62.8, 333.15).real / before.real
+    >>> wanted = law.complex_modulus(law.tensile_strain(0.05)).real / law.complex_modulus(0.0).real
+    >>> bool(abs(ratio / wanted - 1.0) < 1e-9)
+    True
+    """
+    insist_on(material, "material", Material)
+    insist_on(law, "law", KrausLaw)
+    spectrum = material.spectrum
+    if not isinstance(spectrum, RetardationSpectrum):
+        raise InputError("a table of moduli cannot be scaled to a strain; fit a spectrum to it.", code="no-spectrum")
+    amplitude = number(strain, "strain")
+    start = 0.0 if measured_at is None else number(measured_at, "measured_at")
+    if not (0.0 <= start <= 10.0 and 0.0 <= amplitude <= 10.0):
+        raise InputError("strain and measured_at must be fractions (0.05 is 5 %), none below zero.")
+    ends = law.complex_modulus(np.array([law.tensile_strain(start), law.tensile_strain(amplitude)]))
+    storage, loss = float(ends[1].real / ends[0].real), float(ends[1].imag / ends[0].imag)
+    modulus = complex(material.complex_modulus(law.angular_frequency, law.temperature if material.shift else None))
+    relaxation = spectrum.to_relaxation()
+    b = 1.0 if material.vertical_shift is None else float(material.vertical_shift(law.temperature))
+    relaxed = b * relaxation.E0
+    factor = (storage * modulus.real - loss * (modulus.real - relaxed)) / relaxed
+    if factor <= 0.0:
+        raise InputError(
+            f"at {100 * amplitude:.3g} % strain the law leaves no relaxed modulus above zero: its E'' is too large for "
+            "its E'.",
+            code="no-relaxed-modulus",
+        )
+    scaled = RelaxationSpectrum(
+        factor * relaxation.E0, loss * np.asarray(relaxation.E), relaxation.tau
+    ).to_retardation()
+    name = f"{material.name or 'material'} scaled to {100 * amplitude:.3g} % strain (approximation)"
+    return replace(material, spectrum=scaled, name=name)
+
+
+def on_strain(law: KrausLaw, strain: float) -> list[Note]:
+    """Say what a material at a strain is, and where the law is extrapolated."""
+    amplitude = law.tensile_strain(strain)
+    notes = [
+        Note(
+            "scaled-to-strain",
+            f"The moduli were scaled to {100 * strain:.3g} % tensile strain by Kraus's law, measured at "
+            f"{law.angular_frequency / (2 * math.pi):.3g} Hz and {shown_celsius(law.temperature)} °C: an approximation "
+            "at other frequencies and temperatures.",
+        )
+    ]
+    if law.strain_range is not None and amplitude > BEYOND * law.strain_range[1]:
+        said = f"The strain lies beyond the amplitudes of the sweep, up to {100 * law.strain_range[1]:.3g} %."
+        notes.append(Note("beyond-amplitudes", said))
+    return notes

@@ -1,0 +1,233 @@
+"""The constants of a shift law that bring ramps at several frequencies onto one curve of log E' and one of log E''.
+
+As for isotherms (`superposition.common_shifts`) the curves follow by linear least squares from given shifts (variable
+projection: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413), and every measured point counts once.  Here
+each point has its own temperature, and all shifts are those of one law, so that only its constants are unknown.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import SuperpositionError
+from viscofric.rheology.shifts.law_families import family_of
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
+from viscofric.rheology.superposition.common_curve import KNOT_SPACING, Smoother
+from viscofric.rheology.superposition.shift_problem import inflation
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array, Indices, Mask
+    from viscofric.rheology.shifts.law_families import Family
+    from viscofric.rheology.shifts.laws import ParametricLaw
+
+
+#: Activation energies that are tried first, J/mol …
+ENERGIES = np.geomspace(3e4, 2e6, 50)
+#: … and distances of the pole from the reference, beyond what the coldest point needs, K.
+POLES = np.geomspace(1.0, 3e3, 40)
+#: Where WLF passes into an Arrhenius law: shares of colder points; and distances of the pole from there, K.
+MEETINGS = (0.1, 0.2, 0.3, 0.45, 0.6)
+NEAR_POLES = np.geomspace(10.0, 1e3, 15)
+#: At least this part of the points lies over others, of temperatures that differ by more than so many K.
+SHARED, DIFFERENT = 0.4, 0.05
+#: Each pass has knots and smoothing chosen anew.
+PASSES, STEPS = 12, 8
+#: Changes of the logarithms of the constants: the largest in one step, and where the search ends.
+LARGEST_STEP, CONVERGED = 0.3, 1e-6
+#: Second derivatives are taken for this part at least of what Gauss and Newton say.
+SMALLEST_PART = 0.2
+#: Step of the logarithm of a constant for differences of the gradient.
+DIFFERENCE = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class RampPoints:
+    """All points of some ramps, ramp by ramp, each in ascending temperature."""
+
+    log_frequency: Array  # (n,), log10 of rad/s
+    temperature: Array  # (n,), K
+    moduli: Array  # (n, 2), log10 of E' and E'' in Pa, less a vertical shift
+    ramp: Array  # (n,), number of the ramp
+
+    @property
+    def same(self) -> Mask:
+        """Whether each point and the next belong to one ramp."""
+        return np.asarray(self.ramp[1:] == self.ramp[:-1])
+
+    def shared(self, reduced: Array) -> float:
+        """Return the part of the points that lie over others of another temperature and another ramp.
+
+        Points that are pulled apart, each on a piece of curve of its own, would have no scatter.
+        """
+        place = np.unique(np.floor(reduced / KNOT_SPACING), return_inverse=True)[1]
+        size = int(place.max()) + 1
+        spans = []
+        for values in (self.temperature, self.ramp.astype(float)):
+            low, high = np.full(size, np.inf), np.full(size, -np.inf)
+            np.minimum.at(low, place, values)
+            np.maximum.at(high, place, values)
+            spans.append(high - low)
+        return float(np.mean(((spans[0] > DIFFERENT) & (spans[1] > 0.0))[place]))
+
+
+@dataclass(frozen=True, eq=False)
+class CommonLaw:
+    """The law found, with the covariance of its constants, and the curves that the points fall on."""
+
+    law: ParametricLaw
+    residual: Array  # (n, 2), decades
+    scatter: Array  # (2,), standard deviation of log E' and log E'' about the curves, decades
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """Cost and its derivatives by the logarithms of the constants."""
+
+    cost: float
+    gradient: Array
+    normal: Array
+    score: Array
+    residual: Array
+    freedom: float
+
+
+def common_law(points: RampPoints, kind: str, reference: float) -> CommonLaw:
+    """Find the constants of a law of a kind ("wlf", "arrhenius" or "wlf+arrhenius") about a reference (K).
+
+    Raises
+    ------
+    SuperpositionError
+        If no law of this kind brings the ramps together.
+    """
+    order = np.argsort(points.temperature, kind="stable")
+    family = family_of(kind, points.temperature[order], reference)
+    problem = _Problem(points, family, np.argsort(order, kind="stable"))
+    logs = problem.start(kind)
+    for _ in range(PASSES):
+        before = logs
+        smoother = problem.smoother(logs)
+        logs = problem.descend(logs, smoother)
+        if np.max(np.abs(logs - before)) < 10 * CONVERGED:
+            break
+    smoother = problem.smoother(logs)
+    state = problem.state(logs, smoother)
+    constants = np.exp(logs)
+    covariance = constants[:, None] * _covariance(problem, logs, smoother, state) * constants
+    return CommonLaw(family.law(constants, covariance), state.residual, smoother.scatter)
+
+
+class _Problem:
+    """What constants of a law are judged by: the curves through points moved by it."""
+
+    def __init__(self, points: RampPoints, family: Family, back: Indices) -> None:
+        self.points, self.family, self.back = points, family, back
+
+    def reduced(self, logs: Array) -> Array:
+        """Return log10 of the reduced frequencies; their mean does not depend on the law."""
+        shifts = self.family.values(np.exp(logs))[self.back]
+        reduced = np.asarray(self.points.log_frequency + shifts - shifts.mean())
+        if self.points.shared(reduced) < SHARED:
+            raise SuperpositionError("the law pulls the points apart, so that hardly any lie over each other.")
+        return reduced
+
+    def smoother(self, logs: Array) -> Smoother:
+        """Choose knots and smoothing anew."""
+        return Smoother.fitted(self.reduced(logs), self.points.moduli)
+
+    def misfit(self, logs: Array) -> float:
+        """Return the sum of the logarithms of both scatters, infinite where the law does not hold."""
+        try:
+            return float(np.sum(np.log(self.smoother(logs).scatter)))
+        except (ValueError, np.linalg.LinAlgError):  # `InputError` is one: below the pole
+            return np.inf
+
+    def start(self, kind: str) -> Array:
+        """Scan activation energies, then the distance of a pole, then the temperature where two laws meet."""
+        kelvin, reference = self.points.temperature, self.family.reference
+        arrhenius = _Problem(self.points, family_of("arrhenius", np.sort(kelvin), reference), self.back)
+        energy = min(ENERGIES, key=lambda one: arrhenius.misfit(np.log([one])))
+        if kind == "arrhenius":
+            return np.log([energy])
+        middle = self._middle()
+        slope = energy / (GAS_CONSTANT * LN10 * middle**2)  # decades per kelvin
+        coldest = float(kelvin.min())
+        trials: list[tuple[float, ...]] = []
+        if kind == "wlf":
+            for C2 in reference - coldest + POLES:
+                trials += [(slope * (C2 + middle - reference) ** 2 / C2, C2)] if C2 > 0.0 else []
+        else:
+            for place in np.quantile(kelvin, MEETINGS):
+                beyond = max(middle - float(place), 0.0)
+                trials += [(slope * (C2 + beyond) ** 2 / C2, C2, float(place)) for C2 in NEAR_POLES]
+        logs = np.log(np.array(trials))
+        misfits = [self.misfit(one) for one in logs]
+        if not np.isfinite(np.min(misfits)):
+            raise SuperpositionError("no shift law of this kind describes the ramps.", code="no-law")
+        return np.asarray(logs[int(np.argmin(misfits))])
+
+    def _middle(self) -> float:
+        """Return the temperature about which the frequencies differ most: there the shift is known best."""
+        loss = self.points.moduli[:, 1] - self.points.moduli[:, 0]
+        return float(self.points.temperature[np.argmax(loss)])
+
+    def state(self, logs: Array, smoother: Smoother) -> _State:
+        """Draw the curves at these constants and differentiate; both derivatives are those of variable projection."""
+        constants = np.exp(logs)
+        moved = self.family.gradient(constants)[self.back] * constants
+        moved = moved - moved.mean(axis=0)
+        curves = smoother.curves(self.reduced(logs), self.points.moduli)
+        slopes = curves.slopes_of_basis @ curves.coefficients
+        weights = smoother.scatter**-2.0
+        count = len(logs)
+        gradient, normal, score = np.zeros(count), np.zeros((count, count)), np.zeros((count, count))
+        for modulus, weight in enumerate(weights):
+            columns = slopes[:, modulus, None] * moved
+            residual = curves.residual[:, modulus]
+            onto = curves.basis.T @ columns
+            information = columns.T @ columns - onto.T @ curves.inverse[modulus] @ onto
+            gradient += weight * columns.T @ residual
+            normal += weight * information
+            hat = curves.basis @ curves.inverse[modulus]
+            own = float(np.mean(np.sum(hat * curves.basis, axis=1)))
+            next_to = float(np.mean(np.sum(hat[1:] * curves.basis[:-1], axis=1)[self.points.same]))
+            score += weight * inflation(residual, self.points.same, (own, next_to)) * information
+        return _State(curves.cost(weights), gradient, normal, score, curves.residual, curves.freedom)
+
+    def descend(self, logs: Array, smoother: Smoother) -> Array:
+        """Take damped Gauss–Newton steps with knots and smoothing held."""
+        state = self.state(logs, smoother)
+        for _ in range(STEPS):
+            step = np.linalg.solve(state.normal + 1e-12 * np.trace(state.normal) * np.eye(len(logs)), state.gradient)
+            step *= min(1.0, LARGEST_STEP / max(float(np.max(np.abs(step))), 1e-300))
+            while np.max(np.abs(step)) > CONVERGED:
+                try:
+                    trial = self.state(logs + step, smoother)
+                except ValueError:  # `InputError` is one: beyond the pole
+                    trial = None
+                if trial is not None and trial.cost <= state.cost:
+                    logs, state = logs + step, trial
+                    break
+                step *= 0.5
+            else:
+                break
+        return logs
+
+
+def _covariance(problem: _Problem, logs: Array, smoother: Smoother, state: _State) -> Array:
+    """Return the covariance of the logarithms of the constants: score about exact curvature, as for isotherms."""
+    count = len(logs)
+    curvature = np.zeros((count, count))
+    for place, way in enumerate(np.eye(count)):
+        ahead, behind = (problem.state(logs + sign * DIFFERENCE * way, smoother).gradient for sign in (1.0, -1.0))
+        curvature[place] = (behind - ahead) / (2.0 * DIFFERENCE)
+    normal = state.normal + 1e-12 * np.trace(state.normal) * np.eye(count)
+    root = np.linalg.cholesky(normal)
+    whitened = np.linalg.solve(root, np.linalg.solve(root, 0.5 * (curvature + curvature.T)).T)
+    parts, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))
+    back = np.linalg.solve(root.T, modes)
+    inverse = back / np.maximum(parts, SMALLEST_PART) @ back.T
+    left = max(state.freedom - count, 1.0)
+    return np.asarray(state.freedom / left * inverse @ state.score @ inverse)

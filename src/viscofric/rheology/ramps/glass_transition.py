@@ -1,0 +1,134 @@
+"""The glass transition of a ramp: the temperature where tan δ, or the loss modulus, has its peak."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from viscofric.arguments import insist_on
+from viscofric.errors import check_choice
+from viscofric.ramps import TemperatureRamp
+from viscofric.rheology.superposition.shift_problem import inflation
+from viscofric.units import celsius
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array, Mask
+
+
+PeakOf: TypeAlias = Literal["tan delta", "loss modulus"]
+#: The peak is drawn through points that are higher than this part of the highest one …
+PART = 0.7
+#: … as a polynomial of this degree in the logarithm; of the lower one where points are few.
+DEGREE, FEW_POINTS, LOWER_DEGREE = 4, 9, 2
+#: Points needed on either side of the peak, and in all.
+EITHER_SIDE, FEWEST = 2, 5
+#: Places between the ends that are tried.
+PLACES = 2001
+
+
+@dataclass(frozen=True)
+class GlassTransition:
+    """A peak of a temperature ramp.
+
+    Parameters
+    ----------
+    angular_frequency : float
+        Of the ramp, rad/s.
+    by : {"tan delta", "loss modulus"}
+        What has its peak there.
+    temperature : float
+        K.
+    standard_error : float
+        From the scatter of the points, K; an error of the thermometer, and its lag, come on top.
+    height : float
+        tan δ, or E'' (G'') in Pa, at the peak.
+    """
+
+    angular_frequency: float
+    by: PeakOf
+    temperature: float
+    standard_error: float
+    height: float
+
+    def __str__(self) -> str:
+        """Return the peak as a line of text."""
+        hertz = self.angular_frequency / (2.0 * np.pi)
+        name = "tan δ" if self.by == "tan delta" else "loss modulus"
+        return f"{name} at {hertz:.3g} Hz: {celsius(self.temperature):z.1f} ± {self.standard_error:.2g} °C"
+
+
+def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTransition | None:
+    """Return the peak of tan δ, or of the loss modulus, of a ramp; None if it has no peak inside its temperatures.
+
+    Parameters
+    ----------
+    ramp : TemperatureRamp
+        One frequency.
+    by : {"tan delta", "loss modulus"}
+        The peak of the loss modulus lies lower than that of tan δ, by 5 to 20 K for rubbers.
+
+    Returns
+    -------
+    GlassTransition or None
+
+    Notes
+    -----
+    The temperature of a peak depends on the frequency (by some 3 to 7 K a decade) and on the heating rate; a value
+    without its frequency says little.  A polynomial of fourth degree is fitted to the logarithm of the points above
+    70 % of the highest one, about it; the standard error follows from their scatter, alike neighbours counting for
+    fewer.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> kelvin = np.arange(253.0, 323.0, 2.0)
+    >>> rubber = vf.synthetic_fluoroelastomer()
+    >>> modulus = rubber.spectrum.complex_modulus(2 * np.pi * 1.0 * rubber.shift(kelvin))  # at 1 Hz
+    >>> ramp = vf.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
+    >>> print(vf.glass_transition(ramp, "loss modulus"))
+    """
+    insist_on(ramp, "ramp", TemperatureRamp)
+    check_choice(by, "by", "tan delta", "loss modulus")
+    values = ramp.loss_tangent if by == "tan delta" else ramp.loss_modulus
+    inside = _about_the_peak(values)
+    kelvin, logarithm = ramp.temperature[inside], np.log(values[inside])
+    top = int(np.argmax(logarithm))
+    if len(kelvin) < FEWEST or min(top, len(kelvin) - 1 - top) < EITHER_SIDE or np.ptp(kelvin) == 0.0:
+        return None
+    degree = DEGREE if len(kelvin) > FEW_POINTS else LOWER_DEGREE
+    half = 0.5 * float(np.ptp(kelvin))
+    x = (kelvin - kelvin[0]) / half - 1.0
+    basis = np.polynomial.legendre.legvander(x, degree)
+    inverse = np.linalg.inv(basis.T @ basis)
+    coefficients = inverse @ (basis.T @ logarithm)
+    residual = logarithm - basis @ coefficients
+    curve = np.polynomial.Legendre(coefficients)
+    places = np.linspace(-1.0, 1.0, PLACES)
+    highest = int(np.argmax(curve(places)))
+    if highest in (0, PLACES - 1):
+        return None
+    slope, bend = curve.deriv(1), curve.deriv(2)
+    place = float(places[highest])
+    for _ in range(5):
+        place -= float(slope(place) / bend(place))
+    slopes = np.array([np.polynomial.Legendre.basis(n).deriv(1)(place) for n in range(degree + 1)])
+    variance = float(residual @ residual) / max(len(x) - degree - 1, 1)
+    variance *= inflation(residual, np.ones(len(x) - 1, dtype=bool))
+    error = float(np.sqrt(variance * slopes @ inverse @ slopes)) / abs(float(bend(place)))
+    temperature = float(kelvin[0] + half * (place + 1.0))
+    return GlassTransition(ramp.angular_frequency, by, temperature, half * error, float(np.exp(curve(place))))
+
+
+def _about_the_peak(values: Array) -> Mask:
+    """Return which points belong to the highest peak: the run about it above a part of it."""
+    high = values >= PART * values.max()
+    top = int(np.argmax(values))
+    below = np.flatnonzero(~high)
+    first = int(below[below < top].max(initial=-1)) + 1
+    last = int(below[below > top].min(initial=len(values)))
+    found = np.zeros(len(values), dtype=bool)
+    found[first:last] = True
+    return found
