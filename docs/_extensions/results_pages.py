@@ -22,6 +22,7 @@ _NUMBERED = re.compile(r"^/(fields|materials)/\d+")
 _WORDS = {
     "/": "The study; attributes only.",
     "/isotherms": "The measured moduli (tensile) that were used.",
+    "/ramps": "Temperature ramps (tensile) with α(T) at every point, and the peaks of tan δ and E''.",
     "/shift_factors": "log10 α of each isotherm.",
     "/superposition": "Validity of superposition: the checks, in numbers and sentences.",
     "/master_curve": "The isotherms shifted to the reference temperature, and the fit at the same points.",

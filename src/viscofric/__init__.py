@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from viscofric.friction.agreement import compare as compare
     from viscofric.friction.assumption_check import AssumptionCheck as AssumptionCheck
     from viscofric.friction.assumptions import check_assumptions as check_assumptions
+    from viscofric.friction.contact_strain import ContactAtStrain as ContactAtStrain
+    from viscofric.friction.contact_strain import solve_at_contact_strain as solve_at_contact_strain
     from viscofric.friction.curve_files import read_friction_curves as read_friction_curves
     from viscofric.friction.curve_files import write_friction_curves as write_friction_curves
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
@@ -81,15 +83,16 @@ if TYPE_CHECKING:
     from viscofric.rheology.catalogue import catalogue_material as catalogue_material
     from viscofric.rheology.catalogue import synthetic_fluoroelastomer as synthetic_fluoroelastomer
     from viscofric.rheology.material import Material as Material
-    from viscofric.rheology.payne import KrausLaw as KrausLaw
-    from viscofric.rheology.payne import LinearRange as LinearRange
-    from viscofric.rheology.payne import PayneFit as PayneFit
-    from viscofric.rheology.payne import fit_kraus as fit_kraus
-    from viscofric.rheology.payne import material_at_strain as material_at_strain
+    from viscofric.rheology.payne.at_strain import contact_strain as contact_strain
+    from viscofric.rheology.payne.at_strain import material_at_strain as material_at_strain
+    from viscofric.rheology.payne.kraus import KrausLaw as KrausLaw
+    from viscofric.rheology.payne.kraus import LinearRange as LinearRange
+    from viscofric.rheology.payne.kraus import PayneFit as PayneFit
+    from viscofric.rheology.payne.kraus import fit_kraus as fit_kraus
     from viscofric.rheology.ramps.glass_transition import GlassTransition as GlassTransition
     from viscofric.rheology.ramps.glass_transition import glass_transition as glass_transition
-    from viscofric.rheology.ramps.superpose import RampCheck as RampCheck
-    from viscofric.rheology.ramps.superpose import RampSuperposition as RampSuperposition
+    from viscofric.rheology.ramps.result import RampCheck as RampCheck
+    from viscofric.rheology.ramps.result import RampSuperposition as RampSuperposition
     from viscofric.rheology.ramps.superpose import superpose_ramps as superpose_ramps
     from viscofric.rheology.shifts.law_comparison import LawComparison as LawComparison
     from viscofric.rheology.shifts.laws import VFT as VFT
@@ -197,6 +200,8 @@ _HOME = {
     "ViscofricError": "viscofric.errors",
     "Agreement": "viscofric.friction.agreement",
     "compare": "viscofric.friction.agreement",
+    "ContactAtStrain": "viscofric.friction.contact_strain",
+    "solve_at_contact_strain": "viscofric.friction.contact_strain",
     "read_friction_curves": "viscofric.friction.curve_files",
     "write_friction_curves": "viscofric.friction.curve_files",
     "AssumptionCheck": "viscofric.friction.assumption_check",
@@ -258,14 +263,15 @@ _HOME = {
     "StepSuperposition": "viscofric.rheology.superposition.step_result",
     "GlassTransition": "viscofric.rheology.ramps.glass_transition",
     "glass_transition": "viscofric.rheology.ramps.glass_transition",
-    "RampCheck": "viscofric.rheology.ramps.superpose",
-    "RampSuperposition": "viscofric.rheology.ramps.superpose",
+    "RampCheck": "viscofric.rheology.ramps.result",
+    "RampSuperposition": "viscofric.rheology.ramps.result",
     "superpose_ramps": "viscofric.rheology.ramps.superpose",
-    "KrausLaw": "viscofric.rheology.payne",
-    "LinearRange": "viscofric.rheology.payne",
-    "PayneFit": "viscofric.rheology.payne",
-    "fit_kraus": "viscofric.rheology.payne",
-    "material_at_strain": "viscofric.rheology.payne",
+    "KrausLaw": "viscofric.rheology.payne.kraus",
+    "LinearRange": "viscofric.rheology.payne.kraus",
+    "PayneFit": "viscofric.rheology.payne.kraus",
+    "fit_kraus": "viscofric.rheology.payne.kraus",
+    "material_at_strain": "viscofric.rheology.payne.at_strain",
+    "contact_strain": "viscofric.rheology.payne.at_strain",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
     "RoughFriction": "viscofric.roughness.ensemble",

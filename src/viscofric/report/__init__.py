@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         plot_friction_master_curve,
     )
     from viscofric.report.figures.identified import plot_identified_modulus
+    from viscofric.report.figures.ramps import plot_amplitude_sweep, plot_temperature_ramps
     from viscofric.report.figures.rubber import (
         plot_isotherms,
         plot_master_curve,
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
 # public name -> the module that defines it
 _HOME = {
     "draw_figures": "viscofric.report.figures.study",
+    "plot_amplitude_sweep": "viscofric.report.figures.ramps",
+    "plot_temperature_ramps": "viscofric.report.figures.ramps",
     "plot_booij_thoone_palmen": "viscofric.report.figures.superposition",
     "plot_cole_cole": "viscofric.report.figures.superposition",
     "plot_coulomb_friction": "viscofric.report.figures.friction",
@@ -65,6 +68,7 @@ _HOME = {
 
 __all__ = [
     "draw_figures",
+    "plot_amplitude_sweep",
     "plot_booij_thoone_palmen",
     "plot_cole_cole",
     "plot_coulomb_friction",
@@ -80,6 +84,7 @@ __all__ = [
     "plot_retardation_spectrum",
     "plot_shift_comparison",
     "plot_shift_factors",
+    "plot_temperature_ramps",
     "plot_van_gurp_palmen",
     "plot_vertical_shift",
     "plot_wicket",

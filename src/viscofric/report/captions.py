@@ -63,6 +63,8 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         "coulomb_friction": f"Coulomb friction against speed.{bars} Coulomb friction is not predicted.",
         "friction_shift_factors": "Shift factors from friction alone, by superposition of its curves, "
         "and those of the modulus, with their standard errors.",
+        "ramps": "Left: storage (filled) and loss modulus (open) as measured, against the temperature, at each "
+        "frequency. Right: tan δ, with the temperature of its peak and the standard error.",
         "master_curve": f"Master curve of the storage (E′) and loss modulus (E″) at {at}: "
         f"{'synthetic' if made else 'measured'} readings, shifted, and the retardation spectrum fitted to them"
         f"{_banded(tree)}; below, the residuals.",

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, cast, overload
 
 import numpy as np
 
 from viscofric.data import IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 from viscofric.readers import read_dma, read_step_tests
 from viscofric.readers.dma.master_curves import read_master_curve
+from viscofric.readers.dma.ramps import read_ramps
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
 from viscofric.rheology.material import Material
+from viscofric.rheology.ramps.assumed import assumed_of
+from viscofric.rheology.ramps.superpose import superpose_ramps
 from viscofric.rheology.shifts.shift_files import read_shift_factors
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -29,6 +32,8 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.data import MasterCurve
+    from viscofric.rheology.ramps.result import RampSuperposition
+    from viscofric.rheology.ramps.superpose import RampLaw
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -56,7 +61,9 @@ class Rubber:
     step_tests, step_fit : StepTests, StepSuperposition or None
         Creep or relaxation tests instead of sweeps.
     master_curve : MasterCurve or None
-        Given instead of sweeps.
+        Given instead of sweeps, or made of ramps.
+    ramps : RampSuperposition or None
+        Of temperature ramps, given instead of sweeps.
     laws : LawComparison or None
         Shift laws fitted to the measured shift factors.
     shift_used : str
@@ -75,6 +82,7 @@ class Rubber:
     step_tests: StepTests | None = None
     step_fit: StepSuperposition | None = None
     master_curve: MasterCurve | None = None
+    ramps: RampSuperposition | None = None
     laws: LawComparison | None = None
     shift_used: str = ""
     shift_origin: str = "found"
@@ -100,6 +108,8 @@ class Rubber:
     def attributes(self) -> dict[str, str | float]:
         """Attributes of the material in results."""
         said: dict[str, str | float] = {"poisson_ratio": self.material.poisson_ratio}
+        if self.ramps is not None:
+            said |= {"deformation": self.ramps.ramps.deformation, "dma_format": self.ramps.ramps.format}
         if self.sweeps is not None:
             said |= {"deformation": self.sweeps.deformation, "dma_format": self.sweeps.format}
         if self.step_tests is not None:
@@ -133,6 +143,8 @@ def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
         return _from_sweeps(table, liquids)
     if table.tests:
         return _from_step_tests(table)
+    if table.ramps is not None:
+        return _from_ramps(table, liquids)
     return _predefined(table) if table.master_curve is None else _from_master_curve(table, liquids)
 
 
@@ -225,6 +237,40 @@ def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
     notes = (*fit.notes, *flowing, *_undecided(laws, table.shift))
     origin = _origin(table)
     return Rubber(material, sweeps=sweeps, fit=fit, laws=laws, shift_used=used, shift_origin=origin, notes=notes)
+
+
+def _from_ramps(table: MaterialTable, liquids: bool) -> Rubber:
+    """Superpose temperature ramps by a law, fitted or assumed, and fit the spectrum."""
+    files, reference = table.ramps or (), table.reference_temperature
+    if reference is None:
+        raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
+    ramps = read_ramps(*files, deformation=table.deformation, modulus_unit=table.modulus_unit)
+    try:
+        fit = superpose_ramps(
+            ramps,
+            reference,
+            cast("RampLaw", "wlf" if table.shift == "measured" else table.shift),
+            assumed=None if table.assumed_shift is None else assumed_of(table.assumed_shift, reference),
+            poisson_ratio=table.poisson_ratio,
+            vertical="density" if table.vertical_shift == "density" else None,
+        )
+    except InputError as error:
+        raise error.at(str(files[0])) from error
+    verdict = tuple(note for note in fit.notes if note_of(note).code in _DOUBTS_OF_RAMPS)
+    spectrum, flowing = _spectrum(table, fit.master_curve, verdict, liquids)
+    material = Material(
+        spectrum,
+        shift=fit.shift,
+        poisson_ratio=table.poisson_ratio,
+        name=table.name,
+        vertical_shift=fit.vertical_shift,
+    )
+    used = "assumed" if fit.assumption else getattr(fit.shift, "kind", "")
+    return Rubber(material, master_curve=fit.master_curve, ramps=fit, shift_used=used, notes=(*fit.notes, *flowing))
+
+
+#: Notes on ramps that stay with the spectrum.
+_DOUBTS_OF_RAMPS = {"ramps-do-not-superpose", "shift-assumed", "assumption-contradicted"}
 
 
 def _from_master_curve(table: MaterialTable, liquids: bool) -> Rubber:
@@ -360,6 +406,8 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
         groups["/superposition"] = fit.check.to_dataset()
     if rubber.step_fit is not None and rubber.step_tests is not None:
         groups |= _step_groups(rubber, rubber.step_tests, rubber.step_fit)
+    if rubber.ramps is not None:
+        groups["/ramps"] = rubber.ramps.to_dataset()
     curve = rubber.master_curve if fit is None else fit.master_curve
     if curve is not None and isinstance(spectrum, RetardationSpectrum) and spectrum.fit is not None:
         groups["/master_curve"] = spectrum.master_curve_dataset(curve)

@@ -54,7 +54,7 @@ def read_ramps(
     deformation : {"tension", "shear"}, optional
         Kind of the moduli, if the files do not state it.
     direction : {"heating", "cooling"}, optional
-        Which part of a file is read that holds both; by default the longer one.
+        Which part of a file is read that holds both; by default heating, unless cooling covers clearly more.
     heating_rate : float or quantity, optional
         Such as ``"3 K/min"``, K/s if a plain number; files do not state it in a way that is read.
     modulus_unit, columns, sheet : optional
@@ -83,7 +83,7 @@ def read_ramps(
     """
     check_choice(direction or "heating", "direction", "heating", "cooling")
     rate = None if heating_rate is None else to_si(heating_rate, "K/s", "heating_rate")
-    readings = read_files(paths, "temperature", deformation, None, modulus_unit, columns, sheet)
+    readings = read_files(paths, "read_ramps", "temperature", deformation, None, modulus_unit, columns, sheet)
     source, kind, notes = opening(readings, deformation)
     if deformation is None and all(one.deformation is None for one in readings):
         raise DataFileError(source, NOT_SAID)
@@ -127,7 +127,10 @@ def _one_direction(points: Points, keep: Indices, direction: str | None, source:
         wanted = [part for part in parts if direction is None or _heats(points, part) == (direction == "heating")]
         if not wanted:
             raise DataFileError(source, f"it holds no {direction}; leave out direction.", code="no-such-direction")
-        longest = max(wanted, key=lambda part: float(np.ptp(points.temperature[part])))
+        # Of both directions over about the same temperatures, heating is taken.
+        longest = max(
+            wanted, key=lambda part: float(np.ptp(points.temperature[part])) * (1.2 if _heats(points, part) else 1.0)
+        )
         # Parts of a frequency table in blocks repeat the same course: all that go the same way as the longest.
         same = [part for part in wanted if _heats(points, part) == _heats(points, longest)]
         rows += same

@@ -43,7 +43,7 @@ AS_RAMPS = Remedy(
 AS_AMPLITUDES = Remedy(
     "; use read_amplitude_sweep for it.",
     "; `viscofric material amplitude` reads it.",
-    "; name it as amplitude_sweep, beside the frequency sweeps.",
+    "; `viscofric material amplitude` reads it, and scales a material to a strain.",
     "; `viscofric material amplitude` reads it.",
     "material.dma",
 )

@@ -20,6 +20,7 @@ from viscofric.report.figures.friction import (
     plot_friction_master_curves,
 )
 from viscofric.report.figures.maps import known_shifts, map_figure
+from viscofric.report.figures.ramps import plot_temperature_ramps
 from viscofric.report.figures.rubber import plot_isotherms, plot_master_curve, plot_residuals, plot_retardation_spectrum
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors, plot_vertical_shift
 from viscofric.report.figures.steps import plot_step_master_curve
@@ -55,6 +56,17 @@ def _isotherms(tree: xr.DataTree) -> Figure | None:
     left, right = figure.subplots(1, 2)
     plot_isotherms(left, sweeps, "storage")
     temperature_bar(figure, plot_isotherms(right, sweeps, "loss"), [left, right])
+    return figure
+
+
+def _ramps(tree: xr.DataTree) -> Figure | None:
+    ramps = group(tree, "ramps")
+    if ramps is None:
+        return None
+    figure = new_figure(9.0, 4.3)
+    left, right = figure.subplots(1, 2)
+    plot_temperature_ramps(left, ramps)
+    plot_temperature_ramps(right, ramps, "tan delta")
     return figure
 
 
@@ -262,6 +274,7 @@ RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "vertical_shift": _vertical_shift,
     "superposition": _superposition,
     "isotherms": _isotherms,
+    "ramps": _ramps,
 }
 
 

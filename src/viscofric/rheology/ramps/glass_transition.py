@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 PeakOf: TypeAlias = Literal["tan delta", "loss modulus"]
 #: The peak is drawn through points that are higher than this part of the highest one …
-PART = 0.7
-#: … as a polynomial of this degree in the logarithm; of the lower one where points are few.
-DEGREE, FEW_POINTS, LOWER_DEGREE = 4, 9, 2
-#: Points needed on either side of the peak, and in all.
-EITHER_SIDE, FEWEST = 2, 5
+PART = 0.8
+#: … as a polynomial of this degree in the logarithm.
+DEGREE = 4
+#: … and through so many on either side at least; without them there is no peak.
+EITHER_SIDE = 3
 #: Places between the ends that are tried.
 PLACES = 2001
 
@@ -77,8 +77,8 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     -----
     The temperature of a peak depends on the frequency (by some 3 to 7 K a decade) and on the heating rate; a value
     without its frequency says little.  A polynomial of fourth degree is fitted to the logarithm of the points above
-    70 % of the highest one, about it; the standard error follows from their scatter, alike neighbours counting for
-    fewer.
+    80 % of the highest one, about it, and of the next three on either side; the standard error follows from their
+    scatter, alike neighbours counting for fewer.
 
     Examples
     --------
@@ -96,12 +96,11 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     inside = _about_the_peak(values)
     kelvin, logarithm = ramp.temperature[inside], np.log(values[inside])
     top = int(np.argmax(logarithm))
-    if len(kelvin) < FEWEST or min(top, len(kelvin) - 1 - top) < EITHER_SIDE or np.ptp(kelvin) == 0.0:
+    if min(top, len(kelvin) - 1 - top) < EITHER_SIDE or np.ptp(kelvin) == 0.0:
         return None
-    degree = DEGREE if len(kelvin) > FEW_POINTS else LOWER_DEGREE
     half = 0.5 * float(np.ptp(kelvin))
     x = (kelvin - kelvin[0]) / half - 1.0
-    basis = np.polynomial.legendre.legvander(x, degree)
+    basis = np.polynomial.legendre.legvander(x, DEGREE)
     inverse = np.linalg.inv(basis.T @ basis)
     coefficients = inverse @ (basis.T @ logarithm)
     residual = logarithm - basis @ coefficients
@@ -114,8 +113,8 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     place = float(places[highest])
     for _ in range(5):
         place -= float(slope(place) / bend(place))
-    slopes = np.array([np.polynomial.Legendre.basis(n).deriv(1)(place) for n in range(degree + 1)])
-    variance = float(residual @ residual) / max(len(x) - degree - 1, 1)
+    slopes = np.array([np.polynomial.Legendre.basis(n).deriv(1)(place) for n in range(DEGREE + 1)])
+    variance = float(residual @ residual) / max(len(x) - DEGREE - 1, 1)
     variance *= inflation(residual, np.ones(len(x) - 1, dtype=bool))
     error = float(np.sqrt(variance * slopes @ inverse @ slopes)) / abs(float(bend(place)))
     temperature = float(kelvin[0] + half * (place + 1.0))
@@ -123,12 +122,12 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
 
 
 def _about_the_peak(values: Array) -> Mask:
-    """Return which points belong to the highest peak: the run about it above a part of it."""
+    """Return which points belong to the highest peak: the run about it above a part of it, or the nearest ones."""
     high = values >= PART * values.max()
     top = int(np.argmax(values))
     below = np.flatnonzero(~high)
     first = int(below[below < top].max(initial=-1)) + 1
     last = int(below[below > top].min(initial=len(values)))
     found = np.zeros(len(values), dtype=bool)
-    found[first:last] = True
+    found[max(min(first, top - EITHER_SIDE), 0) : max(last, top + EITHER_SIDE + 1)] = True
     return found

@@ -2,32 +2,28 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.data import MasterCurve
-from viscofric.datasets import dataset
 from viscofric.errors import InputError, SuperpositionError, check_choice
 from viscofric.notes import Note, Remedy
 from viscofric.ramps import TemperatureRamps
+from viscofric.rheology.ramps.assumed import assumed_law, on_assumption
 from viscofric.rheology.ramps.common_law import RampPoints, common_law
-from viscofric.rheology.ramps.glass_transition import GlassTransition, glass_transition
+from viscofric.rheology.ramps.glass_transition import glass_transition
+from viscofric.rheology.ramps.result import RampCheck, RampSuperposition
 from viscofric.rheology.shifts.laws import WLF, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
 from viscofric.rheology.superposition.common_curve import Smoother
-from viscofric.rheology.superposition.consistency import REPRODUCIBILITY
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.threads import one_blas_thread
 from viscofric.units import celsius, checked_poisson_ratio, kelvin_hint, positive
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.arrays import Array
     from viscofric.rheology.ramps.common_law import CommonLaw
     from viscofric.units import Quantity
@@ -47,118 +43,6 @@ OFFSET = 0.02  # decades
 #: 3.3 s times the rate q (H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, 2nd ed. 1959, sec. 3.3), and
 #: the air in the furnace multiplies that.
 FAST = 5.0 / 60.0  # K/s
-#: The constants that M. L. Williams, R. F. Landel, J. D. Ferry (J. Am. Chem. Soc. 77 (1955) 3701) found for many
-#: amorphous polymers about their glass transition.
-UNIVERSAL = 17.44, 51.6
-
-
-@dataclass(frozen=True)
-class RampCheck:
-    """Whether ramps at several frequencies fall on one curve.
-
-    Parameters
-    ----------
-    between : float
-        Scatter of log10 E' and log10 E'' about the curves that all ramps share, decades (rms).
-    within : float
-        Scatter of each ramp about its own curves, decades (rms).
-    offsets : tuple of float
-        Mean distance of each ramp from the common curves, decades, positive where its moduli are larger; the larger one
-        of log10 E' and log10 E''.
-    """
-
-    between: float
-    within: float
-    offsets: tuple[float, ...]
-
-    @property
-    def holds(self) -> bool:
-        """Whether the ramps miss each other by no more than moduli usually repeat to, 0.02 decades."""
-        return self.between**2 - self.within**2 <= REPRODUCIBILITY**2
-
-    @property
-    def sentence(self) -> str:
-        """The verdict in a plain sentence."""
-        verdict = "fall on one curve" if self.holds else "do not fall on one curve"
-        own = f", and by {self.within:.2g} about curves of their own" if self.within < self.between else ""
-        return (
-            f"The ramps of {len(self.offsets)} frequencies {verdict}: they scatter by {self.between:.2g} decades about "
-            f"common curves of E' and E''{own} (good up to {REPRODUCIBILITY:g} on top of their own)."
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class RampSuperposition:
-    """The result of `superpose_ramps`.
-
-    Parameters
-    ----------
-    shift : ShiftLaw
-        α(T) about the reference: fitted, with the covariance of its constants, or assumed.
-    shift_factors : ShiftFactors
-        The same as a table over the temperatures of the ramps, with the covariance that follows.
-    master_curve : MasterCurve
-        Tensile, at the reference: E(ω, T)/b(T) against α(T) ω, with the temperature of every point.
-    ramps : TemperatureRamps
-        What was superposed, tensile and as measured.
-    glass_transitions : tuple of GlassTransition
-        Peaks of tan δ and of E'' of every ramp that has them.
-    assumption : str
-        Where α(T) was assumed: what it is, in words; empty where it was found from the ramps.
-    check : RampCheck or None
-        Whether the ramps fall on one curve; None for one frequency.
-    causality : KramersKronig or None
-        Agreement of E' with E'' on the master curve: the only test of an assumed law at one frequency.
-    vertical_shift : VerticalShift or None
-        b(T), where one was requested.
-    notes : tuple of str
-        What the reader noted, what was left out or assumed, and what is doubtful: one sentence each.
-    """
-
-    shift: ShiftLaw
-    shift_factors: ShiftFactors
-    master_curve: MasterCurve
-    ramps: TemperatureRamps
-    glass_transitions: tuple[GlassTransition, ...] = ()
-    assumption: str = ""
-    check: RampCheck | None = None
-    causality: KramersKronig | None = None
-    vertical_shift: VerticalShift | None = None
-    notes: tuple[str, ...] = ()
-
-    def __repr__(self) -> str:
-        how = f"assumed: {self.assumption}" if self.assumption else str(self.shift)
-        return f"RampSuperposition({self.ramps!r}, {how})"
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the points along ``reading`` as `TemperatureRamps.to_dataset` does, with α(T).
-
-        Returns
-        -------
-        xarray.Dataset
-            ``log10_shift_factor`` in addition; among the attributes the reference (K), the assumption, the verdict
-            of the check, and the peaks (JSON).
-        """
-        found = self.ramps.to_dataset()
-        peaks = [
-            {"by": one.by, "angular_frequency": one.angular_frequency, "temperature": one.temperature,
-             "standard_error": one.standard_error, "height": one.height}
-            for one in self.glass_transitions
-        ]  # fmt: skip
-        values = dataset(
-            "reading",
-            {"log10_shift_factor": (self.shift.log10(found["temperature"].values), "1", "log10 of the shift factor")},
-        )
-        check = {} if self.check is None else {"holds": int(self.check.holds), "sentence": self.check.sentence}
-        return found.assign(values.data_vars).assign_attrs(
-            {
-                "reference_temperature": self.master_curve.reference,
-                "assumption": self.assumption,
-                "law": str(self.shift),
-                "glass_transitions": json.dumps(peaks),
-                **check,
-            }
-        )
 
 
 @one_blas_thread
@@ -267,13 +151,13 @@ def superpose_ramps(
         assumption, check = "", _check(points, found)
         notes += _on_fit(tensile, shift, check)
     else:
-        shift, assumption, tensile, on_law = _assumed(assumed, tensile, peaks, kelvin)
+        shift, assumption, tensile, on_law = assumed_law(assumed, tensile, peaks, kelvin)
         notes += on_law
         points, check = _points(tensile, b), None
     curve = _master_curve(tensile, points, shift, kelvin)
     causality = _causality(curve)
     if assumption:
-        notes += _on_assumption(causality)
+        notes += on_assumption(causality)
     notes += _on_lag(tensile)
     return RampSuperposition(
         shift, _table(shift, tensile, kelvin), curve, tensile, peaks, assumption, check, causality, b, tuple(notes)
@@ -298,8 +182,7 @@ def _insist_on_several(ramps: TemperatureRamps) -> None:
             remedy=Remedy(
                 "; give one that you assume, such as assumed=Arrhenius('200 kJ/mol', '20 degC') or assumed='universal'"
                 ", or measure a second frequency.",
-                "; give one that you assume (--activation-energy, --assumed-wlf or --universal), or measure a second "
-                "frequency.",
+                "; give one that you assume, such as --assumed-shift '250 kJ/mol', or measure a second frequency.",
                 "; give one that you assume (assumed_shift), or measure a second frequency.",
                 field="material.assumed_shift",
             ),
@@ -371,62 +254,6 @@ def _on_fit(ramps: TemperatureRamps, shift: ShiftLaw, check: RampCheck) -> list[
 
 #: A pole so close below the coldest point follows from that point.
 NEAR_POLE = 5.0  # K
-
-
-def _assumed(
-    assumed: ShiftLaw | str, ramps: TemperatureRamps, peaks: tuple[GlassTransition, ...], kelvin: float
-) -> tuple[ShiftLaw, str, TemperatureRamps, list[Note]]:
-    """Return the assumed law about the reference, in words, and the points where it holds."""
-    lowest = ramps.temperature_range[0]
-    if isinstance(assumed, str):
-        first = next((one for one in peaks if one.by == "loss modulus"), None)
-        if first is None:
-            raise SuperpositionError(
-                "the universal WLF law needs the glass transition, and the loss modulus has no peak inside the ramp; "
-                "give the law about a known one, WLF(17.44, '51.6 K', glass_transition).",
-                code="no-peak",
-            )
-        law: ShiftLaw = WLF(*UNIVERSAL, first.temperature)
-        lowest = first.temperature
-        words = (
-            f"WLF with the universal constants {UNIVERSAL[0]} and {UNIVERSAL[1]} K about "
-            f"{celsius(first.temperature):z.1f} °C, the peak of the loss modulus at "
-            f"{first.angular_frequency / (2.0 * np.pi):.3g} Hz"
-        )
-    else:
-        law, words = assumed, str(assumed)
-    pole = float(getattr(law, "_divergence", 0.0))
-    lowest = max(lowest, pole + 1.0)
-    notes = [Note("shift-assumed", f"α(T) was assumed, not measured: {words}.")]
-    before = sum(len(one) for one in ramps.ramps)
-    kept = ramps.between(lowest, ramps.temperature_range[1])
-    left = before - sum(len(one) for one in kept.ramps)
-    if left:
-        said = f"{left} points below {celsius(lowest):z.1f} °C were left out, where the assumed law does not hold."
-        notes.append(Note("points-left-out", said))
-    if kelvin < kept.temperature_range[0]:
-        raise InputError(
-            f"reference = {celsius(kelvin):z.1f} °C lies below {celsius(kept.temperature_range[0]):z.1f} °C, from "
-            "where the assumed law holds; choose a warmer one.",
-            code="outside-measured",
-        )
-    return law.at_reference(kelvin), words, kept, notes
-
-
-def _on_assumption(causality: KramersKronig | None) -> list[Note]:
-    """Say what E' and E'' make of an assumed law."""
-    if causality is None:
-        return []
-    if not causality.scale_differs:
-        return [Note("assumption-consistent", f"{causality.sentence} This is the only test of the assumed α(T).")]
-    scale = causality.loss_scale
-    return [
-        Note(
-            "assumption-contradicted",
-            f"E'' is {scale:.2f} ± {causality.loss_scale_error:.2f} times what the rise of E' requires with the "
-            f"assumed α(T) (Kramers–Kronig): log α {1.0 / scale:.2f} times as large would agree.",
-        )
-    ]
 
 
 def _on_lag(ramps: TemperatureRamps) -> list[Note]:

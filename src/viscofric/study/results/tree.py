@@ -11,6 +11,7 @@
 ``/friction_shift_factors``      α(T) from friction alone, and that of the modulus (if measured curves overlap)
 ``/assumptions``                 assumptions of the predictions, checked
 ``/isotherms``                   measured moduli (tensile) in use
+``/ramps``                       temperature ramps (tensile) in use instead, with α(T) at every point
 ``/shift_factors``               log10 α of each isotherm with its standard error (and the vertical shift)
 ``/shift_law``                   law in use, or the best one, over the same temperatures
 ``/laws``                        all laws that describe the shift factors, compared

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import InputError
+from viscofric.rheology.ramps.assumed import assumed_of
 from viscofric.study.run_file.tables import (
     MOST_POINTS,
     Count,
@@ -34,7 +35,9 @@ if TYPE_CHECKING:
 
 _MOST_FILES = MOST_POINTS
 #: Keys for the source of the material; every run file has exactly one of them.
-SOURCES = ("dma", "creep", "relaxation", "master_curve", "file", "catalogue")
+SOURCES = ("dma", "ramps", "creep", "relaxation", "master_curve", "file", "catalogue")
+#: Laws whose constants are fitted to temperature ramps.
+RAMP_LAWS = ("wlf", "arrhenius", "vft", "wlf+arrhenius")
 #: Keys for the conversion of sweeps, invalid for a predefined material …
 _HOW = (
     "deformation",
@@ -52,6 +55,7 @@ _HOW = (
     "spectrum",
     "modes",
     "tau_ratio",
+    "assumed_shift",
 )
 #: … those invalid for step tests, which have one curve for each temperature …
 _OF_TWO_MODULI = ("shift_by", "shift_weights")
@@ -79,6 +83,11 @@ def _unit_of_modulus(value: str) -> str:
     return value
 
 
+def _assumption(value: str) -> str:
+    assumed_of(value, 300.0)
+    return value
+
+
 def _in_catalogue(value: str) -> str:
     from viscofric.rheology.catalogue import catalogue_entry
 
@@ -89,6 +98,9 @@ class MaterialTable(Table):
     """[material]: DMA files and how the material model is fitted to them, or a predefined material."""
 
     dma: FileNames | None = Field(None, description="DMA sweeps: a file, a list, or a pattern such as 'sweeps/*.txt'.")
+    ramps: FileNames | None = Field(
+        None, description="Instead: temperature ramps at one or several frequencies, as files like those of dma."
+    )
     creep: FileNames | None = Field(None, description="Instead: creep tests, J(t) after a step of stress.")
     relaxation: FileNames | None = Field(
         None, description="Instead: relaxation tests, E(t) or G(t) after a step of strain."
@@ -134,6 +146,11 @@ class MaterialTable(Table):
     shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = Field(
         "measured", description="Shift factors a_T: as found, or a law fitted to them."
     )
+    assumed_shift: Annotated[Words, AfterValidator(_assumption)] | None = Field(
+        None,
+        description="Law to assume for ramps, needed at one frequency: '250 kJ/mol' (activation energy), "
+        "'WLF 17.44, 51.6 K, -30 degC' (C1, C2, their reference), or 'universal'.",
+    )
     shift_factors: FileName | None = Field(None, description="File of shift factors to use instead of finding them.")
     fixed_shift_factors: Annotated[
         dict[float, Number],
@@ -167,6 +184,8 @@ class MaterialTable(Table):
             useless = [name for name in _HOW if name in chosen]
             if useless:
                 yield f"{' and '.join(useless)} cannot be chosen for a predefined material ({given[0]})"
+        elif given == ["ramps"]:
+            yield from self._doubts_of_ramps()
         elif given and self.reference_temperature is None:
             yield 'reference_temperature is missing; it is the temperature of the master curve, e.g. "30 degC"'
         if given == ["master_curve"]:
@@ -183,7 +202,23 @@ class MaterialTable(Table):
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
 
+    def _doubts_of_ramps(self) -> Iterator[str]:
+        chosen = self.model_fields_set
+        if self.reference_temperature is None:
+            yield 'reference_temperature is missing; it is the temperature of the master curve, e.g. "30 degC"'
+        useless = [name for name in (*_OF_SWEEPS, "shift_factors") if name in chosen and name != "vertical_shift"]
+        if useless:
+            yield f"{' and '.join(useless)} cannot be chosen for temperature ramps"
+        if self.vertical_shift == "free":
+            yield 'vertical_shift = "free" cannot be found from temperature ramps; choose "density" or "none"'
+        if self.shift not in ("measured", *RAMP_LAWS):
+            yield f"shift of ramps is one of {', '.join(RAMP_LAWS)}; their constants are fitted to all points"
+        if self.assumed_shift is not None and "shift" in chosen:
+            yield "shift and assumed_shift are both given; give one of them"
+
     def _doubts_of_shifts(self) -> Iterator[str]:
+        if self.assumed_shift is not None and self.ramps is None:
+            yield "assumed_shift is for temperature ramps (ramps) only"
         if self.shift_factors is not None and self.fixed_shift_factors:
             yield "shift_factors and fixed_shift_factors are both given; the first one contains all"
         found_by = [name for name in ("shift_by", "shift_weights") if name in self.model_fields_set]
@@ -197,7 +232,7 @@ class MaterialTable(Table):
     def relative_to(self, folder: Path) -> MaterialTable:
         """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
         changes: dict[str, Any] = {}
-        for name in ("dma", "creep", "relaxation"):
+        for name in ("dma", "ramps", "creep", "relaxation"):
             if (paths := getattr(self, name)) is not None:
                 changes[name] = tuple(path for one in paths for path in files_of(folder, one))
         for name in ("master_curve", "file", "shift_factors"):
@@ -215,6 +250,7 @@ class MaterialTable(Table):
         """All files of the material."""
         return (
             *self.tests,
+            *(self.ramps or ()),
             *(path for path in (self.master_curve, self.file, self.shift_factors) if path is not None),
         )
 

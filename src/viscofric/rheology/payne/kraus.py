@@ -1,4 +1,4 @@
-"""The Payne effect: linear range of an amplitude sweep, Kraus's law, and a material at a strain.
+"""The linear range of an amplitude sweep, and Kraus's law fitted to it.
 
 G. Kraus, J. Appl. Polym. Sci. Appl. Polym. Symp. 39 (1984) 75; A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57.
 """
@@ -6,7 +6,7 @@ G. Kraus, J. Appl. Polym. Sci. Appl. Polym. Symp. 39 (1984) 75; A. R. Payne, J. 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,12 +16,9 @@ from viscofric.arguments import insist_on, number, real
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.material import Material
-from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.threads import one_blas_thread
-from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -40,10 +37,6 @@ PASSES = 4
 WIDEST = math.log(1e4)
 #: Scatter about the law above which it does not describe the sweep, decades.
 LARGEST_SCATTER = 0.03
-#: Beyond the measured amplitudes by more than this factor the law is extrapolated.
-BEYOND = 1.5
-#: Strain of a contact over the slope of its edge: D. Tabor, The Hardness of Metals, 1951, ch. V.
-TABOR = 0.2
 _NAMES = ("storage_linear", "storage_large", "critical_strain", "exponent", "loss_peak", "loss_large")
 
 
@@ -355,106 +348,3 @@ def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
     variance *= inflation(curves.residual[:, 0], np.ones(len(logarithm) - 1, dtype=bool))
     strain = float(10.0 ** fine[place])
     return LinearRange(part, strain, strain * math.log(10.0) * math.sqrt(variance) / abs(float(slope)))
-
-
-def contact_strain(slope: float) -> float:
-    """Return the tensile strain that stands for a contact: a fifth of the slope at its edge.
-
-    The slope is a/R of a ball or a cylinder, with the contact radius (half-width) a, and the cotangent of the half
-    angle of a cone (D. Tabor, The Hardness of Metals, 1951, for the ball; K. L. Johnson, Contact Mechanics, 1985,
-    sec. 6.3, for the cone).
-    """
-    if not (value := number(slope, "slope")) >= 0.0:
-        raise InputError(f"slope = {value:g}: must not be below zero.")
-    return TABOR * value
-
-
-def material_at_strain(
-    material: Material, law: KrausLaw, strain: float, *, measured_at: float | None = None
-) -> Material:
-    """Return a material whose moduli are scaled from a small to a larger strain by Kraus's law: an approximation.
-
-    Parameters
-    ----------
-    material : Material
-        With a spectrum; it holds at the strain of its frequency sweeps.
-    law : KrausLaw
-        From `fit_kraus`, or typed in.
-    strain : float
-        Tensile strain amplitude, a fraction, such as `contact_strain` gives.
-    measured_at : float, optional
-        Tensile strain amplitude of the frequency sweeps; the linear limit of the law without it.
-
-    Returns
-    -------
-    Material
-        Its name says that it is scaled.
-
-    Raises
-    ------
-    InputError
-        If the material is a table, or the law leaves no relaxed modulus above zero.
-
-    Notes
-    -----
-    At the frequency and the temperature of the amplitude sweep the law gives a factor for E' and one for E''.  All
-    relaxation strengths are multiplied by that for E'', and the relaxed modulus by what makes E' right: so E' and E''
-    still belong to each other (Kramers and Kronig).  That the same factors hold at other frequencies and temperatures
-    is assumed; the effect of the filler network fades towards the glass, where this overstates it.  A contact strains
-    its rubber unevenly and not sinusoidally: one amplitude for all of it is rough, too.
-
-    Examples
-    --------
-    >>> import viscofric as vf
-    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
-    >>> soft = vf.material_at_strain(vf.synthetic_fluoroelastomer(), law, strain=0.05)
-    >>> before = vf.synthetic_fluoroelastomer().complex_modulus(62.8, 333.15)
-    >>> ratio = soft.complex_modulus(62.8, 333.15).real / before.real
-    >>> wanted = law.complex_modulus(law.tensile_strain(0.05)).real / law.complex_modulus(0.0).real
-    >>> bool(abs(ratio / wanted - 1.0) < 1e-9)
-    True
-    """
-    insist_on(material, "material", Material)
-    insist_on(law, "law", KrausLaw)
-    spectrum = material.spectrum
-    if not isinstance(spectrum, RetardationSpectrum):
-        raise InputError("a table of moduli cannot be scaled to a strain; fit a spectrum to it.", code="no-spectrum")
-    amplitude = number(strain, "strain")
-    start = 0.0 if measured_at is None else number(measured_at, "measured_at")
-    if not (0.0 <= start <= 10.0 and 0.0 <= amplitude <= 10.0):
-        raise InputError("strain and measured_at must be fractions (0.05 is 5 %), none below zero.")
-    ends = law.complex_modulus(np.array([law.tensile_strain(start), law.tensile_strain(amplitude)]))
-    storage, loss = float(ends[1].real / ends[0].real), float(ends[1].imag / ends[0].imag)
-    modulus = complex(material.complex_modulus(law.angular_frequency, law.temperature if material.shift else None))
-    relaxation = spectrum.to_relaxation()
-    b = 1.0 if material.vertical_shift is None else float(material.vertical_shift(law.temperature))
-    relaxed = b * relaxation.E0
-    factor = (storage * modulus.real - loss * (modulus.real - relaxed)) / relaxed
-    if factor <= 0.0:
-        raise InputError(
-            f"at {100 * amplitude:.3g} % strain the law leaves no relaxed modulus above zero: its E'' is too large for "
-            "its E'.",
-            code="no-relaxed-modulus",
-        )
-    scaled = RelaxationSpectrum(
-        factor * relaxation.E0, loss * np.asarray(relaxation.E), relaxation.tau
-    ).to_retardation()
-    name = f"{material.name or 'material'} scaled to {100 * amplitude:.3g} % strain (approximation)"
-    return replace(material, spectrum=scaled, name=name)
-
-
-def on_strain(law: KrausLaw, strain: float) -> list[Note]:
-    """Say what a material at a strain is, and where the law is extrapolated."""
-    amplitude = law.tensile_strain(strain)
-    notes = [
-        Note(
-            "scaled-to-strain",
-            f"The moduli were scaled to {100 * strain:.3g} % tensile strain by Kraus's law, measured at "
-            f"{law.angular_frequency / (2 * math.pi):.3g} Hz and {shown_celsius(law.temperature)} °C: an approximation "
-            "at other frequencies and temperatures.",
-        )
-    ]
-    if law.strain_range is not None and amplitude > BEYOND * law.strain_range[1]:
-        said = f"The strain lies beyond the amplitudes of the sweep, up to {100 * law.strain_range[1]:.3g} %."
-        notes.append(Note("beyond-amplitudes", said))
-    return notes

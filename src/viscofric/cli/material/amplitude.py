@@ -1,0 +1,168 @@
+"""``viscofric material amplitude FILES``: the Payne effect of an amplitude sweep, and what it makes of friction."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.contact_options import chosen_indenter, indenter_options
+from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.files import PICTURES, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.rubber_options import reading_options
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from viscofric.friction.contact_strain import ContactAtStrain
+    from viscofric.rheology.payne.kraus import PayneFit
+
+
+@click.command(name="amplitude")
+@click.argument("files", nargs=-1, required=True, type=Source())
+@reading_options
+@click.option("--material", metavar="NAME|FILE", help="Material of frequency sweeps, to be scaled to a larger strain.")
+@click.option("--strain", type=float, metavar="%", help="Tensile strain amplitude to scale --material to, in percent.")
+@click.option(
+    "--measured-at", type=float, metavar="%", help="Tensile strain amplitude of the frequency sweeps [default: small]."
+)
+@indenter_options
+@click.option(
+    "--load", metavar="F", help="Load of a contact, e.g. '25 N': scale --material to the strain of the contact."
+)
+@click.option("--speed", metavar="V", help="Its speed, e.g. '20 mm/s'.")
+@click.option("--contact-temperature", metavar="T", help="Its temperature, e.g. '60 degC'.")
+@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
+@click.option("--picture", type=click.Path(path_type=Path, dir_okay=False), help="Draw the sweep (PNG, SVG or PDF).")
+@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write the scaled material (JSON), for run files and the other commands.",
+)
+def command(
+    files: tuple[Path, ...],
+    deformation: Any,
+    temperature: tuple[str, ...],
+    modulus_unit: str | None,
+    as_json: bool,
+    picture: Path | None,
+    output: Path | None,
+    **chosen: Any,
+) -> None:
+    """Print the linear range and Kraus's law of an amplitude sweep in FILES.
+
+    With --material and --strain, or a contact (--ball, --load, --speed), the material is scaled to that strain: an
+    approximation.
+    """
+    from viscofric.readers.dma.amplitudes import read_amplitude_sweep
+    from viscofric.rheology.payne.kraus import fit_kraus
+
+    check_ending(picture, "--picture", PICTURES)
+    for target in (picture, output):
+        if target is not None:
+            refuse_to_overwrite(target, files)
+    if output is not None and chosen["material"] is None:
+        raise click.UsageError("--output needs --material, and --strain or a contact.")
+    with reported_errors():
+        sweep = read_amplitude_sweep(
+            *files,
+            deformation=deformation,
+            temperature=temperature[0] if temperature else None,
+            modulus_unit=modulus_unit,
+        )
+        fit = fit_kraus(sweep)
+        record, lines = _fitted(fit)
+        notes = list(fit.notes)
+        if chosen["material"] is not None:
+            more, said, material = _scaled(fit, chosen, notes)
+            record |= more
+            lines += said
+            if output is not None:
+                from viscofric.rheology.cards import write_card
+
+                lines.append(f"file     {write_card(material, output, format='json')}")
+        record["notes"] = [str(note) for note in notes]
+        if as_json:
+            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+        else:
+            for line in lines:
+                click.echo(line)
+            print_notes(notes)
+        if picture is not None:
+            click.echo(f"picture  {_draw(fit, picture, chosen['synthetic'])}", err=as_json)
+
+
+def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:
+    from viscofric.datasets import plain
+
+    found = fit.to_dataset()
+    record = {"sweep": repr(fit.sweep), **plain(dict(found.attrs))}
+    lines = [f"{fit.sweep.format}: {fit.sweep!r}", str(fit.law), *map(str, fit.linear_ranges)]
+    return record, lines
+
+
+def _scaled(fit: PayneFit, chosen: dict[str, Any], notes: list[str]) -> tuple[dict[str, Any], list[str], Any]:
+    """Scale a material to a strain, given or that of a contact."""
+    from viscofric.cli.rubber_options import find_rubber
+    from viscofric.rheology.payne.at_strain import material_at_strain, on_strain
+
+    material = find_rubber(chosen["material"])
+    measured = None if chosen["measured_at"] is None else 0.01 * chosen["measured_at"]
+    if chosen["load"] is None:
+        if chosen["strain"] is None:
+            raise click.UsageError("--material needs --strain, or a contact: --ball, --load and --speed.")
+        strain = 0.01 * chosen["strain"]
+        notes += on_strain(fit.law, strain)
+        return {"strain": strain}, [], material_at_strain(material, fit.law, strain, measured_at=measured)
+    if chosen["speed"] is None:
+        raise click.UsageError("--load needs --speed too.")
+    from viscofric.friction.contact_strain import solve_at_contact_strain
+
+    shape = chosen_indenter(chosen)
+    found = solve_at_contact_strain(
+        material,
+        fit.law,
+        shape.indenter,
+        speed=chosen["speed"],
+        load=chosen["load"],
+        temperature=chosen["contact_temperature"],
+        measured_at=measured,
+        accuracy=1e-2,
+    )
+    notes += found.notes
+    return *_compared(found, shape.words), found.material
+
+
+def _compared(found: ContactAtStrain, words: str) -> tuple[dict[str, Any], list[str]]:
+    both = {"linear": found.linear, "at the strain of the contact": found.scaled}
+    record = {
+        "strain": found.strain,
+        "friction_coefficient_linear": found.linear.friction_coefficient,
+        "friction_coefficient": found.scaled.friction_coefficient,
+        "contact_area_linear": found.linear.contact_area,
+        "contact_area": found.scaled.contact_area,
+    }
+    lines = [f"{words}: strain {100 * found.strain:.3g} %"]
+    lines += [
+        f"friction {name}: {one.friction_coefficient:.4g} ± {one.diagnostics.friction_error:.2g}"
+        for name, one in both.items()
+    ]
+    return record, lines
+
+
+def _draw(fit: PayneFit, path: Path, synthetic: bool) -> Path:
+    from viscofric.report import plot_amplitude_sweep
+    from viscofric.report.figures.saving import save_picture
+    from viscofric.report.figures.style import new_figure
+
+    def draw() -> Figure:
+        figure = new_figure()
+        plot_amplitude_sweep(figure.subplots(), fit)
+        return figure
+
+    save_picture(path, draw, name="amplitude_sweep", synthetic=synthetic)
+    return path

@@ -1,0 +1,156 @@
+"""``viscofric material ramp FILES``: glass transition of temperature ramps, and a material made of them."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+import numpy as np
+
+from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.files import Source
+
+if TYPE_CHECKING:
+    from viscofric.data import Deformation
+    from viscofric.ramps import TemperatureRamps
+
+
+@click.command(name="ramp")
+@click.argument("files", nargs=-1, required=True, type=Source())
+@click.option("--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa.")
+@click.option("--deformation", type=click.Choice(["tension", "shear"]), help="Deformation, if no file states it.")
+@click.option(
+    "--direction", type=click.Choice(["heating", "cooling"]), help="Part of a file with both [default: heating]."
+)
+@click.option("--heating-rate", metavar="RATE", help="Heating rate, e.g. '3 K/min', for the note on thermal lag.")
+@click.option("--reference", metavar="T", help="Make a material with this reference temperature, e.g. '20 degC'.")
+@click.option(
+    "--law",
+    type=click.Choice(["wlf", "arrhenius", "vft", "wlf+arrhenius"]),
+    default="wlf",
+    show_default=True,
+    help="Shift law to fit; wlf+arrhenius if the ramps begin in the glass.",
+)
+@click.option(
+    "--assumed-shift",
+    metavar="LAW",
+    help="Law to assume instead, needed at one frequency: '250 kJ/mol' (activation energy), "
+    "'WLF 17.44, 51.6 K, -30 degC' (C1, C2, their reference), or universal.",
+)
+@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
+@click.option("--name", default="", help="Name of the material, for reports and cards.")
+@click.option("--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly.")
+@click.option("--json", "as_json", is_flag=True, help="Print ramps and peaks as JSON, in SI units.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="With --reference: folder for the results [default: FILE.material beside the first file].",
+)
+def command(
+    files: tuple[Path, ...],
+    modulus_unit: str | None,
+    deformation: Deformation | None,
+    direction: Literal["heating", "cooling"] | None,
+    heating_rate: str | None,
+    as_json: bool,
+    output: Path | None,
+    **chosen: Any,
+) -> None:
+    """Print the frequencies and the glass transition of temperature ramps in FILES.
+
+    With --reference, the ramps are superposed, and the folder has rubber.json, tables, figures and report.html.
+    """
+    from viscofric.readers.dma.ramps import read_ramps
+    from viscofric.rheology.ramps.glass_transition import glass_transition
+
+    if chosen["reference"] is None and (output is not None or chosen["assumed_shift"] is not None):
+        raise click.UsageError("--output and --assumed-shift need --reference.")
+    with reported_errors():
+        ramps = read_ramps(
+            *files,
+            deformation=deformation,
+            direction=direction,
+            heating_rate=heating_rate,
+            modulus_unit=modulus_unit,
+        )
+        peaks = [
+            one
+            for ramp in ramps.ramps
+            for by in ("tan delta", "loss modulus")
+            if (one := glass_transition(ramp, by)) is not None
+        ]
+        if as_json:
+            record: dict[str, Any] = {
+                "format": ramps.format,
+                "deformation": ramps.deformation,
+                "angular_frequency": ramps.angular_frequencies.tolist(),
+                "temperature_range": list(ramps.temperature_range),
+                "glass_transitions": [vars(one) for one in peaks],
+                "notes": [str(note) for note in ramps.notes],
+            }
+            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+        else:
+            for line in [*_lines(ramps), *map(str, peaks)]:
+                click.echo(line)
+            if chosen["reference"] is None:
+                print_notes(ramps.notes)
+        if chosen["reference"] is not None:
+            _material(files, deformation, modulus_unit, output, chosen, as_json)
+
+
+def _lines(ramps: TemperatureRamps) -> list[str]:
+    letter = "E" if ramps.deformation == "tension" else "G"
+    lines = [f"{ramps.format}; moduli in {ramps.deformation}; frequencies: {len(ramps)}"]
+    lines.append(f"{'f (Hz)':>8}  {'points':>6}  {'T (°C)':>16}  {letter + chr(39) + ' (MPa)':>19}  {'tan δ':>15}")
+    for one in ramps.ramps:
+        kelvin, storage, tangent = one.temperature - 273.15, one.storage_modulus / 1e6, one.loss_tangent
+        spans = [
+            f"{low:.4g} to {high:.4g}"
+            for low, high in ((kelvin[0], kelvin[-1]), (storage.min(), storage.max()), (tangent.min(), tangent.max()))
+        ]
+        frequency = one.angular_frequency / (2.0 * np.pi)
+        lines.append(f"{frequency:8.3g}  {len(one):6d}  {spans[0]:>16}  {spans[1]:>19}  {spans[2]:>15}")
+    return lines
+
+
+def _material(
+    files: tuple[Path, ...],
+    deformation: str | None,
+    modulus_unit: str | None,
+    output: Path | None,
+    chosen: dict[str, Any],
+    quiet: bool,
+) -> None:
+    """Superpose the ramps as a run file would, and say what was written."""
+    from viscofric.report import write_figures_and_report
+    from viscofric.study.rubber_results import run_material
+    from viscofric.study.run_file.study import material_of
+
+    values: dict[str, Any] = {
+        "ramps": [str(path) for path in files],
+        "reference_temperature": chosen["reference"],
+        "poisson_ratio": chosen["poisson_ratio"],
+        "name": chosen["name"],
+    }
+    law = {"assumed_shift": chosen["assumed_shift"]} if chosen["assumed_shift"] else {"shift": chosen["law"]}
+    more = {"deformation": deformation, "modulus_unit": modulus_unit, **law}
+    folder = files[0].with_suffix(".material") if output is None else output
+    results, rubber, written = run_material(
+        material_of(values | {name: value for name, value in more.items() if value is not None}),
+        folder,
+        title=chosen["name"] or f"Material from the temperature ramps in {files[0].name}",
+        command=shlex.join(["viscofric", *sys.argv[1:]]),
+        samples=0,
+        synthetic=chosen["synthetic"],
+    )
+    figures, report = write_figures_and_report(results.tree, results.folder)
+    said = [str(rubber.material.shift)]
+    print_notes(results.notes)
+    said += [f"file     {path}" for path in written] + [f"figure   {path}" for path in figures] + [f"report   {report}"]
+    for line in said:
+        click.echo(line, err=quiet)

@@ -1,0 +1,129 @@
+"""A material at the strain of a contact: moduli scaled by Kraus's law."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from viscofric.arguments import insist_on, number
+from viscofric.errors import InputError
+from viscofric.notes import Note
+from viscofric.rheology.material import Material
+from viscofric.rheology.payne.kraus import KrausLaw
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.units import shown_celsius
+
+#: Beyond the measured amplitudes by more than this factor the law is extrapolated.
+BEYOND = 1.5
+#: Strain of a contact over the slope of its edge: D. Tabor, The Hardness of Metals, 1951, ch. V.
+TABOR = 0.2
+
+
+def contact_strain(slope: float) -> float:
+    """Return the tensile strain that stands for a contact: a fifth of the slope at its edge.
+
+    The slope is a/R of a ball or a cylinder, with the contact radius (half-width) a, and the cotangent of the half
+    angle of a cone (D. Tabor, The Hardness of Metals, 1951, for the ball; K. L. Johnson, Contact Mechanics, 1985,
+    sec. 6.3, for the cone).
+    """
+    if not (value := number(slope, "slope")) >= 0.0:
+        raise InputError(f"slope = {value:g}: must not be below zero.")
+    return TABOR * value
+
+
+def material_at_strain(
+    material: Material, law: KrausLaw, strain: float, *, measured_at: float | None = None
+) -> Material:
+    """Return a material whose moduli are scaled from a small to a larger strain by Kraus's law: an approximation.
+
+    Parameters
+    ----------
+    material : Material
+        With a spectrum; it holds at the strain of its frequency sweeps.
+    law : KrausLaw
+        From `fit_kraus`, or typed in.
+    strain : float
+        Tensile strain amplitude, a fraction, such as `contact_strain` gives.
+    measured_at : float, optional
+        Tensile strain amplitude of the frequency sweeps; the linear limit of the law without it.
+
+    Returns
+    -------
+    Material
+        Its name says that it is scaled.
+
+    Raises
+    ------
+    InputError
+        If the material is a table, or its modes cannot meet the law.
+
+    Notes
+    -----
+    At the frequency ω and the temperature of the amplitude sweep the law gives a factor for E' and one for E''.  The
+    relaxed modulus and modes that are slow there are multiplied by one number, fast ones by another, with weights
+    (ωτ)²/(1 + (ωτ)²) between: the two that meet both factors.  So E' and E'' still belong to each other (Kramers and
+    Kronig).  That the same numbers hold at other frequencies and temperatures is assumed; the effect of the filler
+    network fades towards the glass, where this overstates it.  A contact strains its rubber unevenly and not
+    sinusoidally: one amplitude for all of it is rough, too.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
+    >>> soft = vf.material_at_strain(vf.synthetic_fluoroelastomer(), law, strain=0.05)
+    >>> before = vf.synthetic_fluoroelastomer().complex_modulus(62.8, 333.15)
+    >>> ratio = soft.complex_modulus(62.8, 333.15).real / before.real
+    >>> wanted = law.complex_modulus(law.tensile_strain(0.05)).real / law.complex_modulus(0.0).real
+    >>> bool(abs(ratio / wanted - 1.0) < 1e-9)
+    True
+    """
+    insist_on(material, "material", Material)
+    insist_on(law, "law", KrausLaw)
+    spectrum = material.spectrum
+    if not isinstance(spectrum, RetardationSpectrum):
+        raise InputError("a table of moduli cannot be scaled to a strain; fit a spectrum to it.", code="no-spectrum")
+    amplitude = number(strain, "strain")
+    start = 0.0 if measured_at is None else number(measured_at, "measured_at")
+    if not (0.0 <= start <= 10.0 and 0.0 <= amplitude <= 10.0):
+        raise InputError("strain and measured_at must be fractions (0.05 is 5 %), none below zero.")
+    ends = law.complex_modulus(np.array([law.tensile_strain(start), law.tensile_strain(amplitude)]))
+    storage, loss = float(ends[1].real / ends[0].real), float(ends[1].imag / ends[0].imag)
+    omega = law.angular_frequency
+    if material.shift is not None:
+        omega *= float(material.shift(law.temperature))
+    relaxation = spectrum.to_relaxation()
+    product = omega * relaxation.tau
+    slow = product**2 / (1.0 + product**2)
+    parts = relaxation.E * 1j * product / (1.0 + 1j * product)
+    parts = np.array([relaxation.E0 + np.sum(slow * parts), np.sum((1.0 - slow) * parts)])
+    whole = parts.sum()
+    factors = np.linalg.solve(np.array([parts.real, parts.imag]), [storage * whole.real, loss * whole.imag])
+    if np.any(factors <= 0.0):
+        raise InputError(
+            f"at {100 * amplitude:.3g} % strain the law asks for negative relaxation strengths: its E' and E'' there "
+            "do not go with this material.",
+            code="no-relaxed-modulus",
+        )
+    strengths = (factors[0] * slow + factors[1] * (1.0 - slow)) * relaxation.E
+    scaled = RelaxationSpectrum(factors[0] * relaxation.E0, strengths, relaxation.tau).to_retardation()
+    name = f"{material.name or 'material'} scaled to {100 * amplitude:.3g} % strain (approximation)"
+    return replace(material, spectrum=scaled, name=name)
+
+
+def on_strain(law: KrausLaw, strain: float) -> list[Note]:
+    """Say what a material at a strain is, and where the law is extrapolated."""
+    amplitude = law.tensile_strain(strain)
+    notes = [
+        Note(
+            "scaled-to-strain",
+            f"The moduli were scaled to {100 * strain:.3g} % tensile strain by Kraus's law, measured at "
+            f"{law.angular_frequency / (2 * math.pi):.3g} Hz and {shown_celsius(law.temperature)} °C: an approximation "
+            "at other frequencies and temperatures.",
+        )
+    ]
+    if law.strain_range is not None and amplitude > BEYOND * law.strain_range[1]:
+        said = f"The strain lies beyond the amplitudes of the sweep, up to {100 * law.strain_range[1]:.3g} %."
+        notes.append(Note("beyond-amplitudes", said))
+    return notes

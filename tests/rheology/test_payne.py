@@ -1,0 +1,99 @@
+"""The Payne effect: Kraus's law and linear range come back; a material at a strain meets the law."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.notes import codes
+from viscofric.rheology.payne.at_strain import on_strain
+from viscofric.rheology.payne.kraus import linear_range
+
+LAW = vf.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 2.0 * np.pi * 10.0, 333.15, "shear")
+STRAIN = np.geomspace(1e-4, 0.5, 25)
+
+
+def planted(seed, noise=0.01):
+    random = np.random.default_rng(seed)
+    modulus = LAW.complex_modulus(STRAIN)
+    scatter = 1.0 + noise * random.standard_normal((2, len(STRAIN)))
+    return vf.AmplitudeSweep(STRAIN, scatter[0] * modulus.real, scatter[1] * modulus.imag, "10 Hz", "60 degC", "shear")
+
+
+@pytest.mark.slow
+def test_planted_constants_lie_within_their_errors():
+    scores, ranges = [], []
+    for seed in range(60):
+        fit = vf.fit_kraus(planted(seed))
+        scores.append((fit.law.constants - LAW.constants) / np.array(fit.law.standard_errors))
+        ranges.append(fit.linear_ranges[1])
+    # 60 seeds of six constants, of which some three are independent: known to 0.05.
+    assert np.std(scores) == pytest.approx(1.0, abs=3 * 0.05)
+    assert np.mean(np.abs(scores) < 1.96) == pytest.approx(0.95, abs=0.05)
+    truth = 0.02 * (0.1 * 6.0 / (0.9 * 6.0 - 2.5)) ** (1.0 / 1.2)  # G' = 0.9 G'0
+    inside = [abs(one.strain - truth) < 1.96 * one.standard_error for one in ranges]
+    assert np.mean(inside) > 0.9
+
+
+def test_a_sweep_that_stays_linear_has_no_end_of_its_range():
+    flat = vf.AmplitudeSweep(STRAIN, np.full(25, 1e6), np.full(25, 1e5), "1 Hz", "25 degC")
+    assert np.isinf(linear_range(flat, 0.05).strain)
+    assert "hardly-nonlinear" in codes(vf.fit_kraus(flat).notes)
+
+
+def test_a_law_that_misses_the_sweep_is_named():
+    sweep = planted(1)
+    bent = replace(sweep, loss_modulus=sweep.loss_modulus * (1.0 + 0.5 * np.sin(np.arange(25.0))))
+    assert "kraus-misfit" in codes(vf.fit_kraus(bent).notes)
+
+
+@pytest.mark.parametrize("strain", [0.005, 0.05, 0.2])
+def test_a_material_at_a_strain_meets_the_law_where_it_was_measured(strain):
+    rubber = vf.synthetic_fluoroelastomer()
+    scaled = vf.material_at_strain(rubber, LAW, strain, measured_at=0.001)
+    before, after = (one.complex_modulus(LAW.angular_frequency, LAW.temperature) for one in (rubber, scaled))
+    first, last = LAW.complex_modulus(np.sqrt(3.0) * np.array([0.001, strain]))
+    assert after.real / before.real == pytest.approx(last.real / first.real, rel=1e-9)
+    assert after.imag / before.imag == pytest.approx(last.imag / first.imag, rel=1e-9)
+    assert "strain" in scaled.name
+    assert codes(on_strain(LAW, strain)) == {"scaled-to-strain"}
+
+
+def test_at_the_strain_of_the_sweeps_nothing_changes():
+    rubber = vf.synthetic_fluoroelastomer()
+    same = vf.material_at_strain(rubber, LAW, 0.001, measured_at=0.001)
+    omega = np.geomspace(1e-2, 1e8, 20)
+    np.testing.assert_allclose(same.spectrum.complex_modulus(omega), rubber.spectrum.complex_modulus(omega), rtol=1e-6)
+
+
+def test_the_strain_of_a_ball_is_a_fifth_of_its_slope():
+    assert vf.contact_strain(1.5e-3 / 9.525e-3) == pytest.approx(0.2 * 1.5 / 9.525)
+
+
+@pytest.mark.slow
+def test_a_contact_at_its_own_strain_is_softer():
+    ball, rubber = vf.Ball("9.525 mm"), vf.synthetic_fluoroelastomer()
+    found = vf.solve_at_contact_strain(
+        rubber, LAW, ball, speed="20 mm/s", load="5 N", temperature="60 degC", accuracy=0.03
+    )
+    assert found.scaled.contact_area > found.linear.contact_area
+    edge = 0.5 * (found.scaled.front + found.scaled.rear) / 9.525e-3
+    assert found.strain == pytest.approx(0.2 * edge, rel=0.03)
+    assert found.scaled.friction_coefficient > found.linear.friction_coefficient  # tan δ rises with the amplitude
+    assert "scaled-to-strain" in codes(found.notes)
+
+
+def test_wrong_arguments_are_refused():
+    rubber = vf.synthetic_fluoroelastomer()
+    with refused("too-few-points"):
+        vf.fit_kraus(vf.AmplitudeSweep(STRAIN[:4], STRAIN[:4], STRAIN[:4], "1 Hz", "25 degC"))
+    with refused("strain"):
+        vf.material_at_strain(rubber, LAW, 50.0)
+    with refused("no-relaxed-modulus"):
+        vf.material_at_strain(rubber, replace(LAW, loss_peak=6e8), 0.02)
+    with refused("slope"):
+        vf.contact_strain(-1.0)

@@ -1,0 +1,156 @@
+"""Temperature ramps: planted laws and peaks come back within their errors; assumptions are said and tested."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from rheology.planted import synthetic_polymer
+from rheology.planted_ramps import planted_ramps
+from viscofric.notes import codes
+
+POLYMER = synthetic_polymer()
+REFERENCE = "25 degC"
+TRUTH = POLYMER.shift.at_reference(REFERENCE)
+
+
+@pytest.fixture(scope="module")
+def fit():
+    return vf.superpose_ramps(planted_ramps(1), REFERENCE)
+
+
+def test_a_planted_law_comes_back_within_its_errors(fit):
+    away = (fit.shift.parameters - TRUTH.parameters) / np.array(fit.shift.standard_errors)
+    assert np.all(np.abs(away) < 3.5)
+    assert np.array(fit.shift.standard_errors) == pytest.approx([0.025, 0.25], rel=0.5)  # sharp, at 1 % noise
+    kelvin = np.linspace(260.0, 370.0, 9)
+    off = fit.shift.log10(kelvin) - TRUTH.log10(kelvin)
+    assert np.all(np.abs(off) < 4.0 * fit.shift.standard_error(kelvin) + 1e-9)
+    np.testing.assert_allclose(fit.shift_factors.log10(kelvin), fit.shift.log10(kelvin), atol=2e-3)
+
+
+@pytest.mark.slow
+def test_intervals_hold_what_they_promise():
+    constants, shifts = [], []
+    for seed in range(24):
+        found = vf.superpose_ramps(planted_ramps(seed, celsius=np.arange(-20.0, 101.0, 2.0)), REFERENCE).shift
+        constants.append((found.parameters - TRUTH.parameters) / np.array(found.standard_errors))
+        kelvin = np.array([260.0, 280.0, 320.0, 350.0])
+        shifts.append((found.log10(kelvin) - TRUTH.log10(kelvin)) / found.standard_error(kelvin))
+    # Both constants of a fit err together: 24 seeds know the standard deviation to 0.15.
+    for scores in (constants, shifts):
+        assert np.std(scores) == pytest.approx(1.0, abs=3 * 0.15)
+        assert np.mean(np.abs(scores) < 1.96) > 0.85
+
+
+def test_the_master_curve_gives_the_planted_spectrum(fit):
+    curve = fit.master_curve
+    assert len(curve) == sum(len(one) for one in fit.ramps.ramps)
+    spectrum = vf.fit_retardation_spectrum(curve)
+    omega = np.geomspace(curve.angular_frequency[0] * 10.0, curve.angular_frequency[-1] / 10.0, 20)
+    alpha = float(POLYMER.shift(REFERENCE))
+    ratio = spectrum.complex_modulus(omega) / POLYMER.spectrum.complex_modulus(omega * alpha)
+    assert np.max(np.abs(np.log10(np.abs(ratio)))) < 0.02
+    assert fit.check.holds
+    assert fit.causality.holds
+    assert "ramps-superpose" in codes(fit.notes)
+
+
+def test_laws_are_the_same_curve_in_other_constants():
+    ramps = planted_ramps(2)
+    wlf, vft = (vf.superpose_ramps(ramps, REFERENCE, law).shift for law in ("wlf", "vft"))
+    kelvin = np.linspace(260.0, 370.0, 5)
+    np.testing.assert_allclose(wlf.log10(kelvin), vft.log10(kelvin), atol=1e-9)
+    np.testing.assert_allclose(wlf.standard_error(kelvin), vft.standard_error(kelvin), rtol=1e-6)
+
+
+@pytest.mark.slow
+def test_a_joined_law_is_found_where_ramps_begin_in_the_glass():
+    rubber = vf.synthetic_fluoroelastomer()
+    ramps = planted_ramps(3, material=rubber, hertz=(1.0, 3.0, 10.0), celsius=np.arange(-30.0, 90.0, 1.0))
+    found = vf.superpose_ramps(ramps, "30 degC", "wlf+arrhenius").shift
+    truth = rubber.shift.at_reference("30 degC")
+    assert np.all(np.abs(found.parameters - truth.parameters) < 4.0 * np.array(found.standard_errors))
+
+
+def test_moduli_that_change_with_temperature_alone_do_not_fall_on_one_curve():
+    ramps = planted_ramps(4)
+    first, second = ramps.ramps
+    other = vf.TemperatureRamp(
+        second.angular_frequency,
+        second.temperature,
+        second.storage_modulus * (1.0 + 0.5 * (second.temperature > 320.0)),
+        second.loss_modulus,
+    )
+    found = vf.superpose_ramps(vf.TemperatureRamps((first, other)), REFERENCE)
+    assert not found.check.holds
+    assert {"ramps-do-not-superpose", "heating-rate-unknown"} <= codes(found.notes)
+
+
+def test_the_peak_of_a_ramp_comes_back_with_its_error():
+    cold = np.arange(-55.0, 41.0, 1.0)
+    fine = planted_ramps(0, 0.0, celsius=np.arange(-55.0, 41.0, 0.5)).ramps[0]
+    truth = {by: vf.glass_transition(fine, by) for by in ("tan delta", "loss modulus")}
+    for by, at in truth.items():
+        values = fine.loss_tangent if by == "tan delta" else fine.loss_modulus
+        assert at.temperature == pytest.approx(fine.temperature[np.argmax(values)], abs=0.75)
+        found = [vf.glass_transition(planted_ramps(seed, celsius=cold).ramps[0], by) for seed in range(40)]
+        scores = [(one.temperature - at.temperature) / one.standard_error for one in found]
+        assert 0.5 < np.median(np.abs(scores)) / 0.6745 < 1.6  # of errors themselves from 2 to 10 degrees of freedom
+    assert truth["loss modulus"].temperature < truth["tan delta"].temperature
+    assert vf.glass_transition(planted_ramps(0, celsius=np.arange(60.0, 100.0)).ramps[0]) is None  # it lies below
+
+
+def test_one_frequency_needs_an_assumption_that_is_said_and_tested():
+    one = vf.TemperatureRamps(planted_ramps(5).ramps[:1], heating_rate=0.2)
+    with refused("one-frequency", vf.SuperpositionError):
+        vf.superpose_ramps(one, REFERENCE)
+    right = vf.superpose_ramps(one, REFERENCE, assumed=POLYMER.shift)
+    assert {"shift-assumed", "assumption-consistent", "thermal-lag"} <= codes(right.notes)
+    assert right.assumption.startswith("WLF")
+    assert right.check is None
+    kelvin = np.array([280.0, 330.0])
+    np.testing.assert_allclose(right.shift.log10(kelvin), TRUTH.log10(kelvin), rtol=1e-12)
+    steep = vf.WLF(1.5 * POLYMER.shift.C1, POLYMER.shift.C2, POLYMER.shift.reference)
+    wrong = vf.superpose_ramps(one, REFERENCE, assumed=steep)
+    assert "assumption-contradicted" in codes(wrong.notes)
+    assert wrong.causality.loss_scale == pytest.approx(1.5, abs=0.3)  # E'' is about that much too large
+
+
+def test_the_universal_law_is_taken_about_the_peak_of_the_loss_modulus():
+    one = vf.TemperatureRamps(planted_ramps(6, celsius=np.arange(-55.0, 61.0, 1.0)).ramps[:1])
+    peak = vf.glass_transition(one.ramps[0], "loss modulus")
+    found = vf.superpose_ramps(one, "40 degC", assumed="universal")
+    law = vf.WLF(17.44, 51.6, peak.temperature)
+    assert found.shift.log10("60 degC") == pytest.approx(law.at_reference("40 degC").log10("60 degC"))
+    assert "points-left-out" in codes(found.notes)  # colder ones
+    assert found.ramps.temperature_range[0] >= peak.temperature
+    assert "universal" in found.assumption
+
+
+def test_results_hold_points_law_and_peaks(fit):
+    data = fit.to_dataset()
+    assert data.sizes["reading"] == len(fit.master_curve)
+    assert data.attrs["reference_temperature"] == pytest.approx(298.15)
+    assert data["log10_shift_factor"].attrs["units"] == "1"
+
+
+@pytest.mark.parametrize(
+    ("asked", "about"),
+    [
+        ({"reference": "150 degC"}, "outside-measured"),
+        ({"law": "polynomial"}, "law"),
+        ({"assumed": "WLF"}, "assumed"),
+        ({"vertical": "free"}, "vertical"),
+    ],
+)
+def test_wrong_arguments_are_refused(asked, about):
+    with refused(about):
+        vf.superpose_ramps(planted_ramps(7), **({"reference": REFERENCE} | asked))
+
+
+def test_frequencies_that_are_too_close_are_refused():
+    with refused("too-few-frequencies", vf.SuperpositionError):
+        vf.superpose_ramps(planted_ramps(8, hertz=(1.0, 1.5)), REFERENCE)
