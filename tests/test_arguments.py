@@ -106,6 +106,23 @@ def master_curve():
 
 
 @functools.cache
+def ramps():
+    kelvin = np.arange(270.0, 330.0, 2.0)
+    moduli = {omega: rubber().spectrum.complex_modulus(omega * wlf()(kelvin)) for omega in (6.0, 60.0)}
+    return vf.TemperatureRamps(tuple(vf.TemperatureRamp(omega, kelvin, E.real, E.imag) for omega, E in moduli.items()))
+
+
+def kraus():
+    return vf.KrausLaw(6e6, 5e6, 0.02, 0.6, 5e5, 4e5, 6.0, 300.0)
+
+
+def payne():
+    strain = np.geomspace(1e-3, 0.3, 12)
+    modulus = kraus().complex_modulus(strain)
+    return vf.AmplitudeSweep(strain, modulus.real, modulus.imag, 6.0, 300.0)
+
+
+@functools.cache
 def samples():
     return vf.sample_materials(superposition(), samples=20)
 
@@ -203,6 +220,8 @@ def written():
     vf.write_card(rubber(), at / "rubber.json", "json")
     vf.write_friction_curves(curves(), at / "friction.csv")
     factors().save(at / "alpha.csv")
+    rows = "".join(f"20,1,{0.1 * 2**n},{5 - 0.3 * n},0.5\n" for n in range(10))
+    (at / "payne.csv").write_text("T (degC),f (Hz),strain amplitude (%),G' (MPa),G'' (MPa)\n" + rows)
     (at / "study.toml").write_text(STUDY)
     return at
 
@@ -303,6 +322,29 @@ CALLS: dict[str, Any] = {
         "format": ""},
     "MasterCurve": lambda: {"angular_frequency": np.array([1.0, 10.0]), "storage_modulus": np.array([3e6, 4e6]),
         "loss_modulus": np.array([3e5, 4e5]), "temperature": np.full(2, 300.0), "reference": 300.0},
+    "TemperatureRamp": lambda: {"angular_frequency": 6.0, "temperature": np.array([290.0, 300.0]), "storage_modulus":
+        np.array([4e6, 3e6]), "loss_modulus": np.array([4e5, 3e5])},
+    "TemperatureRamps": lambda: {"ramps": ramps().ramps, "deformation": "tension", "heating_rate": 0.05, "source": "",
+        "notes": (), "format": ""},
+    "TemperatureRamps.between": lambda: (ramps(), {"lowest": 280.0, "highest": 300.0}),
+    "TemperatureRamps.in_tension": lambda: (ramps(), {"poisson_ratio": 0.5}),
+    "superpose_ramps": lambda: {"ramps": ramps(), "reference": 300.0, "law": "arrhenius", "assumed": None,
+        "poisson_ratio": 0.5, "vertical": None},
+    "glass_transition": lambda: {"ramp": ramps().ramps[0], "by": "tan delta"},
+    "AmplitudeSweep": lambda: {"strain_amplitude": np.array([0.01, 0.1]), "storage_modulus": np.array([4e6, 3e6]),
+        "loss_modulus": np.array([4e5, 3e5]), "angular_frequency": 6.0, "temperature": 300.0, "deformation": "shear",
+        "source": "", "notes": (), "format": ""},
+    "AmplitudeSweep.in_tension": lambda: (payne(), {"poisson_ratio": 0.5}),
+    "fit_kraus": lambda: {"sweep": payne()},
+    "KrausLaw": lambda: {"storage_linear": 6e6, "storage_large": 3e6, "critical_strain": 0.02, "exponent": 0.6,
+        "loss_peak": 6e5, "loss_large": 4e5, "angular_frequency": 6.0, "temperature": 300.0, "deformation": "tension",
+        "covariance": None, "strain_range": None},
+    "KrausLaw.complex_modulus": lambda: (kraus(), {"strain": np.array([0.01, 0.1])}),
+    "KrausLaw.tensile_strain": lambda: (kraus(), {"strain": 0.01}),
+    "contact_strain": lambda: {"slope": 0.1},
+    "material_at_strain": lambda: {"material": shifted(), "law": kraus(), "strain": 0.03, "measured_at": 0.02},
+    "solve_at_contact_strain": lambda: {"material": shifted(), "law": kraus(), "indenter": CYLINDER, "speed": 0.0,
+        "load": 1e3, "temperature": 300.0, "measured_at": None, "accuracy": 1e-2},
     "TractionRuns": lambda: {**READINGS, "source": "", "notes": (), "zero_force": np.zeros(4), "time": np.arange(4.0),
         "step": np.array([0, 0, 1, 1]), "track_radius": np.full(4, 0.02), "steps": (vf.TractionStep(0),
         vf.TractionStep(1))},
@@ -344,6 +386,10 @@ CALLS: dict[str, Any] = {
         "speed_tolerance": 0.05, "temperature_tolerance": 1.0},
     "read_dma": lambda: {"paths": EXAMPLE / "dma.csv", "deformation": "tension", "temperature": None, "modulus_unit":
         None, "columns": None, "sheet": None},
+    "read_ramps": lambda: {"paths": EXAMPLE / "dma.csv", "deformation": "tension", "direction": None, "heating_rate":
+        0.05, "modulus_unit": None, "columns": {}, "sheet": None},
+    "read_amplitude_sweep": lambda: {"paths": at("payne.csv"), "deformation": "shear", "temperature": None,
+        "modulus_unit": None, "columns": {}, "sheet": None},
     "read_mtm": lambda: {"paths": EXAMPLE / "mtm.csv", "thermometer": "lube", "columns": None, "sheet": None},
     "read_master_curve": lambda: {"path": at("curve.csv"), "reference": 300.0, "deformation": "tension",
         "poisson_ratio": 0.5, "modulus_unit": None, "columns": None, "sheet": None},

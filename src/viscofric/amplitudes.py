@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import sentences, text
-from viscofric.data import Deformation, read_only
+from viscofric.data import DEFORMATIONS, Deformation, read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
@@ -34,7 +34,7 @@ class AmplitudeSweep:
         rad/s, or text such as ``"10 Hz"``.
     temperature : float or quantity
         K, or text such as ``"60 degC"``.
-    deformation : {"tension", "shear"}
+    deformation : {"tension", "compression", "bending", "shear"}
         Whether the moduli are E and the strain is that of tension, or G and a shear.
     source : str
         Origin, such as a file's name.
@@ -62,7 +62,7 @@ class AmplitudeSweep:
     format: str = ""
 
     def __post_init__(self) -> None:
-        check_choice(self.deformation, "deformation", "tension", "shear")
+        check_choice(self.deformation, "deformation", *DEFORMATIONS)
         shape = read_only(self.strain_amplitude, "strain_amplitude of an amplitude sweep").shape
         for name in ("strain_amplitude", "storage_modulus", "loss_modulus"):
             column = read_only(getattr(self, name), f"{name} of an amplitude sweep")
@@ -94,7 +94,7 @@ class AmplitudeSweep:
 
         A tension and a shear of these amplitudes have the same energy of distortion.
         """
-        if self.deformation == "tension":
+        if self.deformation != "shear":
             return self
         factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
         said = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}, strains by ε = γ/√3."
@@ -104,7 +104,7 @@ class AmplitudeSweep:
             storage_modulus=factor * self.storage_modulus,
             loss_modulus=factor * self.loss_modulus,
             deformation="tension",
-            notes=(*self.notes, Note("in-tension", said)),
+            notes=(*self.notes, Note("tensile-from-shear", said)),
         )
 
     def to_dataset(self) -> xarray.Dataset:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import insist_on, sentences, text
-from viscofric.data import Deformation, read_only
+from viscofric.data import DEFORMATIONS, Deformation, read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
@@ -82,7 +82,7 @@ class TemperatureRamps:
     ----------
     ramps : tuple of TemperatureRamp
         In ascending frequency.
-    deformation : {"tension", "shear"}
+    deformation : {"tension", "compression", "bending", "shear"}
         Whether the moduli are E (tension) or G (shear).
     heating_rate : float or None
         K/s, below zero for cooling; None where it is unknown.
@@ -109,7 +109,7 @@ class TemperatureRamps:
     format: str = ""
 
     def __post_init__(self) -> None:
-        check_choice(self.deformation, "deformation", "tension", "shear")
+        check_choice(self.deformation, "deformation", *DEFORMATIONS)
         insist_on(self.ramps, "ramps", tuple, list, right="a tuple of TemperatureRamp")
         for one in self.ramps:
             insist_on(one, "one of the ramps", TemperatureRamp)
@@ -159,7 +159,7 @@ class TemperatureRamps:
 
     def in_tension(self, poisson_ratio: float) -> TemperatureRamps:
         """Return the ramps as tensile moduli, E = 2(1+ν)G if they were measured in shear."""
-        if self.deformation == "tension":
+        if self.deformation != "shear":
             return self
         factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
         ramps = tuple(
@@ -169,7 +169,7 @@ class TemperatureRamps:
             for one in self.ramps
         )
         said = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
-        return replace(self, ramps=ramps, deformation="tension", notes=(*self.notes, Note("in-tension", said)))
+        return replace(self, ramps=ramps, deformation="tension", notes=(*self.notes, Note("tensile-from-shear", said)))
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the points along the dimension ``reading``, ramp by ramp.

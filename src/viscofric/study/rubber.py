@@ -244,7 +244,13 @@ def _from_ramps(table: MaterialTable, liquids: bool) -> Rubber:
     files, reference = table.ramps or (), table.reference_temperature
     if reference is None:
         raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
-    ramps = read_ramps(*files, deformation=table.deformation, modulus_unit=table.modulus_unit)
+    ramps = read_ramps(
+        *files,
+        deformation=table.deformation,
+        modulus_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
+    )
     try:
         fit = superpose_ramps(
             ramps,

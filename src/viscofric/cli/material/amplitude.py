@@ -48,6 +48,8 @@ def command(
     deformation: Any,
     temperature: tuple[str, ...],
     modulus_unit: str | None,
+    columns: dict[str, str],
+    sheet: str | None,
     as_json: bool,
     picture: Path | None,
     output: Path | None,
@@ -73,6 +75,8 @@ def command(
             deformation=deformation,
             temperature=temperature[0] if temperature else None,
             modulus_unit=modulus_unit,
+            columns=columns,
+            sheet=sheet,
         )
         fit = fit_kraus(sweep)
         record, lines = _fitted(fit)

@@ -13,6 +13,7 @@ import numpy as np
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import Source
+from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
     from viscofric.data import Deformation
@@ -21,8 +22,13 @@ if TYPE_CHECKING:
 
 @click.command(name="ramp")
 @click.argument("files", nargs=-1, required=True, type=Source())
+@column_options("'frequency=f in Hz'")
 @click.option("--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa.")
-@click.option("--deformation", type=click.Choice(["tension", "shear"]), help="Deformation, if no file states it.")
+@click.option(
+    "--deformation",
+    type=click.Choice(["tension", "compression", "bending", "shear"]),
+    help="Deformation of the test, if the file does not state it.",
+)
 @click.option(
     "--direction", type=click.Choice(["heating", "cooling"]), help="Part of a file with both [default: heating]."
 )
@@ -59,6 +65,8 @@ def command(
     heating_rate: str | None,
     as_json: bool,
     output: Path | None,
+    columns: dict[str, str],
+    sheet: str | None,
     **chosen: Any,
 ) -> None:
     """Print the frequencies and the glass transition of temperature ramps in FILES.
@@ -77,6 +85,8 @@ def command(
             direction=direction,
             heating_rate=heating_rate,
             modulus_unit=modulus_unit,
+            columns=columns,
+            sheet=sheet,
         )
         peaks = [
             one
@@ -100,11 +110,12 @@ def command(
             if chosen["reference"] is None:
                 print_notes(ramps.notes)
         if chosen["reference"] is not None:
-            _material(files, deformation, modulus_unit, output, chosen, as_json)
+            reading = {"deformation": deformation, "modulus_unit": modulus_unit, "columns": columns, "sheet": sheet}
+            _material(files, reading, output, chosen, as_json)
 
 
 def _lines(ramps: TemperatureRamps) -> list[str]:
-    letter = "E" if ramps.deformation == "tension" else "G"
+    letter = "G" if ramps.deformation == "shear" else "E"
     lines = [f"{ramps.format}; moduli in {ramps.deformation}; frequencies: {len(ramps)}"]
     lines.append(f"{'f (Hz)':>8}  {'points':>6}  {'T (°C)':>16}  {letter + chr(39) + ' (MPa)':>19}  {'tan δ':>15}")
     for one in ramps.ramps:
@@ -120,8 +131,7 @@ def _lines(ramps: TemperatureRamps) -> list[str]:
 
 def _material(
     files: tuple[Path, ...],
-    deformation: str | None,
-    modulus_unit: str | None,
+    reading: dict[str, Any],
     output: Path | None,
     chosen: dict[str, Any],
     quiet: bool,
@@ -138,10 +148,10 @@ def _material(
         "name": chosen["name"],
     }
     law = {"assumed_shift": chosen["assumed_shift"]} if chosen["assumed_shift"] else {"shift": chosen["law"]}
-    more = {"deformation": deformation, "modulus_unit": modulus_unit, **law}
+    more = {**reading, **law}
     folder = files[0].with_suffix(".material") if output is None else output
     results, rubber, written = run_material(
-        material_of(values | {name: value for name, value in more.items() if value is not None}),
+        material_of(values | {name: value for name, value in more.items() if value}),
         folder,
         title=chosen["name"] or f"Material from the temperature ramps in {files[0].name}",
         command=shlex.join(["viscofric", *sys.argv[1:]]),

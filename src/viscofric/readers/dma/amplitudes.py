@@ -81,7 +81,9 @@ def read_amplitude_sweep(
     ...     vf.read_amplitude_sweep(Path(folder) / "payne.csv")
     AmplitudeSweep(0.1 to 51.2 % at 10 Hz, 60.0 °C, shear)
     """
-    readings = read_files(paths, "read_amplitude_sweep", "amplitude", deformation, temperature, modulus_unit, columns, sheet)
+    readings = read_files(
+        paths, "read_amplitude_sweep", "amplitude", deformation, temperature, modulus_unit, columns, sheet
+    )
     source, kind, notes = opening(readings, deformation)
     if deformation is None and all(one.deformation is None for one in readings):
         raise DataFileError(source, NOT_SAID)

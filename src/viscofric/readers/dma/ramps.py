@@ -51,7 +51,7 @@ def read_ramps(
     ----------
     *paths : str or path, or a list of them
         One or many files of one specimen, such as one for each frequency.
-    deformation : {"tension", "shear"}, optional
+    deformation : {"tension", "compression", "bending", "shear"}, optional
         Kind of the moduli, if the files do not state it.
     direction : {"heating", "cooling"}, optional
         Which part of a file is read that holds both; by default heating, unless cooling covers clearly more.

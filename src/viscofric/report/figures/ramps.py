@@ -44,7 +44,7 @@ def plot_temperature_ramps(
     check_choice(quantity, "quantity", "moduli", "tan delta")
     found = ramps if not isinstance(ramps, (TemperatureRamps, RampSuperposition)) else _with_peaks(ramps)
     frequency = values(found, "angular_frequency")
-    letter = "E" if found.attrs.get("deformation", "tension") == "tension" else "G"
+    letter = "G" if found.attrs.get("deformation") == "shear" else "E"
     frequencies = np.unique(frequency)
     for place, (one, look) in enumerate(zip(frequencies, sequential_looks(len(frequencies)), strict=True)):
         inside = frequency == one
@@ -92,7 +92,7 @@ def plot_amplitude_sweep(axes: Axes, fit: PayneFit) -> None:
     """
     insist_on(fit, "fit", PayneFit)
     sweep = fit.sweep
-    letter = "E" if sweep.deformation == "tension" else "G"
+    letter = "G" if sweep.deformation == "shear" else "E"
     strain = np.geomspace(sweep.strain_amplitude[0], sweep.strain_amplitude[-1], 300)
     law = fit.law.complex_modulus(strain) / _PASCAL_PER_MEGAPASCAL
     for measured, line, colour, mark in (

@@ -59,7 +59,7 @@ class KrausLaw:
         G''m at γc, and G''∞ at the smallest and the largest amplitudes, Pa.
     angular_frequency, temperature : float
         Where it was measured, rad/s and K.
-    deformation : {"tension", "shear"}
+    deformation : {"tension", "compression", "bending", "shear"}
         Which strain γ and which moduli they are.
     covariance : (6, 6) array, optional
         Of the constants in this order, where the law was fitted.
@@ -94,7 +94,7 @@ class KrausLaw:
 
     def __str__(self) -> str:
         """Return the constants with their standard errors, as for a report."""
-        letter = "E" if self.deformation == "tension" else "G"
+        letter = "G" if self.deformation == "shear" else "E"
         errors = (0.0,) * 6 if self.standard_errors is None else self.standard_errors
         names = (f"{letter}'0", f"{letter}'∞", "γc", "m", f"{letter}''m", f"{letter}''∞")
         shown = []
@@ -276,7 +276,7 @@ def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
 
 def _doubts(sweep: AmplitudeSweep, scatter: Array) -> list[Note]:
     notes = []
-    letter = "E" if sweep.deformation == "tension" else "G"
+    letter = "G" if sweep.deformation == "shear" else "E"
     for mark, one in zip(("'", "''"), scatter, strict=True):
         if one > LARGEST_SCATTER:
             said = f"Kraus's law misses {letter}{mark} by {one:.2g} decades (rms); it describes it roughly only."
