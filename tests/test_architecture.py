@@ -37,6 +37,8 @@ ROOMS = {
         "files",
         "data",
         "step_tests",
+        "ramps",
+        "amplitudes",
         "traction",
         "nominal",
         "thermal",

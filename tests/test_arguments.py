@@ -119,7 +119,7 @@ def kraus():
 def payne():
     strain = np.geomspace(1e-3, 0.3, 12)
     modulus = kraus().complex_modulus(strain)
-    return vf.AmplitudeSweep(strain, modulus.real, modulus.imag, 6.0, 300.0)
+    return vf.AmplitudeSweep(strain, modulus.real, modulus.imag, 6.0, 300.0, "shear")
 
 
 @functools.cache
@@ -327,9 +327,10 @@ CALLS: dict[str, Any] = {
     "TemperatureRamps": lambda: {"ramps": ramps().ramps, "deformation": "tension", "heating_rate": 0.05, "source": "",
         "notes": (), "format": ""},
     "TemperatureRamps.between": lambda: (ramps(), {"lowest": 280.0, "highest": 300.0}),
-    "TemperatureRamps.in_tension": lambda: (ramps(), {"poisson_ratio": 0.5}),
-    "superpose_ramps": lambda: {"ramps": ramps(), "reference": 300.0, "law": "arrhenius", "assumed": None,
-        "poisson_ratio": 0.5, "vertical": None},
+    "TemperatureRamps.in_tension": lambda: (
+        vf.TemperatureRamps(ramps().ramps, "shear"), {"poisson_ratio": 0.5}),
+    "superpose_ramps": lambda: {"ramps": vf.TemperatureRamps(ramps().ramps, "shear"), "reference": 300.0,
+        "law": "arrhenius", "assumed": None, "poisson_ratio": 0.5, "vertical": None},
     "glass_transition": lambda: {"ramp": ramps().ramps[0], "by": "tan delta"},
     "AmplitudeSweep": lambda: {"strain_amplitude": np.array([0.01, 0.1]), "storage_modulus": np.array([4e6, 3e6]),
         "loss_modulus": np.array([4e5, 3e5]), "angular_frequency": 6.0, "temperature": 300.0, "deformation": "shear",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import insist_on, sentences, text
+from viscofric.arguments import insist_on, number, sentences, text
 from viscofric.data import DEFORMATIONS, Deformation, read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
@@ -115,8 +115,8 @@ class TemperatureRamps:
             insist_on(one, "one of the ramps", TemperatureRamp)
         if not self.ramps:
             raise InputError("ramps must hold at least one TemperatureRamp.")
-        if self.heating_rate is not None and not np.isfinite(self.heating_rate):
-            raise InputError("heating_rate must be a number of K/s, or None.")
+        if self.heating_rate is not None:
+            object.__setattr__(self, "heating_rate", number(self.heating_rate, "heating_rate"))
         for name in ("source", "format"):
             text(getattr(self, name), f"{name} of the ramps")
         object.__setattr__(self, "notes", sentences(self.notes, "notes of the ramps"))

@@ -45,7 +45,7 @@ def read_amplitude_sweep(
     columns: Mapping[str, str] | None = None,
     sheet: str | None = None,
 ) -> AmplitudeSweep:
-    r"""Read an amplitude sweep (Payne effect) from a file of an analyser or a rheometer.
+    """Read an amplitude sweep (Payne effect) from a file of an analyser or a rheometer.
 
     Files are those that `read_dma` reads, with a column of the strain amplitude.
 
@@ -74,10 +74,10 @@ def read_amplitude_sweep(
     >>> import tempfile
     >>> from pathlib import Path
     >>> import viscofric as vf
-    >>> table = "temperature (degC),frequency (Hz),strain amplitude (%),G' (MPa),G'' (MPa)\\n"
-    >>> table += "".join(f"60,10,{0.1 * 2**n},{5 - 0.3 * n},0.5\\n" for n in range(10))
+    >>> rows = ["temperature (degC),frequency (Hz),strain amplitude (%),G' (MPa),G'' (MPa)"]
+    >>> rows += [f"60,10,{0.1 * 2**n},{5 - 0.3 * n},0.5" for n in range(10)]
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     _ = (Path(folder) / "payne.csv").write_text(table)
+    ...     _ = (Path(folder) / "payne.csv").write_text(chr(10).join(rows))
     ...     vf.read_amplitude_sweep(Path(folder) / "payne.csv")
     AmplitudeSweep(0.1 to 51.2 % at 10 Hz, 60.0 °C, shear)
     """

@@ -81,7 +81,8 @@ def read_ramps(
     >>> len(ramps), len(ramps.ramps[0])
     (17, 26)
     """
-    check_choice(direction or "heating", "direction", "heating", "cooling")
+    if direction is not None:
+        check_choice(direction, "direction", "heating", "cooling")
     rate = None if heating_rate is None else to_si(heating_rate, "K/s", "heating_rate")
     readings = read_files(paths, "read_ramps", "temperature", deformation, None, modulus_unit, columns, sheet)
     source, kind, notes = opening(readings, deformation)

@@ -24,9 +24,32 @@ TABOR = 0.2
 def contact_strain(slope: float) -> float:
     """Return the tensile strain that stands for a contact: a fifth of the slope at its edge.
 
-    The slope is a/R of a ball or a cylinder, with the contact radius (half-width) a, and the cotangent of the half
-    angle of a cone (D. Tabor, The Hardness of Metals, 1951, for the ball; K. L. Johnson, Contact Mechanics, 1985,
-    sec. 6.3, for the cone).
+    Parameters
+    ----------
+    slope : float
+        a/R of a ball or a cylinder, with the contact radius (half-width) a; tan β of a cone whose flank has the angle β
+        with the surface.
+
+    Returns
+    -------
+    float
+        A fraction.
+
+    Raises
+    ------
+    InputError
+        If the slope is below zero.
+
+    Notes
+    -----
+    D. Tabor, The Hardness of Metals, 1951, for the ball; K. L. Johnson, Contact Mechanics, 1985, sec. 6.3, for the
+    cone.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> vf.contact_strain(0.25)
+    0.05
     """
     if not (value := number(slope, "slope")) >= 0.0:
         raise InputError(f"slope = {value:g}: must not be below zero.")

@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.amplitudes import AmplitudeSweep
-from viscofric.arguments import insist_on, number, real
+from viscofric.arguments import insist_on, number, numbers
+from viscofric.data import DEFORMATIONS
 from viscofric.datasets import dataset
-from viscofric.errors import InputError
+from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
+from viscofric.rheology.shifts.columns import checked_covariance
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.threads import one_blas_thread
@@ -70,8 +72,8 @@ class KrausLaw:
     --------
     >>> import viscofric as vf
     >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
-    >>> law.complex_modulus(0.02) / 1e6
-    np.complex128(3.75+0.9j)
+    >>> law.complex_modulus(0.02).round()
+    np.complex128(3750000+900000j)
     """
 
     storage_linear: float
@@ -91,6 +93,14 @@ class KrausLaw:
             if not (value := number(getattr(self, name), name)) > 0.0:
                 raise InputError(f"{name} = {value:g}: must be above zero.")
             object.__setattr__(self, name, value)
+        check_choice(self.deformation, "deformation", *DEFORMATIONS)
+        if self.covariance is not None:
+            object.__setattr__(self, "covariance", checked_covariance(self.covariance, len(_NAMES), "Kraus's law"))
+        if self.strain_range is not None:
+            ends = numbers(self.strain_range, "strain_range")
+            if ends.shape != (2,) or not 0.0 < ends[0] < ends[1]:
+                raise InputError("strain_range must be two amplitudes above zero, the smaller one first.")
+            object.__setattr__(self, "strain_range", (float(ends[0]), float(ends[1])))
 
     def __str__(self) -> str:
         """Return the constants with their standard errors, as for a report."""
@@ -116,14 +126,15 @@ class KrausLaw:
 
     def complex_modulus(self, strain: ArrayLike) -> Any:
         """Return G' + iG'' (or E) at amplitudes above zero, Pa."""
-        amplitude = real(strain)
-        if not np.all((amplitude >= 0.0) & np.isfinite(amplitude)):
+        amplitude = numbers(strain, "strain")
+        if not np.all(amplitude >= 0.0):
             raise InputError("strain must hold amplitudes as fractions, none below zero.")
         return _moduli(np.log(np.maximum(self.constants, 1e-300)), amplitude)
 
     def tensile_strain(self, strain: float) -> float:
         """Return the amplitude of this law's deformation that a tensile strain corresponds to: γ = √3 ε in shear."""
-        return math.sqrt(3.0) * strain if self.deformation == "shear" else strain
+        value = number(strain, "strain")
+        return math.sqrt(3.0) * value if self.deformation == "shear" else value
 
 
 def _moduli(logs: Array, strain: Array) -> Any:

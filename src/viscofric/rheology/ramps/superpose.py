@@ -122,7 +122,7 @@ def superpose_ramps(
     """
     insist_on(ramps, "ramps", TemperatureRamps, right="TemperatureRamps; read them with read_ramps(…)")
     check_choice(law, "law", "wlf", "arrhenius", "vft", "wlf+arrhenius")
-    if assumed != "universal":
+    if not isinstance(assumed, str) or assumed != "universal":
         insist_on(assumed, "assumed", ShiftLaw, type(None), right='a shift law, "universal" or None')
     kelvin = positive(reference, "K", "reference")
     ratio = checked_poisson_ratio(poisson_ratio)
