@@ -53,7 +53,7 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     (
         lambda path: read_dma(path, deformation="tension"),
         [DMA, *(f"{T},10,5,0.5" for T in range(0, 100, 10))],
-        "each of the 10 temperatures has one frequency; frequency sweeps are needed, not a temperature sweep.",
+        "each of the 10 temperatures has one frequency; frequency sweeps are needed, not a temperature sweep; use read_ramps for it.",
     ),
     (
         read_dma,
