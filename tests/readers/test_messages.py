@@ -47,13 +47,16 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
         [DMA, *(f"{20 + 0.5 * n},{1 + n % 3},5,0.5" for n in range(40))],
         (
             "the temperatures run continuously from 20.0 to 39.5 °C, without a gap of 1 K; isothermal sweeps are "
-            "needed, not a temperature ramp."
+            "needed, not a temperature ramp; use read_ramps for it."
         ),
     ),
     (
         lambda path: read_dma(path, deformation="tension"),
         [DMA, *(f"{T},10,5,0.5" for T in range(0, 100, 10))],
-        "each of the 10 temperatures has one frequency; frequency sweeps are needed, not a temperature sweep; use read_ramps for it.",
+        (
+            "each of the 10 temperatures has one frequency; frequency sweeps are needed, not a temperature sweep; use "
+            "read_ramps for it."
+        ),
     ),
     (
         read_dma,

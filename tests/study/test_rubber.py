@@ -70,6 +70,36 @@ def test_headings_and_sheet_are_keys_of_the_run_file(sweeps: Path, tmp_path: Pat
         rubber(catalogue="synthetic fluoroelastomer", columns=columns)
 
 
+@pytest.fixture(scope="module")
+def ramps(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Write synthetic ramps at two frequencies; return the file."""
+    path = tmp_path_factory.mktemp("ramps") / "ramps.csv"
+    made = vf.synthetic_fluoroelastomer()
+    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
+    for celsius in range(-5, 91, 2):
+        for hertz in (1.0, 10.0):
+            modulus = complex(made.complex_modulus(2 * np.pi * hertz, celsius + 273.15)) / 1e6
+            rows.append(f"{celsius},{hertz},{modulus.real:.9g},{modulus.imag:.9g}")
+    path.write_text("\n".join(rows), encoding="utf-8")
+    return path
+
+
+def test_a_material_is_made_of_ramps(ramps: Path) -> None:
+    made = rubber(ramps=str(ramps), shift="wlf", **REFERENCE)
+    truth = vf.synthetic_fluoroelastomer()
+    for celsius in (10.0, 30.0, 70.0):
+        ratio = made.material.complex_modulus(10.0, celsius + 273.15) / truth.complex_modulus(10.0, celsius + 273.15)
+        assert abs(ratio) == pytest.approx(1.0, abs=0.05)
+    assert {"/ramps", "/master_curve", "/shift_law", "/spectrum"} <= set(rubber_groups(made))
+    assumed = rubber(ramps=str(ramps), assumed_shift="150 kJ/mol", **REFERENCE)
+    assert assumed.shift_used == "assumed"
+    assert "shift-assumed" in codes(assumed.notes)
+    assert assumed.material.shift.activation_energy == pytest.approx(1.5e5)
+    for wrong in ({"shift": "polynomial"}, {"vertical_shift": "free"}, {"assumed_shift": "x"}, {"shift_by": "loss"}):
+        with pytest.raises(InputError, match=r"material"):
+            rubber(ramps=str(ramps), **wrong, **REFERENCE)
+
+
 def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
     made = rubber(dma=str(sweeps), shift_by="storage", **REFERENCE)
     assert "shifted-by" in codes(made.notes)

@@ -194,10 +194,6 @@ class MaterialTable(Table):
                 yield f"{' and '.join(useless)} cannot be chosen for a master curve, only for sweeps (dma)"
             if self.shift != "measured" and self.shift_factors is None:
                 yield "a law for shift needs the shift factors of the master curve; give them as shift_factors"
-        if given in (["creep"], ["relaxation"]):
-            useless = [name for name in _OF_TWO_MODULI if name in chosen]
-            if useless:
-                yield f"{' and '.join(useless)} cannot be chosen for {given[0]} tests, only for sweeps (dma)"
         yield from self._doubts_of_shifts()
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
@@ -217,6 +213,10 @@ class MaterialTable(Table):
             yield "shift and assumed_shift are both given; give one of them"
 
     def _doubts_of_shifts(self) -> Iterator[str]:
+        for name in ("creep", "relaxation"):
+            useless = [key for key in _OF_TWO_MODULI if key in self.model_fields_set]
+            if useless and getattr(self, name) is not None:
+                yield f"{' and '.join(useless)} cannot be chosen for {name} tests, only for sweeps (dma)"
         if self.assumed_shift is not None and self.ramps is None:
             yield "assumed_shift is for temperature ramps (ramps) only"
         if self.shift_factors is not None and self.fixed_shift_factors:
