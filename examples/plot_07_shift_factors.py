@@ -28,9 +28,8 @@ colours = report.plot_isotherms(right, sweeps, "loss")
 temperature_bar(figure, colours, [right])
 
 # %%
-# All isotherms are fitted by one common curve at once, E' and E'' together, and every factor has a standard error. The
-# notes name the isotherms that were left out: the glass transition is so steep that the coldest isotherms do not
-# overlap.
+# All isotherms are fitted by one common curve at once, E' and E'' together, and every factor has a standard error.
+# Around the glass transition, where the modulus is steep, the isotherms are 4 K apart, so that neighbours overlap.
 
 fit = vf.superpose(sweeps, reference="30 degC")
 factors = fit.shift_factors
@@ -44,8 +43,8 @@ laws = factors.compare_laws()
 print(laws.explanation)
 
 # %%
-# From 0 to 220 °C the shift factors of this material span ten decades. The line is the best law, with its 95 % band,
-# which is hardly wider than the line.
+# From −20 to 150 °C the shift factors of this material span fourteen decades. The line is the best law, with its 95 %
+# band, which is hardly wider than the line.
 
 figure, axes = plt.subplots(figsize=(7.0, 4.6), layout="constrained")
 report.plot_shift_factors(axes, factors, laws.best)

@@ -8,7 +8,7 @@ extrapolated, and so is its band.
 """
 
 # %%
-# **Synthetic** sweeps of the built-in fluoroelastomer, with 1 % of noise. Of the 26 isotherms only those from 20 to 120
+# **Synthetic** sweeps of the built-in fluoroelastomer, with 1 % of noise. Of the 24 isotherms only those from 18 to 120
 # °C are taken, as in a shortened test.
 
 from importlib.resources import files

@@ -26,13 +26,13 @@ def draw() -> Figure:
     """Go from the example's files to friction at the tested temperatures, and to one curve for all of them."""
     fit = vf.superpose(vf.read_dma(EXAMPLE / "dma.csv"), reference="30 degC")
     rubber = vf.Material(vf.fit_retardation_spectrum(fit.master_curve), shift=fit.shift_factors, poisson_ratio=0.5)
-    ball, load = vf.Ball(radius="9.525 mm"), "25 N"
+    ball, load = vf.Ball(radius="9.525 mm"), "10 N"
     measured = vf.separate(vf.read_mtm(EXAMPLE / "mtm.csv"))
     predicted = vf.predict_friction(
-        rubber, ball, speeds=np.geomspace(0.02, 0.2, 9), temperatures=measured.temperatures, load=load
+        rubber, ball, speeds=np.geomspace(1e-3, 3.0, 27), temperatures=measured.temperatures, load=load
     )
     line = vf.predict_friction(
-        rubber, ball, speeds=np.geomspace(1e-6, 1.0, 33), temperatures=fit.shift_factors.reference, load=load
+        rubber, ball, speeds=np.geomspace(1e-7, 1e3, 61), temperatures=fit.shift_factors.reference, load=load
     )
     master = vf.shift_friction(measured, shift=fit.shift_factors, reference="30 degC")
 

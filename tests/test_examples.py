@@ -49,20 +49,20 @@ NUMBERS = {
     "plot_05_layer": Number("friction_on_thinnest", 0.0126516, 3e-3),
     # WLF about Tg with 17.44 and 51.6 K: 17.44·51.6/99.6 − 17.44·51.6/129.6
     "plot_06_modulus_and_temperature": Number("log10_shift", -17.44 * 51.6 * (1 / 99.6 - 1 / 129.6), 1e-12),
-    # planted: 17.44·51.6/169.6 − 17.44·51.6/99.6, found within its standard error of 0.005
-    "plot_07_shift_factors": Number("log10_at_100", 17.44 * 51.6 * (1 / 169.6 - 1 / 99.6), 2e-3, -3.727671),
+    # planted: 17.44·51.6/169.6 − 17.44·51.6/99.6, found within its standard error of 0.008
+    "plot_07_shift_factors": Number("log10_at_100", 17.44 * 51.6 * (1 / 169.6 - 1 / 99.6), 2e-3, -3.730143),
     # of the planted rubber; the fit averages 1 % of noise over the few isotherms that hold this frequency
-    "plot_08_master_curve": Number("storage_modulus", 7.73002e6, 3e-3, 7.721934e6),
+    "plot_08_master_curve": Number("storage_modulus", 7.73002e6, 6e-3, 7.692169e6),
     # of the planted rubber, solved to 1e-4; the prediction goes through sweeps with 1 % of noise
-    "plot_09_friction_and_speed": Number("friction", 0.0251646, 5e-3, 0.0251982),
-    # of the planted rubber, solved to 1e-4; read off friction with 1.6 % of scatter, eight replicates a point
-    "plot_10_friction_master_curve": Number("from_the_curve", 0.0231309, 5e-3, 0.0230733),
+    "plot_09_friction_and_speed": Number("friction", 0.0255485, 5e-3, 0.0254864),
+    # of the planted rubber, solved to 1e-4; read off friction with 1.5 % of scatter, four replicates a point
+    "plot_10_friction_master_curve": Number("from_the_curve", 0.0192759, 5e-3, 0.0192013),
     # solved to 1e-4; the example asks for 1e-3
     "plot_11_friction_from_shift": Number("friction", 0.00825208, 1e-3),
     # planted: 17.44·51.6/159.6 − 17.44·51.6/129.6, found within its standard error of 0.013; 1 % of noise
     "plot_12_shift_from_friction": Number("log10_at_90", 17.44 * 51.6 * (1 / 159.6 - 1 / 129.6), 1e-2, -1.304127),
     # from 400 draws; that of 60 is known to 1/√120 = 9 % only
-    "plot_13_uncertainty": Number("standard_error", 0.00677369, 0.2, 0.0066389),
+    "plot_13_uncertainty": Number("standard_error", 0.00631305, 0.2, 0.00644537),
     # the anchor is of that frequency, the planted rubber the truth; half the 95 % band is 2 %
     "plot_14_identification": Number("ratio", 1.0, 2e-2, 1.000256),
     # the same track on 256² points; the example's error estimate is 3 %, as 128² points leave it

@@ -13,7 +13,7 @@ import viscofric as vf
 from viscofric.errors import DataFileError, InputError, StudyError, SuperpositionError
 from viscofric.notes import Note, Remedy, codes, note_of, records
 
-EXAMPLE = files("viscofric") / "example"
+EXAMPLE = files("viscofric") / "templates" / "paper"
 GIVE = Remedy("; give unit=.", "; give --unit.", page="; fill in “Unit”.", field="material.unit")
 
 

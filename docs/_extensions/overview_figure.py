@@ -23,7 +23,7 @@ def draw() -> bytes:
     fit = viscofric.superpose(viscofric.read_dma(SOURCE / "example" / "dma.csv"), reference="30 degC")
     spectrum = viscofric.fit_retardation_spectrum(fit.master_curve)
     rubber = viscofric.Material(spectrum, shift=fit.shift_factors)
-    ball, load = viscofric.Ball(radius="9.525 mm"), "25 N"
+    ball, load = viscofric.Ball(radius="9.525 mm"), "10 N"
     contact = viscofric.solve_steady(
         rubber, ball, speed="100 mm/s", load=load, temperature="60 degC", accuracy=_ACCURACY
     )

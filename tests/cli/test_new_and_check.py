@@ -86,7 +86,7 @@ def test_run_file_comes_from_standard_input_and_goes_to_standard_output() -> Non
 
 
 def test_check_shows_all_mistakes_at_once(tmp_path: Path) -> None:
-    text = template_text("ball").replace('"25 N"', '"25 mm"').replace("[solver]", "[solvr]")
+    text = template_text("ball").replace('"10 N"', '"10 mm"').replace("[solver]", "[solvr]")
     (tmp_path / "study.toml").write_text(text.replace('"90 degC"', '"-300 degC"'), encoding="utf-8")
     found = refusal("check", tmp_path / "study.toml")
     assert (found.status, found.code) == (1, "several-mistakes")

@@ -56,7 +56,7 @@ def call(*arguments: str) -> Result:
 def folder(tmp_path: Path) -> Path:
     place = tmp_path / "my-test"
     place.mkdir()
-    with as_file(files("viscofric") / "example") as example:
+    with as_file(files("viscofric") / "templates" / "paper") as example:
         for name in ("dma.csv", "mtm.csv"):
             shutil.copy(example / name, place / name)
     (place / "test.toml").write_text(RUN_FILE, encoding="utf-8")

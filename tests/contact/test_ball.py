@@ -194,7 +194,7 @@ def test_true_error_is_within_the_estimate(accuracy: float) -> None:
 @pytest.mark.slow
 def test_estimates_cover_the_planted_friction() -> None:
     """Thirty contacts of a broad spectrum, known to 1e-4 from finer grids."""
-    planted = np.loadtxt(Path(__file__).parents[1] / "data" / "planted_friction.csv", delimiter=",", skiprows=3)
+    planted = np.loadtxt(Path(__file__).parents[1] / "data" / "planted_paper_friction.csv", delimiter=",", skiprows=3)
     for temperature, speed, friction in planted[:, :3]:
         solution = solve_steady(
             synthetic_fluoroelastomer(),

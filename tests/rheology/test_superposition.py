@@ -79,11 +79,11 @@ def test_the_example_file_gives_back_the_rubber_it_was_made_of():
     assert abs(law.C1 - 9.03534) < 3 * first
     assert abs(law.C2 - 99.6) < 3 * second
     spectrum = vf.fit_retardation_spectrum(fit.master_curve)
-    inside = np.logspace(-5, 5, 60)
+    inside = np.logspace(-5, 9, 60)
     error = spectrum.complex_modulus(inside) / RUBBER.complex_modulus(inside, "30 degC") - 1
-    assert np.abs(error).max() < 0.02  # 1 % noise, and shifts uncertain by 0.01 decades
+    assert np.abs(error).max() < 0.06  # 1 % noise, and shifts uncertain by 0.03 decades in the glass transition
     assert not spectrum.fit.E0_extrapolated
-    assert spectrum.fit.E_inf_extrapolated  # the glassy isotherms do not overlap
+    assert not spectrum.fit.E_inf_extrapolated
 
 
 @pytest.mark.parametrize("reference", [283.15, 300.0, 351.234, 493.15])

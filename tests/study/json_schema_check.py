@@ -22,6 +22,7 @@ _LIMITS: dict[str, Any] = {
     "maxLength": lambda value, limit: not isinstance(value, str) or len(value) <= limit,
     "minItems": lambda value, limit: not isinstance(value, list) or len(value) >= limit,
     "maxItems": lambda value, limit: not isinstance(value, list) or len(value) <= limit,
+    "maxProperties": lambda value, limit: not isinstance(value, dict) or len(value) <= limit,
     "pattern": lambda value, limit: not isinstance(value, str) or re.search(limit, value) is not None,
     "type": lambda value, limit: _TYPES[limit](value),
     "const": lambda value, limit: value == limit,

@@ -17,7 +17,7 @@ from viscofric.study import StudyResults, load_study, open_results, run_study
 from viscofric.study.checking import check_study
 
 ROOT = Path(__file__).resolve().parents[2]
-EXAMPLE = Path(str(files("viscofric"))) / "example"
+EXAMPLE = Path(str(files("viscofric"))) / "templates" / "paper"
 REAL_STUDY = """
 title = "acrylic elastomer"
 [material]
@@ -88,7 +88,7 @@ def test_planted_coulomb_friction_comes_back(results: StudyResults) -> None:
 
 def test_planted_viscoelastic_friction_is_measured(results: StudyResults) -> None:
     measured = results.tree["measurement"]
-    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_friction.csv", delimiter=",", skiprows=3)[:, 2]
+    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_paper_friction.csv", delimiter=",", skiprows=3)[:, 2]
     z = (measured["viscoelastic"].values - planted) / measured["viscoelastic_error"].values
     assert len(z) == 30
     assert np.abs(z).max() < 6.0  # as above
@@ -98,7 +98,7 @@ def test_planted_viscoelastic_friction_is_measured(results: StudyResults) -> Non
 def test_planted_viscoelastic_friction_is_predicted_from_the_sweeps(results: StudyResults) -> None:
     """From noisy sweeps alone: through shift factors, master curve, spectrum and contact."""
     predicted = results.tree["measurement"]["predicted"].values
-    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_friction.csv", delimiter=",", skiprows=3)[:, 2]
+    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_paper_friction.csv", delimiter=",", skiprows=3)[:, 2]
     error = predicted / planted - 1.0
     # Accuracy 1e-3 of the contact; the rest is 1 % noise of the sweeps, averaged, and shifts good to 2 to 4 %,
     # each of which moves friction by at most a third as much.
@@ -109,7 +109,7 @@ def test_planted_viscoelastic_friction_is_predicted_from_the_sweeps(results: Stu
 
 def test_bands_hold_the_planted_friction(results: StudyResults) -> None:
     measured = results.tree["measurement"]
-    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_friction.csv", delimiter=",", skiprows=3)[:, 2]
+    planted = np.loadtxt(ROOT / "tests" / "data" / "planted_paper_friction.csv", delimiter=",", skiprows=3)[:, 2]
     z = (measured["predicted"].values - planted) / measured["predicted_material_error"].values
     # Errors of the rubber are shared by neighbouring points, so that few of the 30 are independent.
     assert np.abs(z).max() < 3.0

@@ -14,7 +14,7 @@ import viscofric as vf
 from friction.synthetic_curves import synthetic_curves
 from viscofric.web.jobs.context import Context
 
-EXAMPLE = Path(vf.__file__).parent / "example"
+EXAMPLE = Path(vf.__file__).parent / "templates" / "paper"
 STUDY: dict[str, Any] = {
     "material": {"catalogue": "synthetic fluoroelastomer"},
     "indenter": {"shape": "ball", "radius": "9.525 mm"},

@@ -12,7 +12,7 @@ import viscofric
 from viscofric.web.jobs import KINDS
 from viscofric.web.jobs.context import Context
 
-EXAMPLE = Path(viscofric.__file__).parent / "example" / "dma.csv"
+EXAMPLE = Path(viscofric.__file__).parent / "templates" / "paper" / "dma.csv"
 SWEEPS: dict[str, Any] = {"dma": "dma.csv", "reference_temperature": "30 degC"}
 
 

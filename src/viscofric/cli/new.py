@@ -20,6 +20,7 @@ SCHEMA_LINE = f"#:schema ./{SCHEMA}\n"
 #: Starter files, by their names, and what they show.
 TEMPLATES = {
     "example": "all keys of a run file, with measured friction to compare",
+    "paper": "speeds, temperatures and load of the paper whose method this is",
     "ball": "a ball against speed and temperature",
     "measured": "measured friction compared with the prediction",
     "cylinder": "a roller (load per unit length)",
@@ -28,6 +29,8 @@ TEMPLATES = {
     "sweep": "several materials, radii and loads",
     "uncertainty": "uncertainty of the predicted friction",
 }
+
+_WITH_DATA = {"example": "example", "paper": "templates/paper"}
 
 _EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words in TEMPLATES.items())
 
@@ -64,7 +67,7 @@ def command(folder: Path | None, template: str, schema: bool) -> None:
         click.echo(run_file, nl=False)
         return
     contents = {"study.toml": run_file.encode()}
-    contents |= {source.name: source.read_bytes() for source in _data() if f'"{source.name}"' in run_file}
+    contents |= {source.name: source.read_bytes() for source in _data(template) if f'"{source.name}"' in run_file}
     if schema:
         contents[SCHEMA] = _schema().encode()
     _write(folder, contents)
@@ -73,13 +76,19 @@ def command(folder: Path | None, template: str, schema: bool) -> None:
 
 def template_text(name: str) -> str:
     """Return a starter file."""
-    home = files("viscofric")
-    source = home / "example" / "study.toml" if name == "example" else home / "templates" / f"{name}.toml"
-    return source.read_text(encoding="utf-8")
+    home = _home(name)
+    return (home / ("study.toml" if name in _WITH_DATA else f"{name}.toml")).read_text(encoding="utf-8")
 
 
-def _data() -> list[Traversable]:
-    return [source for source in (files("viscofric") / "example").iterdir() if source.name.endswith(".csv")]
+def _home(name: str) -> Traversable:
+    """Return the folder of a starter file."""
+    return files("viscofric") / _WITH_DATA.get(name, "templates")
+
+
+def _data(name: str) -> list[Traversable]:
+    """Return the data files for a starter file; those of the example unless it has its own."""
+    folder = _home(name if name in _WITH_DATA else "example")
+    return [source for source in folder.iterdir() if source.name.endswith(".csv")]
 
 
 def _schema() -> str:

@@ -12,7 +12,7 @@ FIRST_STUDY: dict[str, Any] = {
     "material": {"catalogue": "synthetic fluoroelastomer"},
     "indenter": {"shape": "ball", "radius": "9.525 mm"},
     "conditions": {
-        "load": "25 N",
+        "load": "10 N",
         "speed": {"from": "1 mm/s", "to": "10 m/s", "points": 25, "spacing": "log"},
         "temperature": ["30 degC", "60 degC", "90 degC"],
     },

@@ -65,7 +65,7 @@ class BetweenRuns:
         common: dict[int, float] = {}
         for places in alike.values():
             isotherms = np.array([fits[place].group.temperature for place in places])
-            for number in (_VISCOELASTIC, _COULOMB):
+            for number in (_VISCOELASTIC, _COULOMB, _CONSISTENCY):
                 some = [scatters[place][number] for place in places]
                 pool = Pool.of(some, sizes[places], isotherms)
                 for place, one in zip(places, some, strict=True):

@@ -164,7 +164,7 @@ def read_dma(
     >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
     >>> sweeps = vf.read_dma(path, deformation="tension")
     >>> len(sweeps.isotherms), sweeps.isotherms[0].storage_modulus.shape
-    (26, (17,))
+    (24, (17,))
     """
     traced = trace_dma(
         *paths,

@@ -132,8 +132,8 @@ def read_mtm(
     >>> import viscofric as vf
     >>> path = files("viscofric") / "example" / "mtm.csv"  # synthetic
     >>> runs = vf.read_mtm(path)
-    >>> sorted({round(kelvin - 273.15, -1) for kelvin in runs.temperature.tolist()})
-    [30.0, 60.0, 90.0]
+    >>> sorted({round(kelvin - 273.15) for kelvin in runs.temperature.tolist()})
+    [10, 20, 30, 45, 65, 90]
     """
     if not paths:
         raise InputError("read_mtm needs at least one file.", code="no-file")

@@ -28,7 +28,7 @@ from viscofric.report.results import (
     values,
 )
 from viscofric.report.sweeps import solved_cases
-from viscofric.report.texts.friction import CONSISTENT_WITHIN, consistency_words
+from viscofric.report.texts.friction import consistency
 from viscofric.report.texts.numbers import degrees, percent, several, significant
 from viscofric.study.results.results import beyond_accuracy
 
@@ -180,7 +180,6 @@ def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
 CIRCULAR = "The material was itself identified from friction; if from this friction, the comparison tests nothing."
 # Largest values that are good
 _COMPLEMENTARITY = 1e-6  # over the indentation, or the rms height; contacts are solved to less
-_CONSISTENT = 0.9  # share of the points whose configurations agree within two standard errors
 # Probability of differences as large, below which two sets of shift factors are not the same
 _LIKELY = 0.05
 # How far apart, in units of the accuracy, friction from the pressure and from the dissipation may be.
@@ -308,26 +307,19 @@ def _measurement(tree: xr.DataTree) -> Iterator[Check]:
     measurement = group(tree, "measurement")
     if measurement is None:
         return
-    check = consistency_check(values(measurement, "consistency"), values(measurement, "consistency_error"))
+    freedom = values(measurement, "viscoelastic_freedom") if "viscoelastic_freedom" in measurement else None
+    check = consistency_check(values(measurement, "consistency"), values(measurement, "consistency_error"), freedom)
     if check is not None:
         yield check
 
 
-def consistency_check(left_over: Array, error: Array) -> Check | None:
-    """Judge whether the sign configurations of a traction test agree; None where nothing is known.
-
-    `left_over` (n,) is what they leave over at each point, relative to the load, and `error` its standard error.
-    """
-    words = consistency_words(left_over, error)
-    if words is None:
+def consistency_check(left_over: Array, error: Array, freedom: Array | None) -> Check | None:
+    """Judge whether the sign configurations of a traction test agree, as `consistency` says; None where unknown."""
+    words, holds = consistency(left_over, error, freedom)
+    if not words:
         return None
-    known = np.isfinite(left_over) & np.isfinite(error)
-    sound = np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]
-    return Check.of(
-        "Consistency of the four configurations",
-        bool(np.mean(sound) >= _CONSISTENT),
-        f"The residual of the four sign configurations, which should vanish, is {words}.",
-    )
+    name = "Consistency of the four configurations"
+    return Check.of(name, holds, f"The residual of the four sign configurations, which should vanish, is {words}.")
 
 
 def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from viscofric.traction import TractionRuns
 
 
-#: Standard errors within which what should be zero counts as zero.
-CONSISTENT_WITHIN = 2.0
+_OUTSIDE = 0.05  # share of consistent points outside their 95 % interval
+_CHANCE = 0.01  # probability below which that many points outside are not chance
 
 
 def friction_table(curves: FrictionCurves) -> list[str]:
@@ -53,26 +53,33 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     if curves.assumption:
         lines.append(("assumed", curves.assumption))
     if curves.consistency is not None and curves.consistency_error is not None:
-        words = consistency_words(curves.consistency, curves.consistency_error)
-        if words is not None:
+        words, _ = consistency(curves.consistency, curves.consistency_error, curves.viscoelastic_freedom)
+        if words:
             lines.append(("residual", words))
     return lines
 
 
-def consistency_words(left_over: Array, error: Array) -> str | None:
-    """Say how many points' configurations agree with each other, or None where nothing is known.
+def consistency(left_over: Array, error: Array, freedom: Array | None) -> tuple[str, bool]:
+    """Return how far the four sign configurations agree, in words, and whether more of them may differ by chance.
 
-    Parameters
-    ----------
-    left_over, error : (n,) array
-        What the sign configurations leave over, relative to the load, and its standard error.
+    `left_over` (n,) is the combination of them that should vanish, relative to the load; `error` its standard error
+    with `freedom` degrees of freedom (normal where unknown). The words are empty where no error is known.
     """
+    from scipy.special import bdtrc, ndtri, stdtrit
+
     known = np.isfinite(left_over) & np.isfinite(error)
-    if not known.any():
-        return None
-    sound = int(np.sum(np.abs(left_over[known]) <= CONSISTENT_WITHIN * error[known]))
+    count = int(known.sum())
+    if not count:
+        return "", True
+    above = 1.0 - 0.5 * _OUTSIDE
+    wide = np.full(left_over.shape, float(ndtri(above)))
+    if freedom is not None:
+        student = np.isfinite(freedom) & (freedom > 0.0)
+        wide[student] = stdtrit(freedom[student], above)
+    outside = int(np.sum(np.abs(left_over[known]) > wide[known] * error[known]))
     largest = significant(float(np.max(np.abs(left_over[known]))), 2)
-    return f"within twice its standard error at {sound} of {known.sum()} points; {largest} of the load at most"
+    words = f"within its 95 % interval at {count - outside} of {count} points; {largest} of the load at most"
+    return words, outside == 0 or float(bdtrc(outside - 1, count, _OUTSIDE)) >= _CHANCE
 
 
 def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:

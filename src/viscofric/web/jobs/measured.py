@@ -88,7 +88,7 @@ def _checks(curves: FrictionCurves) -> list[dict[str, Any]]:
 
     if curves.consistency is None or curves.consistency_error is None:
         return []
-    check = consistency_check(curves.consistency, curves.consistency_error)
+    check = consistency_check(curves.consistency, curves.consistency_error, curves.viscoelastic_freedom)
     return [] if check is None else [check.record("page")]
 
 

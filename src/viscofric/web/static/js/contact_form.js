@@ -11,7 +11,7 @@ const SHAPES = [
 
 // What each shape begins with; a study keeps what it had of another shape as long as the page is open.
 const FIRST = {
-  ball: { indenter: { shape: "ball", radius: "9.525 mm" }, load: "25 N" },
+  ball: { indenter: { shape: "ball", radius: "9.525 mm" }, load: "10 N" },
   cylinder: { indenter: { shape: "cylinder", radius: "9.525 mm" }, load: "2 N/mm" },
   ellipsoid: { indenter: { shape: "ellipsoid", radius_x: "5 mm", radius_y: "10 mm" }, load: "25 N" },
   cone: { indenter: { shape: "cone", angle: "10 deg" }, load: "25 N" },
