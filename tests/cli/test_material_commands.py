@@ -218,3 +218,42 @@ def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, mo
     monkeypatch.chdir(tmp_path)
     found = refusal("material", *words)
     assert (found.status, found.code) == (1, code), found
+
+
+def test_ramp_prints_peaks_and_makes_a_material(tmp_path: Path) -> None:
+    made = vf.synthetic_fluoroelastomer()
+    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
+    for celsius in range(-15, 91, 2):
+        for hertz in (1.0, 10.0):
+            modulus = complex(made.complex_modulus(2 * np.pi * hertz, celsius + 273.15)) / 1e6
+            rows.append(f"{celsius},{hertz},{modulus.real:.9g},{modulus.imag:.9g}")
+    (tmp_path / "ramps.csv").write_text("\n".join(rows), encoding="utf-8")
+    done = call("ramp", tmp_path / "ramps.csv")
+    assert done.exit_code == 0, done.output
+    assert "tan δ at 1 Hz" in done.output
+    record = json.loads(call("ramp", tmp_path / "ramps.csv", "--json").stdout)
+    assert len(record["angular_frequency"]) == 2
+    done = call("ramp", tmp_path / "ramps.csv", "--reference", "30 degC", "--synthetic", "-o", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    for name in ("rubber.json", "master_curve.csv", "report.html", "figures/ramps.svg"):
+        assert (tmp_path / "out" / name).stat().st_size > 0, name
+    assert call("ramp", tmp_path / "ramps.csv", "--assumed-shift", "universal").exit_code == 2
+
+
+def test_amplitude_prints_the_linear_range_and_scales_a_material(tmp_path: Path) -> None:
+    law = vf.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 62.8, 333.15, "shear")
+    rows = ["temperature (degC),frequency (Hz),strain amplitude (%),G' (MPa),G'' (MPa)"]
+    for strain in np.geomspace(1e-4, 0.5, 20):
+        modulus = complex(law.complex_modulus(strain)) / 1e6
+        rows.append(f"60,10,{100 * strain:.6g},{modulus.real:.6g},{modulus.imag:.6g}")
+    path = tmp_path / "payne.csv"
+    path.write_text("\n".join(rows), encoding="utf-8")
+    record = json.loads(call("amplitude", path, "--json").stdout)
+    assert record["critical_strain"] == pytest.approx(0.02, rel=0.01)
+    rubber = ("--material", "synthetic fluoroelastomer")
+    scaled = tmp_path / "scaled.json"
+    done = call("amplitude", path, *rubber, "--strain", 5, "-o", scaled, "--picture", tmp_path / "payne.svg")
+    assert done.exit_code == 0, done.output
+    assert "approximation" in vf.read_card(scaled).name
+    assert (tmp_path / "payne.svg").stat().st_size > 0
+    assert call("amplitude", path, "-o", scaled).exit_code == 2

@@ -96,7 +96,7 @@ def test_a_material_is_made_of_ramps(ramps: Path) -> None:
     assert "shift-assumed" in codes(assumed.notes)
     assert assumed.material.shift.activation_energy == pytest.approx(1.5e5)
     for wrong in ({"shift": "polynomial"}, {"vertical_shift": "free"}, {"assumed_shift": "x"}, {"shift_by": "loss"}):
-        with pytest.raises(InputError, match=r"material"):
+        with pytest.raises(InputError, match=r"shift"):
             rubber(ramps=str(ramps), **wrong, **REFERENCE)
 
 
