@@ -134,6 +134,7 @@ def test_planted_shift_factors_come_back(kind):
     assert vf.check_superposition(fit).holds
     assert fit.check.to_dataset().attrs["verdict"] == "holds"
     assert fit.to_dataset().attrs["kind"] == kind
+    assert "golub1973" in vf.citations(fit).keys
     assert fit.master_curve.kind == kind
     true = material.at(reference)
     response = true.creep_compliance if kind == "creep" else true.relaxation_modulus

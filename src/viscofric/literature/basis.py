@@ -24,7 +24,9 @@ from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomia
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.quality import FROM_FRICTION
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.roughness.ensemble import RoughFriction
 from viscofric.roughness.patches import ContactStatistics
@@ -121,12 +123,28 @@ def _of_superposition(fit: Superposition) -> Basis:
     yield from superposed_sweeps()
 
 
+@basis.register
+def _of_step_superposition(fit: StepSuperposition) -> Basis:
+    yield from superposed_steps()
+
+
+@basis.register
+def _of_joint_superposition(fit: JointSuperposition) -> Basis:
+    for part in fit.parts:
+        yield from basis(part)
+
+
 def superposed_sweeps() -> Basis:
     """Yield the references of the superposition of sweeps."""
+    yield from superposed_steps()
+    yield from _for("check of the superposition", "vangurp1998")
+
+
+def superposed_steps() -> Basis:
+    """Yield the references of the superposition of creep or relaxation tests."""
     yield PAPER, "time-temperature superposition (Eq. 4)"
     yield from _for("shift factors and common curves sought together", "golub1973")
     yield from _for("how smooth the common curves are", "wood2011")
-    yield from _for("check of the superposition", "vangurp1998")
 
 
 @basis.register
@@ -275,9 +293,11 @@ def _study_rubber(table: dict[str, Any], found: xarray.DataTree) -> Basis:
     if "catalogue" in table:
         yield from basis(catalogue_material(table["catalogue"]))
         return
+    steps = "step_master_curve" in found.children
     if "superposition" in found.children:
-        yield from superposed_sweeps()
-    yield from modes(table.get("spectrum", "non-negative") if "master_curve" in found.children else "")
+        yield from superposed_steps() if steps else superposed_sweeps()
+    fitted = steps or "master_curve" in found.children
+    yield from modes(table.get("spectrum", "non-negative") if fitted else "")
     if "shift_law" in found.children and table.get("shift", "measured") != "measured":
         used = found["shift_law"].attrs["law"]
         yield from shifted_by(next(law for law in _LAWS if law.title == used))

@@ -12,11 +12,13 @@
 ``/assumptions``                 assumptions of the predictions, checked
 ``/isotherms``                   measured moduli (tensile) in use
 ``/ramps``                       temperature ramps (tensile) in use instead, with α(T) at every point
+``/step_tests``                  creep or relaxation tests (tensile) in use instead
 ``/shift_factors``               log10 α of each isotherm with its standard error (and the vertical shift)
 ``/shift_law``                   law in use, or the best one, over the same temperatures
 ``/laws``                        all laws that describe the shift factors, compared
 ``/superposition``               whether superposition holds, in numbers and sentences
 ``/master_curve``                isotherms shifted to the reference temperature, and the fit at the same points
+``/step_master_curve``           creep or relaxation tests over reduced time, and the fit at the same points
 ``/spectrum``                    retardation spectrum at the reference temperature
 ``/spectrum_curve``              its storage and loss modulus over a wider range (with a band, if there are samples)
 ``/materials/<n>/…``             the groups of each of several materials, numbered from 1
