@@ -235,6 +235,7 @@ def test_ramp_prints_peaks_and_makes_a_material(tmp_path: Path) -> None:
     assert len(record["angular_frequency"]) == 2
     done = call("ramp", tmp_path / "ramps.csv", "--reference", "30 degC", "--synthetic", "-o", tmp_path / "out")
     assert done.exit_code == 0, done.output
+    assert "Peak of tan δ at 1 Hz" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     for name in ("rubber.json", "master_curve.csv", "report.html", "figures/ramps.svg"):
         assert (tmp_path / "out" / name).stat().st_size > 0, name
     assert call("ramp", tmp_path / "ramps.csv", "--assumed-shift", "universal").exit_code == 2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -35,6 +36,7 @@ from viscofric.report.texts.numbers import (
     unbroken,
     with_error,
 )
+from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -189,7 +191,7 @@ class KeyNumber(NamedTuple):
 
 def key_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     """Return the most important numbers of the results."""
-    found = [*_friction_numbers(tree), *_shift_numbers(tree), *_modulus_numbers(tree)]
+    found = [*_friction_numbers(tree), *_shift_numbers(tree), *_ramp_numbers(tree), *_modulus_numbers(tree)]
     for rubber, branch in rubbers(tree)[:_MOST_RUBBERS]:
         found += [item._replace(name=f"{item.name}, {rubber}") for item in _modulus_numbers(branch)]
     return found
@@ -245,6 +247,21 @@ def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         KeyNumber("WLF constant C₁", with_error(C1, error1), f"about {degrees(reference)}; {used}"),
         KeyNumber("WLF constant C₂", f"{with_error(C2, error2)} K", f"about {degrees(reference)}"),
     ]
+
+
+def _ramp_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+    """Return the law of temperature ramps, and the glass transition at each frequency."""
+    ramps = group(tree, "ramps")
+    if ramps is None:
+        return []
+    assumed = str(ramps.attrs.get("assumption", ""))
+    found = [KeyNumber("Shift law", str(ramps.attrs.get("law", "")), "assumed, not measured" if assumed else "")]
+    for peak in json.loads(str(ramps.attrs.get("glass_transitions", "[]"))):
+        if peak["by"] == "tan delta":
+            name = f"Peak of tan δ at {short(peak['angular_frequency'] / (2.0 * math.pi))} Hz"
+            value = with_error(peak["temperature"] - CELSIUS_ZERO, peak["standard_error"])
+            found.append(KeyNumber(name, f"{value} °C", "glass transition"))
+    return found
 
 
 def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
