@@ -19,6 +19,8 @@ from viscofric.literature.reference import Reference
 from viscofric.literature.references import PAPER, REFERENCES
 from viscofric.rheology.catalogue import catalogue_material
 from viscofric.rheology.material import Material
+from viscofric.rheology.payne.kraus import KrausLaw, PayneFit
+from viscofric.rheology.ramps.result import RampSuperposition
 from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, ShiftLaw, WLFArrhenius
 from viscofric.rheology.spectra.modulus_table import ModulusTable
@@ -116,6 +118,29 @@ def _of_laws(laws: LawComparison) -> Basis:
 def compared_laws() -> Basis:
     """Yield the references of the choice of a shift law."""
     yield from _for("choice of the law", "akaike1974")
+
+
+@basis.register
+def _of_ramps(fit: RampSuperposition) -> Basis:
+    yield from basis(fit.shift)
+    yield from superposed_ramps(assumed=bool(fit.assumption))
+
+
+def superposed_ramps(*, assumed: bool) -> Basis:
+    """Yield the references of the superposition of temperature ramps."""
+    if not assumed:
+        yield from _for("constants of the law and common curves sought together", "golub1973")
+        yield from _for("how smooth the common curves are", "wood2011")
+
+
+@basis.register
+def _of_kraus(law: KrausLaw) -> Basis:
+    yield from _for("dependence of the moduli on the strain amplitude", "kraus1984")
+
+
+@basis.register
+def _of_payne(fit: PayneFit) -> Basis:
+    yield from basis(fit.law)
 
 
 @basis.register
@@ -296,9 +321,12 @@ def _study_rubber(table: dict[str, Any], found: xarray.DataTree) -> Basis:
     steps = "step_master_curve" in found.children
     if "superposition" in found.children:
         yield from superposed_steps() if steps else superposed_sweeps()
+    ramps = "ramps" in found.children
+    if ramps:
+        yield from superposed_ramps(assumed="assumed_shift" in table)
     fitted = steps or "master_curve" in found.children
     yield from modes(table.get("spectrum", "non-negative") if fitted else "")
-    if "shift_law" in found.children and table.get("shift", "measured") != "measured":
+    if "shift_law" in found.children and (ramps or table.get("shift", "measured") != "measured"):
         used = found["shift_law"].attrs["law"]
         yield from shifted_by(next(law for law in _LAWS if law.title == used))
     if table.get("shift") == "best":

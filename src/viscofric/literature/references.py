@@ -178,6 +178,15 @@ _TABLE = (
         doi="10.1017/CBO9781139171731",
     ),
     Reference(
+        "kraus1984",
+        ("G. Kraus",),
+        1984,
+        "Mechanical losses in carbon-black-filled rubbers",
+        "J. Appl. Polym. Sci. Appl. Polym. Symp.",
+        "39",
+        "75--92",
+    ),
+    Reference(
         "lawson1974",
         ("C. L. Lawson", "R. J. Hanson"),
         1974,
