@@ -253,15 +253,15 @@ class TractionRuns:
     def _in_steps(self, name: str, wanted: int | Sequence[int]) -> Mask:
         """Return which readings belong to some steps, which must exist."""
         numbers = np.atleast_1d(whole_numbers(wanted, name))
-        asked = Remedy(f"{name} = {brief(wanted)}")
+        argument = Remedy(f"{name} = {brief(wanted)}")
         if name == "except_steps":
-            asked = setting("measurement.except_steps", "Steps to leave out", ",".join(map(str, numbers)))
+            argument = setting("measurement.except_steps", "Steps to leave out", ",".join(map(str, numbers)))
         if self.step is None:
-            raise InputError("", code="no-steps", remedy=asked + ": these traction runs have no numbers of steps.")
+            raise InputError("", code="no-steps", remedy=argument + ": these traction runs have no numbers of steps.")
         known = np.isin(numbers, self.step)
         if not np.all(known):
             there = f": there is no step {numbers[~known][0]}; steps go from {self.step.min()} to {self.step.max()}."
-            raise InputError("", code="no-such-step", remedy=asked + there)
+            raise InputError("", code="no-such-step", remedy=argument + there)
         return np.isin(self.step, numbers)
 
 

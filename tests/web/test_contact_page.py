@@ -31,8 +31,8 @@ def finished(tab: Tab) -> None:
     tab.until("document.querySelector('.live-status').textContent === 'converged'", 60.0)
 
 
-def asked(tab: Tab) -> int:
-    """Return how many contacts were asked for."""
+def requested(tab: Tab) -> int:
+    """Return the number of contacts requested."""
     return sum(path == "/api/jobs/contact" for path, _ in tab.requested)
 
 
@@ -94,10 +94,10 @@ def _look_and_move(tab: Tab) -> None:
     assert tab.findings() == []
     tab.screenshot("contact-1400-light")
 
-    before = asked(tab)
+    before = requested(tab)
     drag(tab, "speed", *range(100, 300, 4))
     finished(tab)
-    assert 1 <= asked(tab) - before < 40  # 50 places
+    assert 1 <= requested(tab) - before < 40  # 50 places
     tab.until(f"Math.abs(Math.log10({CONTACT}.speed) - (-4 + 296 / 400 * 6)) < 0.01")
     tab.page.fill(".live-number >> nth=1", "45")
     tab.page.press(".live-number >> nth=1", "Enter")
@@ -112,26 +112,26 @@ def _look_and_move(tab: Tab) -> None:
 
 _FOLLOW = """async (given) => {
   const { follow } = await import("/static/js/live.js");
-  const asked = [], shown = [], failures = [], sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
-  const ask = async (position, stage, signal) => {
-    asked.push([stage, position]);
+  const requested = [], shown = [], failures = [], sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  const request = async (position, stage, signal) => {
+    requested.push([stage, position]);
     await sleep(stage === "coarse" ? 40 : 150);
     if (signal.aborted) throw new DOMException("gone", "AbortError");
     if (position === 13) throw new Error("unlucky");
     return { stage: stage === "coarse" && position === 7 ? "sharp" : stage, position };
   };
   const show = ({ stage }, position) => shown.push([stage, position]);
-  const live = follow({ ask, show, fail: (error) => failures.push(error.message), rest: 60 });
+  const live = follow({ request, show, fail: (error) => failures.push(error.message), rest: 60 });
   for (const [position, wait] of given) {
     live.want(position);
     await sleep(wait);
   }
-  return { asked, shown, failures };
+  return { requested, shown, failures };
 }"""
 
 
 def followed(tab: Tab, *positions: tuple[int, int]) -> Any:
-    """Want positions, with a rest (ms) after each; return what was asked for and shown."""
+    """Want positions, with a rest (ms) after each; return what was requested and shown."""
     return tab.page.evaluate(_FOLLOW, [list(pair) for pair in positions])
 
 
@@ -142,11 +142,11 @@ def test_of_positions_that_come_too_fast_the_last_one_counts(browser: Browser, s
 
 def _follow_all(tab: Tab) -> None:
     found = followed(tab, (1, 5), (2, 5), (3, 5), (4, 400))
-    assert found["asked"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
+    assert found["requested"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
     assert found["shown"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
     # Sharpening that is overtaken is given up; what is sharp at once is not sharpened.
     found = followed(tab, (5, 160), (7, 200))
-    assert found["asked"] == [["coarse", 5], ["sharp", 5], ["coarse", 7]]
+    assert found["requested"] == [["coarse", 5], ["sharp", 5], ["coarse", 7]]
     assert found["shown"] == [["coarse", 5], ["sharp", 7]]
     # An error is told where it is the newest position's, and does not stop the slider.
     found = followed(tab, (13, 5), (1, 300))

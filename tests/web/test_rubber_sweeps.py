@@ -45,7 +45,7 @@ def test_synthetic_example_is_reported_as_the_reader_takes_it(workspace: Context
     assert found["files"][0]["deformation"] == "tension"
     assert found["files"][0]["readings"] == sum(len(one) for one in sweeps.isotherms) == 442
     assert found["reference"] == 303.15
-    assert found["asks"] == []
+    assert found["left_open"] == []
     assert found["flagged"] == []
     for reported, read in zip(found["isotherms"], sweeps.isotherms, strict=True):
         # numbers are sent with six digits
@@ -69,9 +69,9 @@ def test_left_out_readings_and_outliers_are_flagged_with_their_place(workspace: 
 
 def test_tension_or_shear_is_asked_where_no_file_says_it(workspace: Context) -> None:
     (workspace.files / "plain.csv").write_text(table("T (degC),f (Hz),storage modulus (MPa),loss modulus (MPa)"))
-    assert done("sweeps", workspace, {"dma": "plain.csv"})["asks"] == ["deformation"]
+    assert done("sweeps", workspace, {"dma": "plain.csv"})["left_open"] == ["deformation"]
     answered = done("sweeps", workspace, {"dma": "plain.csv", "deformation": "shear"})
-    assert answered["asks"] == ["deformation"]
+    assert answered["left_open"] == ["deformation"]
     assert answered["deformation"] == "shear"
 
 
@@ -81,7 +81,7 @@ def test_unit_that_is_missing_is_asked_at_its_field(workspace: Context) -> None:
         done("sweeps", workspace, {"dma": "bare.csv"})
     assert (caught.value.code, caught.value.field) == ("no-unit", "material.modulus_unit")
     found = done("sweeps", workspace, {"dma": "bare.csv", "modulus_unit": "MPa"})
-    assert found["asks"] == ["modulus_unit"]
+    assert found["left_open"] == ["modulus_unit"]
 
 
 def test_temperature_that_is_missing_is_asked_at_its_field(workspace: Context) -> None:
@@ -90,7 +90,7 @@ def test_temperature_that_is_missing_is_asked_at_its_field(workspace: Context) -
         done("sweeps", workspace, {"dma": "sweep.csv"})
     assert (caught.value.code, caught.value.field) == ("no-temperature", "material.temperature")
     found = done("sweeps", workspace, {"dma": "sweep.csv", "temperature": "20 degC"})
-    assert found["asks"] == ["temperature"]
+    assert found["left_open"] == ["temperature"]
     assert found["isotherms"][0]["temperature"] == 293.15
 
 
@@ -130,7 +130,7 @@ def test_ready_rubber_and_master_curve_are_taken_too(workspace: Context) -> None
 
 
 @pytest.mark.parametrize(
-    ("pattern", "taken_for", "deformation", "isotherms", "asks"),
+    ("pattern", "taken_for", "deformation", "isotherms", "left_open"),
     [
         ("dma/acrylic_468mp.csv", "delimited text", "tension", 20, ["deformation"]),
         ("instruments/trios/multi_technique_LIMS.txt", "TRIOS", "shear", 1, []),
@@ -140,18 +140,24 @@ def test_ready_rubber_and_master_curve_are_taken_too(workspace: Context) -> None
     ],
 )
 def test_files_of_instruments_are_recognised(
-    real_data: Path, tmp_path: Path, pattern: str, taken_for: str, deformation: str, isotherms: int, asks: list[str]
+    real_data: Path,
+    tmp_path: Path,
+    pattern: str,
+    taken_for: str,
+    deformation: str,
+    isotherms: int,
+    left_open: list[str],
 ) -> None:
     files = sorted(real_data.glob(pattern))
     assert files
     material: dict[str, Any] = {"dma": [file.name for file in files]}
-    if "modulus_unit" in asks:
+    if "modulus_unit" in left_open:
         material["modulus_unit"] = "MPa"
     found = done("sweeps", workspace_with(tmp_path, *files), material)
     assert taken_for in found["format"]
     assert found["deformation"] == deformation
     assert len(found["isotherms"]) == isotherms
-    assert found["asks"] == asks
+    assert found["left_open"] == left_open
     assert [one["name"] for one in found["files"]] == material["dma"]
 
 

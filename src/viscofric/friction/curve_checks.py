@@ -43,17 +43,17 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
         return np.maximum(curves.viscoelastic_freedom, 1.0), ()
     freedom = np.where(curves.replicates > 1, curves.replicates - 1.0, np.inf)
     relative = curves.viscoelastic_error / np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny)
-    asked = np.isinf(freedom) & np.isfinite(relative) & (relative > 0.0)
+    wanted = np.isinf(freedom) & np.isfinite(relative) & (relative > 0.0)
     squares, count = 0.0, 0
-    for temperature in np.unique(curves.temperature[asked]):
-        rows = np.flatnonzero(asked & (curves.temperature == temperature))
+    for temperature in np.unique(curves.temperature[wanted]):
+        rows = np.flatnonzero(wanted & (curves.temperature == temperature))
         bent = np.diff(np.log(relative[rows[np.argsort(curves.speed[rows], kind="stable")]] ** 2), 2)
         squares, count = squares + float(bent @ bent), count + bent.size
-    if count < FEWEST_DIFFERENCES or np.median(relative[asked]) < SOLVED:
+    if count < FEWEST_DIFFERENCES or np.median(relative[wanted]) < SOLVED:
         return freedom, ()
     rough = squares / (6.0 * count)  # 1 + 4 + 1 variances in each
     # Without a trend, the scatter of all is a better estimate than that of neighbours.
-    everything = float(np.var(np.log(relative[asked] ** 2), ddof=1))
+    everything = float(np.var(np.log(relative[wanted] ** 2), ddof=1))
     seen = freedom_of_scatter(everything if everything < COURSE * rough else rough)
     if seen > MANY:
         return freedom, ()
@@ -63,7 +63,7 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
         f"{seen + 1.0:.0f} replicates, a number that was not given: it is assumed, and each error is averaged with its "
         "neighbours; give the replicates, or degrees of freedom.",
     )
-    return np.where(asked, seen, freedom), (note,)
+    return np.where(wanted, seen, freedom), (note,)
 
 
 def freedom_of_scatter(variance: float) -> float:

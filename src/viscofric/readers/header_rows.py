@@ -33,7 +33,7 @@ def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
     """Return the quantities that the cells of one row name."""
     if not any(cell[:1].isalpha() or cell[:1] in _BEFORE_LETTERS for cell in cells):
         return set()
-    if words.asked:
+    if words.user_columns:
         return {column.quantity for column in words.columns(cells)} - {""}
     return {words.quantity(heading(cell).name) for cell in cells if 0 < len(cell) < _LONGEST_NAME} - {""}
 
@@ -44,7 +44,7 @@ def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
     It is the first row with all headings that the user names; without these the first that names what is needed;
     without such a row the first that names two quantities.
     """
-    if words.asked:
+    if words.user_columns:
         return _header_with(rows, words)
     second_best = None
     for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
@@ -57,14 +57,14 @@ def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
 
 
 def _header_with(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
-    asked = words.asked.values()
-    if not all(map(is_place, asked)):
+    names = words.user_columns.values()
+    if not all(map(is_place, names)):
         for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
-            if all(place_of(said, cells)[0] is not None for said in asked):
+            if all(place_of(said, cells)[0] is not None for said in names):
                 return Found(list(rows), place)
         return None
     first = _first_numbers(rows)
-    if first is None or any(place_of(said, rows[first][1])[0] is None for said in asked):
+    if first is None or any(place_of(said, rows[first][1])[0] is None for said in names):
         return None
     top = _top_of_header(rows, first)
     if top is not None:

@@ -71,7 +71,7 @@ class Vocabulary:
     key : str
         Path of the run file's key with the user's own headings.
     offered : tuple of (str, str)
-        Quantities that a form asks for, each with an example of its unit.
+        Quantities that a form offers, each with an example of its unit.
     """
 
     kind: str
@@ -80,7 +80,7 @@ class Vocabulary:
     example: str = ""
     key: str = "material.columns"
     offered: tuple[tuple[str, str], ...] = ()
-    asked: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
+    user_columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
 
     @cached_property
     def _meaning(self) -> dict[str, str]:
@@ -104,7 +104,7 @@ class Vocabulary:
 
     def checked(self, columns: Mapping[Any, Any] | None) -> dict[str, str]:
         """Return the user's own headings by quantity, which may be written with underscores, or raise `InputError`."""
-        asked: dict[str, str] = {}
+        named: dict[str, str] = {}
         if columns is not None and not isinstance(columns, Mapping):
             raise InputError(
                 f"columns = {brief(columns)}: must map quantities to headings, such as {{'frequency': 'f in Hz'}}.",
@@ -121,12 +121,12 @@ class Vocabulary:
             if not isinstance(said, str) or not said.strip():
                 problem = f"columns: {what} = {brief(said)}: must be a heading as text."
                 raise InputError(problem, code="wrong-columns", field=self.key)
-            asked[what] = " ".join(said.split())
-        return asked
+            named[what] = " ".join(said.split())
+        return named
 
-    def asking(self, columns: Mapping[str, str]) -> Vocabulary:
+    def with_columns(self, columns: Mapping[str, str]) -> Vocabulary:
         """Return the vocabulary with the user's own headings, as `checked` returns them."""
-        return replace(self, asked=dict(columns))
+        return replace(self, user_columns=dict(columns))
 
     def header_values(self, columns: Sequence[Column], missing: Iterable[str]) -> dict[str, Any]:
         """Return the values of an error about a header, from which a form can ask for the columns.
@@ -148,8 +148,8 @@ class Vocabulary:
         for cell in cells:
             column = heading(cell)
             what = self.quantity(column.name)
-            found.append(replace(column, quantity="" if what in self.asked else what))
-        for what, said in self.asked.items():
+            found.append(replace(column, quantity="" if what in self.user_columns else what))
+        for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:
                 column = found[place]

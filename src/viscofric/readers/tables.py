@@ -49,7 +49,7 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
         If no row is a header (code ``"missing-columns"``, with the headings found in its values), a named heading
         (``"no-column"``) or sheet (``"no-sheet"``) is not there, or a row differs from its header in length.
     """
-    words = vocabulary.asking(source.columns)
+    words = vocabulary.with_columns(source.columns)
     if is_workbook(source):
         return _of_workbook(source, words)
     if source.sheet:
@@ -75,7 +75,7 @@ def holds_table(source: Source, vocabulary: Vocabulary) -> bool:
 
 def no_header(source: Source, vocabulary: Vocabulary) -> DataFileError:
     """Return the error of a file in which no row is a header; its values list the headings of what looks like one."""
-    words = vocabulary.asking(source.columns)
+    words = vocabulary.with_columns(source.columns)
     if is_workbook(source):
         return _no_header_in_workbook(source, words)
     candidates = [guessed(_split_lines(source, delimiter)) for delimiter in (*_DELIMITERS, _BLANKS)]
@@ -112,8 +112,8 @@ def _of_workbook(source: Source, words: Vocabulary) -> dict[str, Table]:
 
 def _no_header_in_workbook(source: Source, words: Vocabulary) -> DataFileError:
     known = sheets(source)
-    asked = [source.sheet] if source.sheet in known else [*known]
-    headings = {name: guessed(_numbered(f"{source.path}, sheet {name!r}", known[name])) for name in asked}
+    read = [source.sheet] if source.sheet in known else [*known]
+    headings = {name: guessed(_numbered(f"{source.path}, sheet {name!r}", known[name])) for name in read}
     return _not_understood(source.path, words, max(headings.values(), key=len, default=[]), [*known])
 
 
@@ -126,7 +126,7 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
     among = f" in any of its sheets ({', '.join(map(repr, sheets))})" if sheets else ""
     if sheets:
         values["sheets"] = list(sheets)
-    absent = [said for said in words.asked.values() if place_of(said, headings)[0] is None]
+    absent = [said for said in words.user_columns.values() if place_of(said, headings)[0] is None]
     if absent:
         problem = f"no row has a column {' and '.join(map(repr, absent))}{among}; this file has {shown}."
         return DataFileError(path, Note("no-column", problem, values=values))

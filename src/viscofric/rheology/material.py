@@ -27,7 +27,7 @@ Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 class Material:
     """A linear viscoelastic, incompressible or nearly incompressible rubber.
 
-    E(ω, T) = b(T) E(α(T) ω, reference) (paper, Eq. 4, with a vertical shift); the Poisson ratio is constant.
+    E(ω, T) = b(T) E(α(T) ω, reference) (Eq. 4 of [1]_, with a vertical shift); the Poisson ratio is constant.
 
     Parameters
     ----------
@@ -50,6 +50,10 @@ class Material:
     InputError
         If the Poisson ratio is out of range, spectrum or shift are not what they should be, or there is a vertical
         shift without a shift.
+
+    References
+    ----------
+    .. [1] C. Putignano, T. Reddyhoff, D. Dini, Tribol. Int. 100 (2016) 338–343.
 
     Examples
     --------
@@ -139,7 +143,7 @@ class Material:
         Raises
         ------
         InputError
-            If a temperature is asked of a material without a shift, or one where a shift has no meaning.
+            If a temperature is given for a material without a shift, or one where a shift has no meaning.
         """
         return self._moved(self.spectrum, temperature)  # type: ignore[type-var]
 

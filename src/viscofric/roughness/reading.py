@@ -10,7 +10,7 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path
 from viscofric.notes import Note
 from viscofric.readers.topography.read import read_scan
-from viscofric.readers.topography.scan import Asked
+from viscofric.readers.topography.scan import ScanOptions
 from viscofric.readers.topography.tables import checked_heights
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, to_si, two_lengths
@@ -80,7 +80,7 @@ def read_topography(
     """
     steps = None if spacing is None else two_lengths(spacing)
     gap = None if missing is None else to_si(missing, "dimensionless", "missing")
-    scan = read_scan(path, Asked(unit, steps, channel, gap, lines))
+    scan = read_scan(path, ScanOptions(unit, steps, channel, gap, lines))
     heights = checked_heights(scan.heights, path)
     notes = list(scan.notes)
     if (extent := float(np.nanmax(heights, initial=-np.inf) - np.nanmin(heights, initial=np.inf))) > _LARGE_EXTENT:

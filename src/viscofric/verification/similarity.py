@@ -165,7 +165,7 @@ CHECKS = (
         "shifted-friction",
         "Temperature, speed and load shifted",
         _GROUP,
-        "μ(v, T, F) = μ(αv, T0, F/b), the paper's Eq. 10 with a vertical shift",
+        "μ(v, T, F) = μ(αv, T0, F/b): C. Putignano et al., Tribol. Int. 100 (2016) 338, Eq. 10, with a vertical shift",
         "The same numbers by another way: round-off and the solver's tolerance.",
         _shift,
     ),

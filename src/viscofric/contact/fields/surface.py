@@ -114,7 +114,11 @@ def surface_displacement(
 
     Notes
     -----
-    The convolution of the paper's Eq. 8, with the influence coefficients that the solver uses.
+    The convolution of Eq. 8 of [1]_, with the influence coefficients that the solver uses.
+
+    References
+    ----------
+    .. [1] C. Putignano, T. Reddyhoff, D. Dini, Tribol. Int. 100 (2016) 338–343.
 
     Examples
     --------

@@ -1,9 +1,9 @@
-"""Influence coefficients of the free viscoelastic solid under steady motion (paper, Eq. 8).
+"""Influence coefficients of the free viscoelastic solid under steady motion.
 
 The displacement that a uniform pressure on one rectangular cell causes at the centre of another is the cell's potential
 L, for a half-space Love's closed form of 1/r over a rectangle, convolved along the direction of motion with the fading
-memory of each retardation mode.  In units of the cell's length along the motion, one mode of memory length
-``λ = v τ / h`` contributes ::
+memory of each retardation mode (C. Putignano, T. Reddyhoff, D. Dini, Tribol. Int. 100 (2016) 338,
+Eq. 8).  In units of the cell's length along the motion, one mode of memory length ``λ = v τ / h`` contributes ::
 
     K(x, y; λ) = ∫_0^∞ e^(−z) L(x + λ z, y) dz = ∫_0^∞ ε e^(−ε s) L(x + s, y) ds,      ε = 1/λ.
 

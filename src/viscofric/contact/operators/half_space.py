@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
 @dataclass
 class HalfSpaceOperator(ConvolutionOperator):
-    """Displacement of the free half-space under pressures on rectangular cells (paper Eqs. 7 and 8)."""
+    """Displacement of the free half-space under pressures on rectangular cells.
+
+    C. Putignano, T. Reddyhoff, D. Dini, Tribol. Int. 100 (2016) 338, Eqs. 7 and 8.
+    """
 
     unit = 1.0 / np.pi
 

@@ -272,7 +272,7 @@ def _assemble(
         error = max(error, _UNSURE_AT_EDGES * _load_at_edges(pressure) * abs(by_energy))
     floor = FRICTION_FLOOR * mean_pressure * 2.0 * math.pi * units.depth / max(surface.period)
     mean_gap = float(gap.mean())
-    asked, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
+    wanted, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
     solution = PeriodicSolution(
         speed=velocity,
         direction=toward,
@@ -292,7 +292,7 @@ def _assemble(
         gap=gap,
         diagnostics=PeriodicDiagnostics(
             complementarity=result.complementarity,
-            load=abs(found / asked - 1.0),  # type: ignore[operator]
+            load=abs(found / wanted - 1.0),  # type: ignore[operator]
             linear=result.linear,
             energy=(by_pressure - by_energy) / max(abs(by_pressure), abs(by_energy), floor),
             friction_error=error / mean_pressure,

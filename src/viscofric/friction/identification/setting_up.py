@@ -79,9 +79,10 @@ def shifts_of(
     if len(points.temperatures) == 1:
         only = float(points.temperatures[0])
         if reference is not None and abs(reference - only) > SAME_TEMPERATURE:
-            asked = f"reference = {shown_celsius(reference)} °C"
+            wanted = f"reference = {shown_celsius(reference)} °C"
             raise InputError(
-                f"{asked} was not measured, only {shown_celsius(only)} °C was; give shift=.", code="no-such-temperature"
+                f"{wanted} was not measured, only {shown_celsius(only)} °C was; give shift=.",
+                code="no-such-temperature",
             )
         return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]))
     # Points are at one load already, where contacts at different loads are similar.
@@ -103,16 +104,16 @@ def shifts_of(
 def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputError:
     """Return an error on a reference without α, because it was not measured or its curve does not overlap."""
     shown = ", ".join(shown_celsius(float(one)) for one in found.temperatures)
-    asked = f"{shown_celsius(reference)} °C"
+    wanted = f"{shown_celsius(reference)} °C"
     if np.abs(points.temperatures - reference).min() > SAME_TEMPERATURE:
         return InputError(
-            f"reference = {asked} was not measured, and α(T) is to be found; choose one of {shown} °C, and describe "
+            f"reference = {wanted} was not measured, and α(T) is to be found; choose one of {shown} °C, and describe "
             "the material at another with its at_reference().",
             code="no-such-temperature",
         )
     why = "; ".join(f"{note[0].lower()}{note[1:-1]}" for note in found.notes if codes([note]) == {LEFT_OUT})
     return InputError(
-        f"reference = {asked}: α(T) is to be found, and {why}; choose one of {shown} °C, give "
+        f"reference = {wanted}: α(T) is to be found, and {why}; choose one of {shown} °C, give "
         "shift=, or measure there over more speeds.",
         code="no-such-temperature",
     )

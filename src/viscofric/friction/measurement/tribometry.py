@@ -83,7 +83,7 @@ def separate(
 
         F = O + F_N [μ_c sgn(u_disc − u_ball) + μ_v sgn(u_disc)],
 
-    which is the paper's Eqs. 9a–d whatever the names of the configurations.  It is fitted by least squares
+    that is Eqs. 9a–d of [1]_, whatever the names of the configurations.  It is fitted by least squares
     with each reading's own measured load F_N.  Where every replicate of a condition has all configurations
     that the condition has, each replicate is fitted by itself: coefficients are means over the replicates,
     scatter their standard deviation s, standard errors s/√n with n − 1 degrees of freedom.  Otherwise all
@@ -130,6 +130,10 @@ def separate(
     one at that speed, and its change between the disc's speeds, from a polynomial through the nearest speeds of the
     test, is removed.  The remaining uncertainty, for a curve as steep and sharp as that of a single retardation time,
     is in the standard errors, which are wide for large slips and few speeds.
+
+    References
+    ----------
+    .. [1] C. Putignano, T. Reddyhoff, D. Dini, Tribol. Int. 100 (2016) 338–343.
 
     Examples
     --------

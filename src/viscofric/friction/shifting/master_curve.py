@@ -244,7 +244,7 @@ class FrictionMasterCurve:
         InputError
             As in a call, but not for reduced speeds without points and temperatures without α.
         """
-        velocity, kelvin, single = self._asked(speed, temperature)
+        velocity, kelvin, single = self._arguments(speed, temperature)
         relative = self._relative_load(load)
         inside = np.full(velocity.shape, False)
         for one in np.unique(kelvin):
@@ -256,7 +256,7 @@ class FrictionMasterCurve:
             inside[rows] = self._smoothed.covers(decades)
         return bool(inside) if single else inside
 
-    def _asked(self, speed: Quantities, temperature: Quantities | None) -> tuple[Array, Array, bool]:
+    def _arguments(self, speed: Quantities, temperature: Quantities | None) -> tuple[Array, Array, bool]:
         """Return speeds and temperatures of one shape, and whether both are single."""
         velocity, single_speed = _values(speed, "m/s", "speed")
         kelvin, single_temperature = (
@@ -281,14 +281,14 @@ class FrictionMasterCurve:
 
     def _relative_load(self, load: Quantity | None) -> float:
         unit = self.curves.load_unit
-        asked = self.load if load is None else positive(load, unit, "load")
-        if self.load_rule is None and not abs(asked - self.load) <= SAME_LOAD * self.load:
+        wanted = self.load if load is None else positive(load, unit, "load")
+        if self.load_rule is None and not abs(wanted - self.load) <= SAME_LOAD * self.load:
             raise InputError(
-                f"load = {asked:.3g} {unit}: the master curve holds at {self.load:.3g} {unit}; friction at other loads "
-                "needs the indenter: shift_friction(…, indenter=…).",
+                f"load = {wanted:.3g} {unit}: the master curve holds at {self.load:.3g} {unit}; friction at other "
+                "loads needs the indenter: shift_friction(…, indenter=…).",
                 code="indenter-needed",
             )
-        return asked / self.load
+        return wanted / self.load
 
     def _reduced(self, velocity: Array, kelvin: Array, relative: float) -> tuple[Array, Array]:
         """Return log10 of the reduced speed, and the factor of friction on the curve."""
@@ -301,7 +301,7 @@ class FrictionMasterCurve:
         return decades - np.log10(speed_factor.reshape(shape)), np.ones(decades.shape) * friction_factor.reshape(shape)
 
     def _read(self, speed: Quantities, temperature: Quantities | None, load: Quantity | None) -> tuple[Any, Any]:
-        velocity, kelvin, single = self._asked(speed, temperature)
+        velocity, kelvin, single = self._arguments(speed, temperature)
         decades, factor = self._reduced(velocity, kelvin, self._relative_load(load))
         covered = self._smoothed.covers(decades)
         if not np.all(covered):

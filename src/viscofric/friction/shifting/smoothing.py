@@ -48,13 +48,13 @@ class SmoothedPoints:
         value, error = np.empty(decades.shape), np.empty(decades.shape)
         weights = _weights(self.error)
         for low, high in self.stretches:
-            asked = (decades >= low - _ROUNDING) & (decades <= high + _ROUNDING)
+            inside = (decades >= low - _ROUNDING) & (decades <= high + _ROUNDING)
             rows = (self.decades >= low) & (self.decades <= high)
-            places = np.clip(decades[asked], low, high)
+            places = np.clip(decades[inside], low, high)
             matrix = smoothing_weights(self.decades[rows], weights[rows], places, BANDWIDTH)
-            value[asked] = matrix @ self.friction[rows]
+            value[inside] = matrix @ self.friction[rows]
             variance = np.where(matrix == 0.0, 0.0, self.error[rows] ** 2)
-            error[asked] = np.sqrt(np.sum(matrix**2 * variance, axis=1))
+            error[inside] = np.sqrt(np.sum(matrix**2 * variance, axis=1))
         return value, error
 
 

@@ -129,15 +129,15 @@ def _own_notes(readings: Sequence[Readings]) -> list[Note]:
     return [note.at("All files" if len(some) == len(readings) else _names(some)) for note, some in shared.items()]
 
 
-def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tuple[Deformation, list[Note]]:
+def _deformation(readings: Sequence[Readings], given: Deformation | None) -> tuple[Deformation, list[Note]]:
     """Decide between shear and the deformations that give E: by the files, else by the caller."""
-    if asked is not None:
-        check_choice(asked, "deformation", *DEFORMATIONS)
+    if given is not None:
+        check_choice(given, "deformation", *DEFORMATIONS)
     said = [one for one in readings if one.deformation is not None]
     if not said:
-        if asked is not None:
-            note = f"The moduli were read as measured in {asked}, as requested; the file does not state it."
-            return asked, [Note("deformation-given", note), *_assumed(asked)]
+        if given is not None:
+            note = f"The moduli were read as measured in {given}, as requested; the file does not state it."
+            return given, [Note("deformation-given", note), *_assumed(given)]
         note = Note(
             "deformation-unknown",
             "The file does not state whether its moduli are tensile or shear; shown as tensile until this is known.",
@@ -152,15 +152,15 @@ def _deformation(readings: Sequence[Readings], asked: Deformation | None) -> tup
         other_by = f" ({other.said_by})" if other.said_by else ""
         problem = f"states {other.deformation}{other_by}, but {first.source} states {kind}{by}; read them separately."
         raise DataFileError(other.source, problem, code="deformation-contradicts")
-    if asked is not None and (asked == "shear") != (kind == "shear"):
+    if given is not None and (given == "shear") != (kind == "shear"):
         raise DataFileError(
             first.source,
-            f"the header states {kind}{by}, but deformation={asked!r} was requested.",
+            f"the header states {kind}{by}, but deformation={given!r} was requested.",
             code="deformation-contradicts",
         )
     notes = [Note("deformation", f"The file's header states that the moduli were measured in {kind}{by}.")]
-    if asked not in (None, kind):
-        kind = asked
+    if given not in (None, kind):
+        kind = given
         notes = [Note("deformation-given", f"The file states moduli E{by}; measured in {kind}, as requested.")]
     notes += _assumed(kind)
     silent = [one for one in readings if one.deformation is None]

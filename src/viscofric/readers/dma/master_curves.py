@@ -179,15 +179,15 @@ def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> 
             raise DataFileError(path, problem, int(lines[bad[0]]), code="not-positive")
 
 
-def _kind(source: Source, said: Deformation | None, asked: Deformation | None) -> Deformation:
+def _kind(source: Source, said: Deformation | None, given: Deformation | None) -> Deformation:
     """Return the kind of the moduli; nothing is assumed."""
-    if said is not None and asked is not None and (said == "shear") != (asked == "shear"):
+    if said is not None and given is not None and (said == "shear") != (given == "shear"):
         raise DataFileError(
             source.path,
-            f"the file states {said}, but deformation={asked!r} was requested.",
+            f"the file states {said}, but deformation={given!r} was requested.",
             code="deformation-contradicts",
         )
-    kind = said or asked
+    kind = said or given
     if kind is None:
         raise DataFileError(source.path, NOT_SAID)
     return kind

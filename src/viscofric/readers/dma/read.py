@@ -212,9 +212,9 @@ def read_files(
     given = temperatures_of(temperature, len(files))
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
-    asked, one_sheet = DMA.checked(columns), checked_sheet(sheet)
+    named, one_sheet = DMA.checked(columns), checked_sheet(sheet)
     sources = [
-        Source(path, bytes_of(path), kelvin, modulus_unit or "", asked, one_sheet, test)
+        Source(path, bytes_of(path), kelvin, modulus_unit or "", named, one_sheet, test)
         for path, kelvin in zip(files, given, strict=True)
     ]
     insist_on_different(sources)

@@ -146,8 +146,8 @@ def read_mtm(
     for place, path in enumerate(files):
         if any(Path(path).resolve() == Path(other).resolve() for other in files[:place] if "\0" not in path + other):
             raise DataFileError(path, "is given twice; name each file once.", code="given-twice")
-    asked, one_sheet = delimited.TRACTION.checked(columns), checked_sheet(sheet)
-    parts = [read_file(Source(path, read_bytes(path), columns=asked, sheet=one_sheet), thermometer) for path in files]
+    named, one_sheet = delimited.TRACTION.checked(columns), checked_sheet(sheet)
+    parts = [read_file(Source(path, read_bytes(path), columns=named, sheet=one_sheet), thermometer) for path in files]
     for place, part in enumerate(parts):
         for other in parts[:place]:
             if part.same_as(other):

@@ -127,9 +127,9 @@ def read_step_tests(
         check_choice(deformation, "deformation", *DEFORMATIONS)
     files = files_of(paths, "read_step_tests")
     given = temperatures_of(temperature, len(files))
-    asked, one_sheet = STEPS.checked(columns), checked_sheet(sheet)
+    named, one_sheet = STEPS.checked(columns), checked_sheet(sheet)
     sources = [
-        Source(path, bytes_of(path), kelvin, response_unit or "", asked, one_sheet)
+        Source(path, bytes_of(path), kelvin, response_unit or "", named, one_sheet)
         for path, kelvin in zip(files, given, strict=True)
     ]
     insist_on_different(sources)

@@ -18,7 +18,7 @@ from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
 from viscofric.processes import LimitedProcess
 from viscofric.readers.source import Source
-from viscofric.readers.topography.scan import Asked, Scan, name_of
+from viscofric.readers.topography.scan import Scan, ScanOptions, name_of
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.units import conversion
 
@@ -42,7 +42,7 @@ _TESTER_SHEETS = ("DATA", "Certificate")
 _MOST_CELLS = 500_000
 
 
-def read_with_package(source: Source, asked: Asked) -> Scan:
+def read_with_package(source: Source, options: ScanOptions) -> Scan:
     """Read a file in any format that SurfaceTopography recognises by its content, in a process with limits.
 
     Raises
@@ -58,7 +58,7 @@ def read_with_package(source: Source, asked: Asked) -> Scan:
         raise DataFileError(source.path, _BY_PACKAGE.format(why=why), code="package-missing")
     try:
         _APART.call(load_package)  # on a busy machine that may take longer than reading
-        found = _APART.call(read_here, source=Source(source.path, source.data), asked=asked)
+        found = _APART.call(read_here, source=Source(source.path, source.data), options=options)
     except TimeoutError:
         why = f"takes longer than {LONGEST_READ:.0f} s to read"
     except MemoryError:
@@ -80,7 +80,7 @@ def load_package() -> None:
         import_module("SurfaceTopography")
 
 
-def read_here(source: Source, asked: Asked) -> Scan:
+def read_here(source: Source, options: ScanOptions) -> Scan:
     """Read a file in this process, without limits of time and memory; see `read_with_package`."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of missing MPI at import, and of its own dependencies
@@ -92,7 +92,7 @@ def read_here(source: Source, asked: Asked) -> Scan:
             raise DataFileError(source.path, _BY_PACKAGE.format(why=why), code="package-missing") from None
         try:
             with open_topography(io.BytesIO(source.data)) as reader:
-                return _scan(source, reader, asked)
+                return _scan(source, reader, options)
         except (InputError, MemoryError):
             raise
         except CannotDetectFileFormat:
@@ -129,40 +129,40 @@ def _insist_on_small_workbook(source: Source) -> None:
         )
 
 
-def _scan(source: Source, reader: Any, asked: Asked) -> Scan:
+def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
     if reader.format() in _BY_SIZE:
         raise DataFileError(source.path, "has no known format for heights of a surface.", code="unknown-format")
-    channel = _channel(source, reader, asked.channel)
+    channel = _channel(source, reader, options.channel)
     given: dict[str, Any] = {}
     if channel.unit is None:
-        if not asked.unit:
+        if not options.unit:
             raise DataFileError(
                 source.path, "does not state the unit of its heights; give unit='um', for instance.", code="no-unit"
             )
-        given["unit"] = asked.unit
-    elif asked.unit:
+        given["unit"] = options.unit
+    elif options.unit:
         raise DataFileError(
             source.path,
-            f"states that its heights are in {channel.unit!r}; leave unit = {asked.unit!r} out.",
+            f"states that its heights are in {channel.unit!r}; leave unit = {options.unit!r} out.",
             code="unit-not-needed",
         )
-    factor, _ = conversion(str(channel.unit or asked.unit), "m", "unit")
+    factor, _ = conversion(str(channel.unit or options.unit), "m", "unit")
     if channel.physical_sizes is None:
-        if asked.spacing is None:
+        if options.spacing is None:
             raise DataFileError(
                 source.path, "does not state the spacing of its points; give spacing='5 um'.", code="no-spacing"
             )
         points = channel.nb_grid_pts
-        given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, asked.spacing, strict=False))
-    elif asked.spacing is not None:
+        given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, options.spacing, strict=False))
+    elif options.spacing is not None:
         raise DataFileError(
             source.path, "states the spacing of its points; leave the spacing out.", code="spacing-not-needed"
         )
     measured = channel.topography(**given)
     origin = f"read from {name_of(source)} ({reader.name()}), channel {channel.name!r}"
     heights = factor * np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), math.nan)
-    if asked.missing is not None:
-        heights[np.isclose(heights, factor * asked.missing, rtol=1e-12, atol=0.0)] = math.nan
+    if options.missing is not None:
+        heights[np.isclose(heights, factor * options.missing, rtol=1e-12, atol=0.0)] = math.nan
     if measured.dim == 1:
         return _line(source, measured, heights, factor, origin)
     steps = tuple(factor * float(step) for step in measured.pixel_size)
@@ -178,7 +178,7 @@ def _line(source: Source, measured: Any, heights: Array, factor: float, origin: 
         step = factor * float(measured.pixel_size[0])
         return Scan(heights[:, None], (step, step), origin, periodic=bool(measured.is_periodic))
     x = factor * np.asarray(measured.positions(), dtype=float)
-    found = scan_of_points(source, np.stack([x, heights], axis=1), Asked(), list(range(len(x))))
+    found = scan_of_points(source, np.stack([x, heights], axis=1), ScanOptions(), list(range(len(x))))
     return replace(found, origin=origin)
 
 

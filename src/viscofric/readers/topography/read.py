@@ -12,19 +12,19 @@ from viscofric.readers.topography.tables import NUMPY, is_table, read_array, rea
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
-    from viscofric.readers.topography.scan import Asked, Scan
+    from viscofric.readers.topography.scan import Scan, ScanOptions
 
 
-def read_scan(path: object, asked: Asked) -> Scan:
+def read_scan(path: object, options: ScanOptions) -> Scan:
     """Read a file of heights, whose format is recognised by its content."""
-    check_choice(asked.lines, "lines", "x", "y")
-    if not isinstance(asked.unit, str):
-        raise InputError(f"unit = {brief(asked.unit)}: must be text, such as 'um'.", code="not-text")
-    if asked.unit:
-        conversion(asked.unit, "m", "unit")
-    if not (asked.channel is None or isinstance(asked.channel, (str, int))):
+    check_choice(options.lines, "lines", "x", "y")
+    if not isinstance(options.unit, str):
+        raise InputError(f"unit = {brief(options.unit)}: must be text, such as 'um'.", code="not-text")
+    if options.unit:
+        conversion(options.unit, "m", "unit")
+    if not (options.channel is None or isinstance(options.channel, (str, int))):
         raise InputError(
-            f"channel = {brief(asked.channel)}: must be the name of a channel or its number.", code="no-channel"
+            f"channel = {brief(options.channel)}: must be the name of a channel or its number.", code="no-channel"
         )
     file = str(file_path(path))
     source = Source(file, read_bytes(file, LARGEST_FILE))
@@ -32,17 +32,17 @@ def read_scan(path: object, asked: Asked) -> Scan:
         raise DataFileError(file, "is empty.", code="empty")
     try:
         plain = source.data.startswith(NUMPY) or is_table(source.text)
-        if plain and asked.channel not in (None, 0):
+        if plain and options.channel not in (None, 0):
             raise DataFileError(
                 file,
-                f"contains one field of heights, without a name; leave channel = {asked.channel!r} out.",
+                f"contains one field of heights, without a name; leave channel = {options.channel!r} out.",
                 code="no-channel",
             )
         if source.data.startswith(NUMPY):
-            return read_array(source, asked)
+            return read_array(source, options)
         if plain:
             insist_on_short_text(source.data, file)
-        return read_text_table(source, asked) if plain else read_with_package(source, asked)
+        return read_text_table(source, options) if plain else read_with_package(source, options)
     except DataFileError:
         raise
     except InputError as error:  # the file's unit is not one of length

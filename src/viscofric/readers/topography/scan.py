@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Asked:
+class ScanOptions:
     """What the user states about a file that does not contain it."""
 
     unit: str = ""  # of heights and positions; empty: the file's, or m
@@ -51,7 +51,7 @@ _EVEN = 0.02
 _LEAST_FILLED = 0.25
 
 
-def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]) -> Scan:
+def scan_of_points(source: Source, points: Array, options: ScanOptions, lines: list[int]) -> Scan:
     """Return points x, z or x, y, z, m (z is NaN without a reading), on their grid; `lines` are those of the file.
 
     Raises
@@ -59,7 +59,7 @@ def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]
     DataFileError
         If a spacing is given, a position is missing, or the positions form no grid.
     """
-    if asked.spacing is not None:
+    if options.spacing is not None:
         raise DataFileError(
             source.path, "contains the positions of its points; leave the spacing out.", code="spacing-not-needed"
         )
@@ -71,9 +71,9 @@ def scan_of_points(source: Source, points: Array, asked: Asked, lines: list[int]
             lines[int(bad[0])],
             code="not-a-number",
         )
-    if asked.missing is not None:
+    if options.missing is not None:
         points = points.copy()
-        points[points[:, -1] == asked.missing, -1] = math.nan
+        points[points[:, -1] == options.missing, -1] = math.nan
     if len(points) < 2:
         raise DataFileError(source.path, "contains one point only; a line or a grid is needed.", code="no-points")
     return _line(source, points) if points.shape[1] == 2 else _grid(source, points)

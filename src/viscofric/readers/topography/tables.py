@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.files import LARGEST_FILE, decoded, insist_on_short_text, read_bytes, saved_array
 from viscofric.readers.table import MISSING
-from viscofric.readers.topography.scan import Asked, Scan, name_of, scan_of_points
+from viscofric.readers.topography.scan import Scan, ScanOptions, name_of, scan_of_points
 from viscofric.units import conversion
 
 if TYPE_CHECKING:
@@ -52,45 +52,46 @@ def is_table(text: str | None) -> bool:
     return bool(body) and all(map(_is_number, _cells(body[0])))
 
 
-def read_array(source: Source, asked: Asked) -> Scan:
+def read_array(source: Source, options: ScanOptions) -> Scan:
     """Read a .npy file: a matrix or a row of heights, whose spacing must be given."""
     array = saved_array(source.data, source.path)
     if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size < 2:
         problem = f"holds an array of shape {array.shape} of {array.dtype}; a row or a matrix of heights is needed."
         raise DataFileError(source.path, problem, code="not-heights")
-    return _matrix(source, np.asarray(array, dtype=float), asked, {}, "NumPy array")
+    return _matrix(source, np.asarray(array, dtype=float), options, {}, "NumPy array")
 
 
-def read_text_table(source: Source, asked: Asked) -> Scan:
+def read_text_table(source: Source, options: ScanOptions) -> Scan:
     """Read a text table: a matrix of heights, or columns x, z or x, y, z, recognised by headings or by their grid."""
     assert source.text is not None
     table = _parsed(source.path, source.text)
     named = _points_headings(table.headings)
     if named is not None:
-        factors = _units(source, table.headings, asked)
-        return scan_of_points(source, factors * table.rows, asked, table.lines)
-    if asked.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
-        factor, _ = conversion(asked.unit or "m", "m", "unit")
-        found = scan_of_points(source, factor * table.rows, asked, table.lines)
-        return found if asked.unit else replace(found, notes=(*found.notes, "positions and heights assumed to be in m"))
-    return _matrix(source, table.rows, asked, table.remarks, "text matrix")
+        factors = _units(source, table.headings, options)
+        return scan_of_points(source, factors * table.rows, options, table.lines)
+    if options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
+        factor, _ = conversion(options.unit or "m", "m", "unit")
+        found = scan_of_points(source, factor * table.rows, options, table.lines)
+        assumed = () if options.unit else ("positions and heights assumed to be in m",)
+        return replace(found, notes=(*found.notes, *assumed))
+    return _matrix(source, table.rows, options, table.remarks, "text matrix")
 
 
-def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str], kind: str) -> Scan:
+def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[str, str], kind: str) -> Scan:
     stated_unit = remarks.get("value units", "")
-    if asked.unit and stated_unit:
+    if options.unit and stated_unit:
         raise DataFileError(
             source.path,
-            f"states that its heights are in {stated_unit!r}; leave unit = {asked.unit!r} out.",
+            f"states that its heights are in {stated_unit!r}; leave unit = {options.unit!r} out.",
             code="unit-not-needed",
         )
-    factor, _ = conversion(asked.unit or stated_unit or "m", "m", "unit")
-    table = np.where(table == asked.missing, math.nan, table) if asked.missing is not None else table
+    factor, _ = conversion(options.unit or stated_unit or "m", "m", "unit")
+    table = np.where(table == options.missing, math.nan, table) if options.missing is not None else table
     heights = np.atleast_2d(table.T).T if min(np.shape(table)) > 1 or table.ndim == 1 else table.reshape(-1, 1)
     # Such remarks precede an image, whose lines follow one another along y.
-    if (asked.lines == "y" or "width" in remarks) and heights.shape[1] > 1:
+    if (options.lines == "y" or "width" in remarks) and heights.shape[1] > 1:
         heights = heights.T
-    spacing = asked.spacing
+    spacing = options.spacing
     if "width" in remarks:
         if spacing is not None:
             raise DataFileError(source.path, "states its width; leave the spacing out.", code="spacing-not-needed")
@@ -103,7 +104,7 @@ def _matrix(source: Source, table: Array, asked: Asked, remarks: dict[str, str],
             "does not state the spacing of its points; give spacing='5 um', for instance.",
             code="no-spacing",
         )
-    notes = () if asked.unit or stated_unit else ("heights assumed to be in m",)
+    notes = () if options.unit or stated_unit else ("heights assumed to be in m",)
     return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=notes)
 
 
@@ -137,24 +138,24 @@ def _points_headings(cells: list[str] | tuple[str, ...]) -> tuple[str, ...] | No
     return names if names in _POINT_NAMES else None
 
 
-def _units(source: Source, headings: tuple[str, ...], asked: Asked) -> Array:
+def _units(source: Source, headings: tuple[str, ...], options: ScanOptions) -> Array:
     factors = []
     for cell in headings:
         match = _UNIT.search(cell.strip().strip('"'))
         stated = next((part for part in match.groups() if part), "") if match else ""
-        if stated and asked.unit:
+        if stated and options.unit:
             raise DataFileError(
                 source.path,
-                f"column {cell!r} states its unit; leave unit = {asked.unit!r} out.",
+                f"column {cell!r} states its unit; leave unit = {options.unit!r} out.",
                 code="unit-not-needed",
             )
-        if not stated and not asked.unit:
+        if not stated and not options.unit:
             raise DataFileError(
                 source.path,
                 f"column {cell!r} has no unit; write it as '{cell} (um)', or give unit='um'.",
                 code="no-unit",
             )
-        factors.append(conversion(stated or asked.unit, "m", f"unit of column {cell!r}")[0])
+        factors.append(conversion(stated or options.unit, "m", f"unit of column {cell!r}")[0])
     return np.array(factors)
 
 

@@ -53,7 +53,7 @@ _HEADROOM = 1.08  # over the highest number, where the axis begins at zero
 def plot_friction_curves(
     axes: Axes, prediction: Friction | None = None, measurement: Friction | None = None, *, synthetic: bool = False
 ) -> None:
-    """Draw viscoelastic friction against speed at each temperature (the paper's Figure 6).
+    """Draw viscoelastic friction against speed at each temperature.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def plot_friction_master_curve(
     reference_temperature: float | None = None,
     synthetic: bool = False,
 ) -> None:
-    """Draw viscoelastic friction of all temperatures against the reduced speed αv (the paper's Figure 7).
+    """Draw viscoelastic friction of all temperatures against the reduced speed αv.
 
     Parameters
     ----------

@@ -104,7 +104,7 @@ def plot_master_curve(
     band: Any = None,
     synthetic: bool = False,
 ) -> None:
-    """Draw the measured master curve with the fitted retardation spectrum (the paper's Figure 5).
+    """Draw the measured master curve with the fitted retardation spectrum.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ FARTHER = 20.0
 
 
 def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | None = None) -> None:
-    """Draw measured shift factors with their standard errors, and a law with its 95 % band (the paper's Figure 4).
+    """Draw measured shift factors with their standard errors, and a law with its 95 % band.
 
     Parameters
     ----------

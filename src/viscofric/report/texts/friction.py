@@ -136,7 +136,8 @@ def _pairs(values: Array, errors: Array | None) -> list[str]:
 _MOST_TEMPERATURES = 8
 #: Relative to the speed of the disc; slip below it is that of pure rolling.
 _ROLLING = 1e-3
-#: Sign of the disc's speed and of the slip -> the paper's number of the configuration.
+#: Sign of the disc's speed and of the slip -> number of the configuration; C. Putignano et al., Tribol. Int. 100 (2016)
+#: 338, Eq. 9.
 _CONFIGURATIONS = {(-1, -1): "I", (-1, 1): "II", (1, -1): "III", (1, 1): "IV"}
 
 

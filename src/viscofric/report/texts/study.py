@@ -239,7 +239,7 @@ def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
         return []
     C1, C2, error1, error2 = (number(law.attrs, name) for name in ("wlf_C1", "wlf_C2", "wlf_C1_error", "wlf_C2_error"))
     if not math.isfinite(C1):
-        return [KeyNumber("Shift law", str(law.attrs.get("told", "")), "")]
+        return [KeyNumber("Shift law", str(law.attrs.get("description", "")), "")]
     used = "used"
     if str(factors.attrs.get("shift_used", "measured")) == "measured":
         used = "for information: the measured shift factors are used"

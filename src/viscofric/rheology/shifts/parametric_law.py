@@ -275,7 +275,7 @@ class ParametricLaw(ShiftLaw):
 
     def _attributes(self) -> dict[str, Any]:
         constants = json.dumps(plain(as_record(self), None))
-        return {"law": self.title, "constants": constants, "told": str(self)}
+        return {"law": self.title, "constants": constants, "description": str(self)}
 
     def _refuse(self, kelvin: Array) -> None:
         if np.any(kelvin <= self._divergence):
@@ -289,20 +289,20 @@ class ParametricLaw(ShiftLaw):
             return
         low, high = self.fitted_range
         if float(kelvin.min()) < low * (1 - SAME_TEMPERATURE):
-            reach, asked = self._cold(), float(kelvin.min())
-            if asked < reach.limit * (1 - SAME_TEMPERATURE):
-                raise self._too_far(asked, low - asked, "below", "down", reach)
+            reach, wanted = self._cold(), float(kelvin.min())
+            if wanted < reach.limit * (1 - SAME_TEMPERATURE):
+                raise self._too_far(wanted, low - wanted, "below", "down", reach)
         if float(kelvin.max()) > high * (1 + SAME_TEMPERATURE):
-            reach, asked = self._hot(), float(kelvin.max())
-            if asked > reach.limit * (1 + SAME_TEMPERATURE):
-                raise self._too_far(asked, asked - high, "above", "up", reach)
+            reach, wanted = self._hot(), float(kelvin.max())
+            if wanted > reach.limit * (1 + SAME_TEMPERATURE):
+                raise self._too_far(wanted, wanted - high, "above", "up", reach)
 
-    def _too_far(self, asked: float, gap: float, side: str, direction: str, reach: Reach) -> InputError:
-        low, high = self.fitted_range or (asked, asked)
+    def _too_far(self, wanted: float, gap: float, side: str, direction: str, reach: Reach) -> InputError:
+        low, high = self.fitted_range or (wanted, wanted)
         return InputError(
-            f"temperature = {shown_celsius(asked)} °C lies {gap:.3g} K {side} the {shown_celsius(low)} to "
+            f"temperature = {shown_celsius(wanted)} °C lies {gap:.3g} K {side} the {shown_celsius(low)} to "
             f"{shown_celsius(high)} °C that this {self.title} law was fitted on. It is valid {direction} to "
-            f"{shown_celsius(reach.limit)} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(asked)}.",
+            f"{shown_celsius(reach.limit)} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(wanted)}.",
             code="outside-fitted",
         )
 

@@ -39,7 +39,7 @@ BALANCE = 1e-6
 class RetardationSpectrum(FrequencyResponse):
     """Retardation modes of a rubber at one temperature.
 
-    Creep compliance and complex compliance are (paper, Eqs. 5 and 3; convention e^{+iωt})::
+    Creep compliance and complex compliance are (Eqs. 5 and 3 of [1]_; convention e^{+iωt})::
 
         J(t) = 1/E0 − Σ C_k exp(−t/τ_k)
         S(ω) = 1/E(ω) = 1/E_inf + Σ C_k / (1 + iωτ_k),    1/E_inf = 1/E0 − Σ C_k
@@ -62,6 +62,10 @@ class RetardationSpectrum(FrequencyResponse):
     InputError
         If a value is out of range, the arrays differ in length, E0 is zero (a liquid has no rubber
         plateau), or 1/E_inf + ΣC differs from 1/E0 by more than a millionth.
+
+    References
+    ----------
+    .. [1] C. Putignano, T. Reddyhoff, D. Dini, Tribol. Int. 100 (2016) 338–343.
 
     Examples
     --------
@@ -249,7 +253,7 @@ class RetardationSpectrum(FrequencyResponse):
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).
 
-        From E(ω, T) = b E(αω, T0) (paper, Eq. 4): every τ becomes ατ, every modulus b times what it was.
+        From E(ω, T) = b E(αω, T0): every τ becomes ατ, every modulus b times what it was.
         """
         alpha, b = checked_shift(alpha, b)
         return RetardationSpectrum(

@@ -58,7 +58,7 @@ def fit_retardation_spectrum(
         level of the first kind is kept; a kind that overlaps it by half a decade has a level of its own, which a note
         states.
     tau_ratio : float
-        Ratio of neighbouring retardation times, above 1; e in the paper.  Without effect on sparse modes.
+        Ratio of neighbouring retardation times, above 1; e in [1]_.  Without effect on sparse modes.
     method : {"non-negative", "regularised", "sparse"}
         Modes on a lattice of times, no more held down than that none is below zero; a smooth spectrum on the
         same lattice; or the fewest modes that meet an error, their times free.
@@ -92,6 +92,10 @@ def fit_retardation_spectrum(
     rubber counts as much as the glass, and no unit matters.  Of creep and relaxation tests they minimise those of
     ln J(t) or ln E(t), in the same retardation modes: J(t) is linear in them, and E(t) follows by inversion of its
     Laplace transform 1/(s S(s)) (J. A. C. Weideman, SIAM J. Numer. Anal. 44 (2006) 2342, doi:10.1137/050625837).
+
+    References
+    ----------
+    .. [1] C. Putignano, T. Reddyhoff, D. Dini, Tribol. Int. 100 (2016) 338–343.
 
     Examples
     --------

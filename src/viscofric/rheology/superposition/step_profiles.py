@@ -127,8 +127,8 @@ class StepProfiles:
                 )
             )
         self._try(parameters, [(profile, 0.0) for profile in profiles])
-        while asked := [(profile, move) for profile in profiles for move in profile.outwards()]:
-            self._try(parameters, asked)
+        while moves := [(profile, move) for profile in profiles for move in profile.outwards()]:
+            self._try(parameters, moves)
         for _ in range(HALVINGS):
             self._try(parameters, [(profile, move) for profile in profiles for move in profile.halves()])
         widened = covariance.copy()
@@ -137,13 +137,13 @@ class StepProfiles:
             widened += more * np.outer(profile.follow, profile.follow)
         return widened
 
-    def _try(self, parameters: Array, asked: list[tuple[_Profile, float]]) -> None:
+    def _try(self, parameters: Array, moves: list[tuple[_Profile, float]]) -> None:
         """Evaluate moves of steps, and record their likelihood."""
-        moved = np.array([parameters + move * profile.follow for profile, move in asked if move])
-        still = self(parameters[None])[0] if len(moved) < len(asked) else 0.0
+        moved = np.array([parameters + move * profile.follow for profile, move in moves if move])
+        still = self(parameters[None])[0] if len(moved) < len(moves) else 0.0
         size = max(AT_ONCE // sum(len(piece.frequency) for piece in self.problem.pieces), 1)
         found = [fall for first in range(0, len(moved), size) for fall in self(moved[first : first + size])]
-        for profile, move in asked:
+        for profile, move in moves:
             profile.moves.append(move)
             profile.falls.append(float(found.pop(0) if move else still))
 

@@ -49,7 +49,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``source``: "dma", "master_curve", "file" or "catalogue".  Of sweeps ``files`` (what each was taken for),
-        ``asks`` (keys of [material] that the files leave open), ``isotherms``, ``flagged`` readings, ``notes`` and
+        ``left_open`` (keys of [material] that the files leave open), ``isotherms``, ``flagged`` readings, ``notes`` and
         ``reference`` (a temperature that would do, K).  Of other sources ``about`` (words), ``synthetic`` and
         ``notes``.
 
@@ -100,7 +100,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> 
         "format": sweeps.format,
         "deformation": sweeps.deformation,
         "files": [_file(one) for one in traced.readings],
-        "asks": _left_open(table, traced.readings),
+        "left_open": _left_open(table, traced.readings),
         "isotherms": [
             {
                 "temperature": plain(one.temperature),
@@ -206,5 +206,5 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         "reference": None if rubber.material.reference is None else plain(rubber.material.reference),
         "isotherms": [],
         "flagged": [],
-        "asks": ["deformation"] if table.master_curve and table.deformation else [],
+        "left_open": ["deformation"] if table.master_curve and table.deformation else [],
     }

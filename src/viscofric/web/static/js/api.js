@@ -1,11 +1,11 @@
 /**
- * What the page asks of its server: jobs, files, the first study.
+ * Requests of the page to its server: jobs, files, the first study.
  *
  * runJob(kind, {study, options}, {onProgress, onPart, signal}) -> Promise<result>
  *   At most four jobs are streamed at once over all tabs; others wait.  `signal` (of an AbortController) cancels: the
  *   promise rejects with an AbortError, and the process that computed is free again.  What is wrong rejects with a
  *   JobError, {message, field, problems, values}: a sentence, the path in the study that it is about, or null, a list of
- *   such {message, field} of all that is wrong, and what a form can ask for, such as the headings of a file.
+ *   such {message, field} of all that is wrong, and what a form can offer, such as the headings of a file.
  * uploadFiles(files) -> Promise<names>, listFiles(), removeFile(name), useExample(), getStart(), getStatus(),
  * downloadUrl(name), workspace
  */
@@ -52,22 +52,22 @@ function randomName() {
 }
 
 /** A request of this tab; rejects with a JobError that says what is wrong. */
-async function ask(address, options = {}) {
-  let answer;
+async function request(address, options = {}) {
+  let response;
   try {
-    answer = await fetch(address, { ...options, headers: { "X-Workspace": workspace, ...options.headers } });
+    response = await fetch(address, { ...options, headers: { "X-Workspace": workspace, ...options.headers } });
   } catch (error) {
     if (error.name === "AbortError") throw error;
     throw new JobError("The program behind this page does not respond; restart it with: viscofric web");
   }
-  if (answer.ok) return answer;
-  let told = {};
+  if (response.ok) return response;
+  let reply = {};
   try {
-    told = await answer.json();
+    reply = await response.json();
   } catch {
     // not JSON: the status has to do
   }
-  throw new JobError(told.message ?? `The server answered ${answer.status}.`, told.field ?? null);
+  throw new JobError(reply.message ?? `The server answered ${response.status}.`, reply.field ?? null);
 }
 
 export async function runJob(kind, { study = {}, options = {} } = {}, { onProgress, onPart, signal } = {}) {
@@ -76,13 +76,13 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
     return found;
   };
   return inTurn(signal, async () => {
-    const answer = await ask(`/api/jobs/${encodeURIComponent(kind)}`, {
+    const response = await request(`/api/jobs/${encodeURIComponent(kind)}`, {
       method: "POST",
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify({ study, options }),
       signal,
     });
-    for await (const message of messages(answer.body)) {
+    for await (const message of messages(response.body)) {
       if (message.event === "progress") onProgress?.(message);
       else if (message.event === "part") onPart?.(own(message.part));
       else if (message.event === "result") return own(message.result);
@@ -202,22 +202,22 @@ export async function uploadFiles(files) {
     if (file.size > LARGEST_UPLOAD) {
       throw new JobError(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB; the limit is 20 MB.`);
     }
-    const answer = await ask(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
-    names.push((await answer.json()).name);
+    const response = await request(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
+    names.push((await response.json()).name);
   }
   state.renew(names);
   return names;
 }
 
-export const listFiles = async () => (await ask("/api/files")).json();
+export const listFiles = async () => (await request("/api/files")).json();
 
-export const removeFile = (name) => ask(`/api/files/${encodeURIComponent(name)}`, { method: "DELETE" });
+export const removeFile = (name) => request(`/api/files/${encodeURIComponent(name)}`, { method: "DELETE" });
 
 /** Put the synthetic example's measurements there; returns all files. */
-export const useExample = async () => (await ask("/api/files/example", { method: "POST" })).json();
+export const useExample = async () => (await request("/api/files/example", { method: "POST" })).json();
 
-export const getStart = async () => (await ask("/api/start")).json();
+export const getStart = async () => (await request("/api/start")).json();
 
-export const getStatus = async () => (await ask("/api/status")).json();
+export const getStatus = async () => (await request("/api/status")).json();
 
 export const downloadUrl = (name) => `/api/downloads/${encodeURIComponent(name)}?workspace=${workspace}`;

@@ -10,7 +10,7 @@ function said(headings, index, unit) {
 }
 
 /**
- * The form, hidden until `ask(values)` is called with the values of an error; `choose(columns)` gets the user's headings.
+ * The form, hidden until `offer(values)` is called with the values of an error; `choose(columns)` gets the user's headings.
  *
  * @param {object} app
  * @param {{choose: (columns: object | undefined) => void, chosen: () => object | undefined}} table
@@ -18,12 +18,12 @@ function said(headings, index, unit) {
 export function columnsForm(app, { choose, chosen }) {
   const { h, button } = app.fields;
   const rows = h("div", { class: "form columns-form" });
-  const read = button({ label: "Read with these columns", kind: "main", onClick: () => choose(answer()) });
+  const read = button({ label: "Read with these columns", kind: "main", onClick: () => choose(chosenColumns()) });
   const forget = button({ label: "Clear the column names", kind: "quiet small", onClick: () => choose(undefined) });
   const kept = h("p", { class: "help" });
   const about = h("p", { class: "help" }, "Which column holds what? Units that the file states need not be repeated.");
-  const asked = h("div", { class: "panel" }, about, rows, h("div", { class: "row" }, read));
-  const element = h("div", { class: "panel questions", hidden: true }, asked, h("div", {}, kept, forget));
+  const form = h("div", { class: "panel" }, about, rows, h("div", { class: "row" }, read));
+  const element = h("div", { class: "panel questions", hidden: true }, form, h("div", {}, kept, forget));
   let values = null;
   let controls = [];
 
@@ -47,7 +47,7 @@ export function columnsForm(app, { choose, chosen }) {
     return h("div", { class: "field" }, h("span", { class: "field-label" }, name), both);
   }
 
-  function answer() {
+  function chosenColumns() {
     const columns = {};
     for (const { quantity, select, input, before } of controls) {
       const unit = input.value.trim();
@@ -61,12 +61,12 @@ export function columnsForm(app, { choose, chosen }) {
     const named = Object.entries(chosen() ?? {});
     kept.textContent = named.map(([quantity, heading]) => `${quantity.replaceAll("_", " ")}: ${heading}`).join("; ");
     kept.hidden = forget.hidden = named.length === 0;
-    asked.hidden = !values;
-    element.hidden = asked.hidden && kept.hidden;
+    form.hidden = !values;
+    element.hidden = form.hidden && kept.hidden;
   }
 
   /** Offer the headings of an error, or none. */
-  element.ask = (found) => {
+  element.offer = (found) => {
     values = found?.headings?.length && found.offered ? found : null;
     controls = [];
     rows.replaceChildren(...(values ? values.offered.map(row) : []));

@@ -20,7 +20,7 @@ const SCALE = [
   ...VIRIDIS.map((colour, at) => [0.012 + (0.988 * at) / (VIRIDIS.length - 1), colour]),
 ];
 
-/** The figures of a contact, in a grid; show(answer, {noun, synthetic}) draws an answer of the job "contact". */
+/** The figures of a contact, in a grid; show(result, {noun, synthetic}) draws a result of the job "contact". */
 export function contactFigures({ figures, fields }) {
   const length = (label) => ({ label, kind: "length" });
   const grid = fields.h("div", { class: "grid contact-figures" });
@@ -51,20 +51,20 @@ export function contactFigures({ figures, fields }) {
     empty: "Computing the contact.",
   });
 
-  function show(answer, { noun, synthetic }) {
-    grid.classList.toggle("without-map", answer.map === null);
-    showMap(answer, synthetic);
-    showPressure(answer, noun, synthetic);
-    showSurface(answer, noun, synthetic);
+  function show(result, { noun, synthetic }) {
+    grid.classList.toggle("without-map", result.map === null);
+    showMap(result, synthetic);
+    showPressure(result, noun, synthetic);
+    showSurface(result, noun, synthetic);
   }
 
-  function showMap(answer, synthetic) {
-    map.element.hidden = answer.map === null;
-    if (answer.map === null) return;
-    const { x, y, pressure } = answer.map;
-    const rough = answer.kind === "rough";
+  function showMap(result, synthetic) {
+    map.element.hidden = result.map === null;
+    if (result.map === null) return;
+    const { x, y, pressure } = result.map;
+    const rough = result.kind === "rough";
     map.update({
-      of: answer,
+      of: result,
       x,
       y,
       z: pressure,
@@ -77,7 +77,7 @@ export function contactFigures({ figures, fields }) {
         y: { ...length(rough ? "y" : "across"), equal: true },
         z: { label: "pressure", kind: "pressure" },
       },
-      lines: [...outlines(answer), ...axisMarks(answer), ...arrow(answer)],
+      lines: [...outlines(result), ...axisMarks(result), ...arrow(result)],
       caption: rough
         ? "One period of the surface; white is not in contact. The arrow is the surface's motion."
         : "Top view: outline of the contact, + the indenter's axis, ● the centre of pressure. The indenter moves to the right; the leading edge is on the right.",
@@ -127,10 +127,10 @@ export function contactFigures({ figures, fields }) {
     ];
   }
 
-  function showPressure(answer, noun, synthetic) {
-    const { x, pressure } = answer.profile;
-    const rough = answer.kind === "rough";
-    const ends = rough ? [x[0], x.at(-1)] : viewed(answer);
+  function showPressure(result, noun, synthetic) {
+    const { x, pressure } = result.profile;
+    const rough = result.kind === "rough";
+    const ends = rough ? [x[0], x.at(-1)] : viewed(result);
     const inside = x.map((place) => place >= ends[0] && place <= ends[1]);
     const kept = (values) => values.filter((_, at) => inside[at]);
     const traces = [{ name: "pressure", x: kept(x), y: kept(pressure), fill: "tozeroy", colour: "blue" }];
@@ -149,9 +149,9 @@ export function contactFigures({ figures, fields }) {
         decoration: true,
       });
     }
-    const marks = rough ? [] : [{ x: 0 }, { x: answer.numbers.centre_of_pressure.value, label: "centre of pressure" }];
+    const marks = rough ? [] : [{ x: 0 }, { x: result.numbers.centre_of_pressure.value, label: "centre of pressure" }];
     profile.update({
-      of: answer,
+      of: result,
       traces,
       marks,
       synthetic,
@@ -165,17 +165,17 @@ export function contactFigures({ figures, fields }) {
     });
   }
 
-  function showSurface(answer, noun, synthetic) {
-    const { x, surface: rubber, indenter } = answer.profile;
+  function showSurface(result, noun, synthetic) {
+    const { x, surface: rubber, indenter } = result.profile;
     const there = indenter.map((height) => height !== null);
     const kept = (values) => values.filter((_, at) => there[at]);
-    const rough = answer.kind === "rough";
+    const rough = result.kind === "rough";
     const low = Math.min(...rubber.filter((height) => height !== null));
     const high = Math.max(...rubber.filter((height) => height !== null));
     const top = rough ? undefined : high + 0.6 * (high - low);
     const near = kept(indenter).map((height) => (top === undefined || height <= top ? height : null));
     surface.update({
-      of: answer,
+      of: result,
       traces: [
         { name: noun, x: kept(x), y: near, colour: MARK, width: 2 },
         { name: "rubber", x, y: rubber, colour: "vermilion", width: 2.5 },

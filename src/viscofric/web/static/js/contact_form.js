@@ -104,15 +104,15 @@ export function contactForm({ state, fields, api, announce }) {
   ];
 
   function scan() {
-    const told = fields.note([]);
+    const problem = fields.note([]);
     const take = async (files) => {
       try {
         const [name] = await api.uploadFiles(files.slice(0, 1));
         state.set("surface.file", name);
         announce(`${name} was uploaded.`);
-        told.set([]);
+        problem.set([]);
       } catch (error) {
-        told.set([error.message], "error");
+        problem.set([error.message], "error");
       }
     };
     const drop = fields.fileDrop({
@@ -141,7 +141,7 @@ export function contactForm({ state, fields, api, announce }) {
     });
     return [
       drop,
-      told,
+      problem,
       fields.textField({ path: "surface.file", label: "File", placeholder: "none yet" }),
       h("fieldset", {}, h("legend", { class: "field-label" }, "Preparation"), boxes),
       fields.textField({ path: "surface.unit", label: "Unit of heights", placeholder: "from the file" }),

@@ -1,8 +1,8 @@
 // Numbers and words of one contact: what is found with its errors, and why the pressure leans forward.
 
-/** Numbers of an answer, {label, value, remark} each: the few that answer the question, and the others. */
-export function numbersOf(answer, units) {
-  const of = answer.numbers;
+/** Numbers of a result, {label, value, remark} each: the main ones, and the others. */
+export function numbersOf(result, units) {
+  const of = result.numbers;
   const one = (name, label, kind, digits = 4) => {
     const { value, error } = of[name];
     return { label, value: units.show(value, kind, digits), remark: error ? `± ${units.show(error, kind, 2)}` : "" };
@@ -16,7 +16,7 @@ export function numbersOf(answer, units) {
     one("storage_modulus", "Storage modulus E′ at v/a", "modulus", 3),
   ];
   const balance = row("Energy balance error", plain(100 * Math.abs(of.energy_balance.value), "%", 2));
-  if (answer.kind === "rough") {
+  if (result.kind === "rough") {
     const full = of.contact_area_fraction.value > 1 - 1e-9;
     const gap = one("mean_gap", "Mean gap", "length", 3);
     const aside = one("lateral_friction_coefficient", "Lateral force over load");
@@ -40,14 +40,14 @@ export function numbersOf(answer, units) {
       ],
     };
   }
-  const line = answer.kind === "line";
+  const line = result.kind === "line";
   const peak = one("max_pressure", "Maximum pressure", "pressure");
   return {
     key: [
       friction,
       one("indentation", "Indentation", "length"),
       one("contact_area", line ? "Contact width" : "Contact area", line ? "length" : "area"),
-      answer.peak_resolved ? peak : { ...peak, value: `≥ ${peak.value}`, remark: "not resolved" },
+      result.peak_resolved ? peak : { ...peak, value: `≥ ${peak.value}`, remark: "not resolved" },
     ],
     others: [
       one("friction_force", line ? "Friction force per length" : "Friction force", line ? "line_load" : "load"),
@@ -70,12 +70,12 @@ export function numbersOf(answer, units) {
 }
 
 /** The cause of the asymmetric pressure, in sentences that follow the numbers. */
-export function whyItLeans(answer, units, noun, radius) {
-  const of = answer.numbers;
-  const speed = units.show(answer.speed, "speed");
+export function whyItLeans(result, units, noun, radius) {
+  const of = result.numbers;
+  const speed = units.show(result.speed, "speed");
   const loss = of.loss_factor.value;
   const rubber = `tan δ ${units.plainNumber(loss, 2)} and a storage modulus E′ of ${units.show(of.storage_modulus.value, "modulus")}`;
-  if (answer.kind === "rough") {
+  if (result.kind === "rough") {
     const ends = [of.slowest_frequency, of.fastest_frequency].map(({ value }) =>
       units.show(value, "angular_frequency", 2),
     );
@@ -88,7 +88,7 @@ export function whyItLeans(answer, units, noun, radius) {
   const [front, rear, lean] = [of.front, of.rear, of.centre_of_pressure].map(({ value }) =>
     units.show(value, "length"),
   );
-  const time = units.show((of.front.value + of.rear.value) / answer.speed, "time", 2);
+  const time = units.show((of.front.value + of.rear.value) / result.speed, "time", 2);
   const start = `The ${noun} passes each point of the rubber in ${time}, which deforms it at v/a = ${units.show(of.frequency.value, "angular_frequency", 2)}. At this frequency the rubber has ${rubber}. `;
   const cause =
     loss < 0.03

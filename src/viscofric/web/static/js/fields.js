@@ -235,13 +235,13 @@ const homeOf = (place) =>
   [...shown.keys()].filter((path) => within(place ?? "", path)).sort((one, other) => other.length - one.length)[0];
 
 function showAll() {
-  const told = new Map([...checked].map(([path, sentences]) => [path, new Set(sentences)]));
+  const sentencesOf = new Map([...checked].map(([path, sentences]) => [path, new Set(sentences)]));
   for (const { error } of ofJobs.values()) {
     const home = homeOf(error.field);
-    if (home !== undefined) told.set(home, (told.get(home) ?? new Set()).add(error.message));
+    if (home !== undefined) sentencesOf.set(home, (sentencesOf.get(home) ?? new Set()).add(error.message));
   }
   for (const [path, elements] of shown)
-    for (const element of elements) element.setError([...(told.get(path) ?? [])].join(" "));
+    for (const element of elements) element.setError([...(sentencesOf.get(path) ?? [])].join(" "));
 }
 
 /** Show each sentence beside its field and none beside the others; returns those that have no field on the page. */

@@ -68,7 +68,7 @@ export function temperatureColour(kelvin, all = [kelvin], dark = isDark()) {
   return mixed(SCALE[at][dark ? 1 : 0], SCALE[at + 1][dark ? 1 : 0], Math.min(Math.max(place - at, 0), 1));
 }
 
-/** Colour, symbol and dashes of a temperature, so that it can be told in grey, too. */
+/** Colour, symbol and dashes of a temperature, which differ in grey, too. */
 export function temperatureLook(kelvin, all = [kelvin], dark = isDark()) {
   const rank = distinct([...all, kelvin]).indexOf(Math.round(kelvin * 10) / 10);
   return {

@@ -74,7 +74,7 @@ export function csv(spec) {
   return [...remark, ...[head, ...rows].map((row) => row.map(cell).join(","))].join("\n") + "\n";
 }
 
-/** What a screen reader is told of a figure: its curves and their ranges. */
+/** The text of a figure for screen readers: its curves and their ranges. */
 export function described(spec) {
   if (!hasData(spec)) return `${spec.title}: ${spec.empty ?? "no data yet"}.`;
   const [x, y] = spec.z ? [spec.axes.x, spec.axes.y] : [spec.x, spec.y];
@@ -87,8 +87,8 @@ export function described(spec) {
   if (spec.z)
     return `${spec.title}: map of ${spec.axes.z.label}, ${ends(spec.z.flat(), spec.axes.z)}, over ${x.label} and ${y.label}. Its numbers are in the table.`;
   const curves = spec.traces.filter((trace) => trace.x?.length > 0 && trace.legend !== false).slice(0, 12);
-  const told = curves.map(
+  const sentences = curves.map(
     (trace) => `${trace.name ?? y?.label ?? "curve"}: ${ends(trace.y, y)} for ${x?.label ?? "x"} ${ends(trace.x, x)}`,
   );
-  return `${spec.title}: ${y?.label ?? "y"} against ${x?.label ?? "x"}. ${told.join("; ")}. Its numbers are in the table.`;
+  return `${spec.title}: ${y?.label ?? "y"} against ${x?.label ?? "x"}. ${sentences.join("; ")}. Its numbers are in the table.`;
 }

@@ -5,7 +5,7 @@
 //   x: {label: "speed", kind: "speed", log: true}, y: {label: "friction coefficient"},
 //   traces: [{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size,
 //             lower, upper (a band around y), error (bars, SI), hidden, legend: false, text, width}],
-//   of: the answer of a job that is drawn: the figure is grey while the study's inputs are others (inputs.js),
+//   of: the result of a job that is drawn: the figure is grey while the study's inputs are others (inputs.js),
 //   marks: [{x | y, label}] (lines across the figure), height, empty: "text without data", synthetic: true,
 //   layout: {…plotly}, onClick: (point) => … })
 // handle.update({traces: …})    changes parts of the spec and draws again
@@ -179,7 +179,7 @@ export function figure(container, first) {
     element.dataset.drawn = String(Number(element.dataset.drawn ?? 0) + 1);
   }
 
-  function ask() {
+  function request() {
     if (waiting) return;
     waiting = true;
     requestAnimationFrame(() => (busy = busy.then(draw).catch((error) => (empty.textContent = error.message))));
@@ -188,7 +188,7 @@ export function figure(container, first) {
   const size = new ResizeObserver(() => {
     if (stage.clientWidth === 0) return;
     if (drawnOnce && drawn === spec) window.Plotly.Plots.resize(plot);
-    else ask();
+    else request();
   });
   size.observe(stage);
   const handle = {
@@ -200,10 +200,10 @@ export function figure(container, first) {
     update(changes) {
       spec = { ...spec, ...changes };
       shows(element, spec.of);
-      ask();
+      request();
       return handle;
     },
-    redraw: ask,
+    redraw: request,
     remove() {
       size.disconnect();
       live.delete(handle);
@@ -213,11 +213,11 @@ export function figure(container, first) {
     },
   };
   live.add(handle);
-  ask();
+  request();
   return handle;
 }
 
-/** A heat map, with curves on top if asked; see the head of this file. */
+/** A heat map, with curves on top if given; see the head of this file. */
 export function map(container, spec) {
   return figure(container, { z: [], ...spec });
 }

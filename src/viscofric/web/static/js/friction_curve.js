@@ -1,4 +1,4 @@
-// The card of the friction curve: asked for after each change, its points drawn as they are known, till then the one before.
+// The card of the friction curve: computed after each change, its points drawn as they are known, till then the one before.
 
 import {
   QUANTITIES,
@@ -22,7 +22,7 @@ const hasPoints = (curve) => Boolean(curve?.points?.friction.some((value) => val
 /** Make the card.  onPick({speed, temperature}) is called for a point that was clicked, onPick({}) for another combination. */
 export function frictionCard({ state, units, figures, fields, api, announce, waits, isSynthetic }, { onPick }) {
   const { h, button } = fields;
-  let curve = null; // that is shown: {answer, layout, points, result}; the answer is the job's part or result
+  let curve = null; // that is shown: {source, layout, points, result}; the source is the job's part or result
   let before = null; // that is shown in grey till there is something to show
   let pinned = null; // that is kept for comparison
   let live = null;
@@ -31,7 +31,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
   let timer = null;
 
   const bar = fields.progressBar({ label: "Solving", onCancel: () => running?.abort() });
-  const told = fields.note([], "warning");
+  const warnings = fields.note([], "warning");
   const failed = fields.note([], "error");
   const notes = fields.note([]);
   const checks = fields.note([]);
@@ -73,7 +73,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
     onClick: pick,
   });
   const tools = h("div", { class: "row curve-tools" }, view, quantity, which, scale, pin);
-  card.append(bar, tools, failed, told, checked);
+  card.append(bar, tools, failed, warnings, checked);
 
   function keep(some) {
     pinned = some;
@@ -100,16 +100,16 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
     ];
     const speed = shifted ? `α(T)·v at ${units.show(curve.layout.reference, "temperature")}` : "speed";
     handle.update({
-      of: curve.answer,
+      of: curve.source,
       title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
       caption: caption(shifted),
       x: { label: speed, kind: "speed", log: true, range: speedsOf(curve, look) },
       y: log.checked ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
       temperatures: curve.layout.temperature,
-      synthetic: isSynthetic(studyOf(curve.answer)),
+      synthetic: isSynthetic(studyOf(curve.source)),
       traces,
     });
-    for (const one of [told, checked]) shows(one, curve.answer);
+    for (const one of [warnings, checked]) shows(one, curve.source);
     pin.disabled = !pinned && !curve.result;
     pin.textContent = pinned ? "Remove the kept curve" : "Keep for comparison";
   }
@@ -148,8 +148,8 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
       if (hasPoints(curve)) before = curve;
       const cases = part.layout.speed;
       const points = { friction: cases.map(() => null), known: cases.map(() => false) };
-      curve = { answer: part, layout: part.layout, points, result: null };
-      told.set([]);
+      curve = { source: part, layout: part.layout, points, result: null };
+      warnings.set([]);
       checked.hidden = true;
       offer();
     } else {
@@ -163,13 +163,13 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
 
   function finish(result) {
     const points = { friction: result.friction, known: result.friction.map((value) => value !== null) };
-    curve = { answer: result, layout: result, points, result };
+    curve = { source: result, layout: result, points, result };
     before = null;
     const unresolved = result.doubts.filter((words) => words.includes("unresolved")).length;
     const said =
       `At ${unresolved} of ${result.speed.length} points the grid does not resolve friction to the requested accuracy; ` +
       "the error bars show its accuracy.";
-    told.set([...result.warnings, ...(unresolved ? [said] : [])]);
+    warnings.set([...result.warnings, ...(unresolved ? [said] : [])]);
     const missing = missingOf(result);
     const more = missing > MOST_FAILURES ? ` The first ${MOST_FAILURES}:` : "";
     failed.set(
@@ -219,7 +219,7 @@ export function frictionCard({ state, units, figures, fields, api, announce, wai
 
   function fail(error) {
     failed.set([waits("the friction curve", error, "curve")]);
-    outdated(curve?.answer);
+    outdated(curve?.source);
     handle.update({ caption: curve ? "Previous curve." : "", empty: "No curve yet." });
     state.setResult("curve", null);
   }

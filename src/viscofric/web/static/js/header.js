@@ -5,7 +5,7 @@ import { button, h, icon } from "./parts.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
-/** All tools; `announce` tells screen readers what was done. */
+/** All tools; `announce` gives screen readers a sentence on what was done. */
 export function headerTools(announce) {
   return [...undoButtons(announce), ...unitsMenu(), themeButton()];
 }

@@ -1,10 +1,10 @@
 // Which inputs a result was computed from; what shows a result of other inputs than the study's is grey, with a word.
 //
-// computedFrom(answer, kind, study)    remembers from which study a job of this kind answered (api.js does it for each answer)
-// studyOf(answer)                      that study
-// isCurrent(answer)                    whether the study's inputs are still the same
-// outdated(answer)                     its inputs could not be computed again: it counts as a result of earlier ones
-// shows(element, answer)               the element shows this answer (null: none); it is grey while the study's inputs are others
+// computedFrom(result, kind, study)    remembers from which study a job of this kind was computed (api.js does it for each result)
+// studyOf(result)                      that study
+// isCurrent(result)                    whether the study's inputs are still the same
+// outdated(result)                     its inputs could not be computed again: it counts as one of earlier inputs
+// shows(element, result)               the element shows this result (null: none); it is grey while the study's inputs are others
 // forget(element)                      ends that
 // DEPENDS_ON[kind]                     the inputs of a job, as paths of the study
 // keyOf(kind, study)                   names the inputs of a job; equal inputs have equal keys
@@ -18,7 +18,7 @@ const MATERIAL = ["material", "uncertainty"];
 const CONTACT = ["material", "indenter", "surface", "layer", "solver"];
 const PREDICTED = [...CONTACT, "uncertainty", "conditions.thickness", "measurement"];
 
-/** Paths of the study on which the answers of a job depend. */
+/** Paths of the study on which the results of a job depend. */
 export const DEPENDS_ON = {
   sweeps: ["material"],
   rubber: MATERIAL,
@@ -33,8 +33,8 @@ export const DEPENDS_ON = {
   "export-card": ["material"],
 };
 
-const origins = new WeakMap(); // answer -> {kind, study, key}
-const shown = new Map(); // element -> answer
+const origins = new WeakMap(); // result -> {kind, study, key}
+const shown = new Map(); // element -> result
 
 /** A short name of a text (FNV-1a, twice 32 bits). */
 function hash(text) {
@@ -49,48 +49,48 @@ function hash(text) {
 export function keyOf(kind, study) {
   const inputs = DEPENDS_ON[kind].map((path) => valueAt(study, path) ?? null);
   // a file may have other contents under the same name; the order of keys means nothing
-  const told = (_, value) => {
+  const canonical = (_, value) => {
     if (typeof value === "string") return state.renewals(value) ? `${value}#${state.renewals(value)}` : value;
     if (value === null || typeof value !== "object" || Array.isArray(value)) return value;
     return Object.fromEntries(Object.entries(value).sort(([one], [other]) => (one < other ? -1 : 1)));
   };
-  return hash(JSON.stringify(inputs, told));
+  return hash(JSON.stringify(inputs, canonical));
 }
 
-export function computedFrom(answer, kind, study) {
-  if (kind in DEPENDS_ON) origins.set(answer, { kind, study, key: keyOf(kind, study) });
+export function computedFrom(result, kind, study) {
+  if (kind in DEPENDS_ON) origins.set(result, { kind, study, key: keyOf(kind, study) });
 }
 
-export const studyOf = (answer) => origins.get(answer)?.study;
+export const studyOf = (result) => origins.get(result)?.study;
 
-/** Whether an answer is of the study as it is now. */
-export function isCurrent(answer) {
-  const origin = answer && origins.get(answer);
+/** Whether a result is of the study as it is now. */
+export function isCurrent(result) {
+  const origin = result && origins.get(result);
   return Boolean(origin) && origin.key === keyOf(origin.kind, state.study);
 }
 
-export function outdated(answer) {
-  if (answer) origins.set(answer, { ...origins.get(answer), key: "outdated" });
+export function outdated(result) {
+  if (result) origins.set(result, { ...origins.get(result), key: "outdated" });
   refresh();
 }
 
-export function shows(element, answer) {
-  shown.set(element, answer);
-  mark(element, answer);
+export function shows(element, result) {
+  shown.set(element, result);
+  mark(element, result);
 }
 
 export const forget = (element) => shown.delete(element);
 
-function mark(element, answer) {
-  const origin = answer && origins.get(answer);
-  const stale = Boolean(origin) && !isCurrent(answer);
+function mark(element, result) {
+  const origin = result && origins.get(result);
+  const stale = Boolean(origin) && !isCurrent(result);
   if (origin) element.dataset.inputs = origin.key;
   else delete element.dataset.inputs;
   element.classList.toggle("stale", stale);
 }
 
 function refresh() {
-  for (const [element, answer] of shown) mark(element, answer);
+  for (const [element, result] of shown) mark(element, result);
 }
 
 state.subscribe("", refresh);

@@ -1,13 +1,13 @@
-// Answers that keep up with a slider: coarse ones for the newest position, a sharp one when it rests.
+// Results that keep up with a slider: coarse ones for the newest position, a sharp one when it rests.
 //
-// const live = follow({ask, show, fail, busy, rest: 250})
-//   ask(position, "coarse" | "sharp", signal) -> Promise<answer>      answer.stage is "sharp" where nothing is left to sharpen
-//   show(answer, position), fail(error), busy("" | "coarse" | "sharp")
-// live.want(position)     the slider is there now; of those that come while a coarse answer is awaited the last one counts
+// const live = follow({request, show, fail, busy, rest: 250})
+//   request(position, "coarse" | "sharp", signal) -> Promise<result>      result.stage is "sharp" where nothing is left to sharpen
+//   show(result, position), fail(error), busy("" | "coarse" | "sharp")
+// live.want(position)     the slider is there now; of those that come while a coarse result is awaited the last one counts
 // live.stop()             nothing more is wanted
 
-export function follow({ ask, show, fail, busy = () => {}, rest = 250 }) {
-  let newest = null; // wanted, and not asked for yet
+export function follow({ request, show, fail, busy = () => {}, rest = 250 }) {
+  let newest = null; // wanted, and not requested yet
   let coarse = null; // what aborts the coarse request on its way
   let sharp = null; // … and the sharp one
   let timer = null;
@@ -30,18 +30,18 @@ export function follow({ ask, show, fail, busy = () => {}, rest = 250 }) {
     coarse = new AbortController();
     const { signal } = coarse;
     busy("coarse");
-    let answer = null;
+    let result = null;
     try {
-      answer = await ask(position, "coarse", signal);
-      if (!signal.aborted) show(answer, position);
+      result = await request(position, "coarse", signal);
+      if (!signal.aborted) show(result, position);
     } catch (error) {
-      // An answer that nobody waits for any more may fail as it likes.
+      // The failure of a result that is no longer wanted is not shown.
       if (!signal.aborted && newest === null && error.name !== "AbortError") fail(error);
     }
     if (signal.aborted) return;
     coarse = null;
     if (newest !== null) next();
-    else if (answer && answer.stage !== "sharp") timer = setTimeout(() => sharpen(position), rest);
+    else if (result && result.stage !== "sharp") timer = setTimeout(() => sharpen(position), rest);
     else busy("");
   }
 
@@ -50,8 +50,8 @@ export function follow({ ask, show, fail, busy = () => {}, rest = 250 }) {
     sharp = mine;
     busy("sharp");
     try {
-      const answer = await ask(position, "sharp", mine.signal);
-      if (sharp === mine) show(answer, position);
+      const result = await request(position, "sharp", mine.signal);
+      if (sharp === mine) show(result, position);
     } catch (error) {
       if (sharp === mine && error.name !== "AbortError") fail(error);
     }

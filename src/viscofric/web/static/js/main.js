@@ -1,4 +1,4 @@
-// The page: its steps, header, check of the document, and what is told to screen readers.
+// The page: its steps, header, check of the document, and sentences for screen readers.
 
 import * as api from "./api.js";
 import * as figures from "./figures.js";
@@ -29,7 +29,7 @@ const app = { state, units, figures, fields, api, start: null, goTo, announce, e
 const steps = new Map();
 let current = null;
 
-/** Tell a screen reader, and nobody else. */
+/** A sentence for screen readers alone. */
 function announce(text) {
   const place = document.getElementById("announcements");
   place.textContent = "";

@@ -128,7 +128,7 @@ export function progressBar({ label = "Computing", onCancel } = {}) {
   });
 }
 
-/** Few numbers that answer the question: keyNumbers([{label, value, remark}]). */
+/** The main numbers of a result: keyNumbers([{label, value, remark}]). */
 export function keyNumbers(list = []) {
   const element = h("dl", { class: "key-numbers" });
   element.set = (entries) => {

@@ -6,7 +6,7 @@
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
 // state.change({path: value, …})    changes several keys as one step of undo
 // state.replace(document)           another document altogether
-// state.renew(names)                files of these names have other contents: what depends on them is told as of a change
+// state.renew(names)                files of these names have other contents: what depends on them is notified as of a change
 // state.renewals(name)              how often that happened
 // state.subscribe(paths, callback)  callback({changed: [paths]}) after a change of one of these paths or below ("" is all);
 //                                   returns what ends the subscription
@@ -91,7 +91,7 @@ function createState() {
   const resultListeners = new Set();
   const renewed = new Map();
 
-  function tell(changed) {
+  function notify(changed) {
     store(KEY, { study, past, future });
     for (const { paths, callback } of [...listeners]) {
       if (paths.some((watched) => changed.some((path) => touches(path, watched)))) callback({ changed });
@@ -103,7 +103,7 @@ function createState() {
     past = [...past.slice(1 - MOST_UNDO), { study, changed }];
     future = [];
     study = frozen(next);
-    tell(changed);
+    notify(changed);
   }
 
   function move(from, to) {
@@ -111,7 +111,7 @@ function createState() {
     if (!last) return false;
     to.push({ study, changed: last.changed });
     study = frozen(last.study);
-    tell(last.changed);
+    notify(last.changed);
     return true;
   }
 
@@ -132,7 +132,7 @@ function createState() {
         ({ past = [], future = [] } = before);
         study = frozen(before.study);
       } else study = frozen(structuredClone(document));
-      tell([""]);
+      notify([""]);
     },
     get: (path) => valueAt(study, path),
     set: (path, value) => become(withValue(study, partsOf(path), structuredClone(value)), [path]),
@@ -147,7 +147,7 @@ function createState() {
         value && typeof value === "object" ? Object.values(value).some(mentions) : names.includes(value);
       for (const name of names) renewed.set(name, (renewed.get(name) ?? 0) + 1);
       const changed = Object.keys(study).filter((table) => mentions(study[table]));
-      if (changed.length) tell(changed);
+      if (changed.length) notify(changed);
     },
     renewals: (name) => renewed.get(name) ?? 0,
     undo: () => move(past, future),

@@ -1,7 +1,7 @@
 // Curves of a figure dragged sideways with mouse, pen or finger.
 //
 // draggable(handle, {can, onStart, onMove, onEnd})   on a figure with a logarithmic x axis: `can(index)` says whether that
-// trace may be dragged; onMove(index, decades) and onEnd(index, decades) tell how far it is from where it was.  The
+// trace may be dragged; onMove(index, decades) and onEnd(index, decades) give its distance from where it was.  The
 // drawn points follow; what comes of it is the caller's to compute.
 
 const NEAR = { mouse: 12, pen: 14, touch: 26 }; // px from a point

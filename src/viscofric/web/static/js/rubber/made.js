@@ -1,6 +1,6 @@
-// The rubber of the study, computed when it is first asked for and again after each change of [material]; for several steps.
+// The rubber of the study, computed when it is first needed and again after each change of [material]; for several steps.
 //
-// follow(app, callback)   callback({running, words, error, answer, complete}) now and whenever that changes; `answer` is
+// follow(app, callback)   callback({running, words, error, result, complete}) now and whenever that changes; `result` is
 //                         the job's (jobs/rubber.py), without its bands until `complete`
 // and what else the steps about the rubber share
 
@@ -22,7 +22,7 @@ export const FIRST_REFERENCE = "30 degC";
 export const sourceOf = (material) =>
   SOURCES.map(([key]) => key).find((key) => [material].flat()[0]?.[key] !== undefined) ?? null;
 
-let now = { running: false, words: "", error: null, answer: null, complete: false };
+let now = { running: false, words: "", error: null, result: null, complete: false };
 const followers = new Set();
 let started = false;
 let timer = null;
@@ -52,17 +52,17 @@ async function make(app) {
   const mine = new AbortController();
   running = mine;
   const { material, uncertainty } = app.state.study;
-  if (!sourceOf(material)) return become({ running: false, error: null, answer: null, complete: false, words: "" });
+  if (!sourceOf(material)) return become({ running: false, error: null, result: null, complete: false, words: "" });
   become({ running: true, words: "Fitting the material", complete: false });
   if (app.state.result("rubber")) app.state.setResult("rubber", null); // it was another rubber's
   app.fields.clearError("rubber");
-  const take = (answer, complete) => {
+  const take = (result, complete) => {
     if (running === mine)
-      become({ answer: Object.assign(answer, { made_of: material }), complete, error: null, running: !complete });
+      become({ result: Object.assign(result, { made_of: material }), complete, error: null, running: !complete });
   };
   try {
     const study = uncertainty === undefined ? { material } : { material, uncertainty };
-    const answer = await app.api.runJob(
+    const result = await app.api.runJob(
       "rubber",
       { study, options: {} },
       {
@@ -71,13 +71,13 @@ async function make(app) {
         onProgress: ({ label }) => running === mine && become({ words: label }),
       },
     );
-    take(answer, true);
-    if (running === mine) app.state.setResult("rubber", now.answer);
+    take(result, true);
+    if (running === mine) app.state.setResult("rubber", now.result);
   } catch (error) {
     if (running !== mine || error.name === "AbortError") return;
     app.fields.showError(error, "rubber");
     app.state.setResult("rubber", null);
-    become({ running: false, error, answer: null, complete: false });
+    become({ running: false, error, result: null, complete: false });
   }
 }
 
@@ -102,12 +102,12 @@ export function pick({ label, options, value, onChange }, { h }) {
   const buttons = options.map(([one, text]) =>
     h("button", { type: "button", class: "button small", onclick: () => choose(one, true) }, text),
   );
-  const choose = (wanted, tell) => {
+  const choose = (wanted, byUser) => {
     options.forEach(([one], at) => {
       buttons[at].setAttribute("aria-pressed", String(one === wanted));
       buttons[at].classList.toggle("main", one === wanted);
     });
-    if (tell) onChange(wanted);
+    if (byUser) onChange(wanted);
   };
   const element = h("div", { class: "row", role: "group", "aria-label": label }, buttons);
   element.choose = choose;
@@ -115,8 +115,8 @@ export function pick({ label, options, value, onChange }, { h }) {
   return element;
 }
 
-/** Whether figures of an answer say that it is made up. */
-export const synthetic = (answer, { state }) => answer.synthetic || state.get("data_origin") === "synthetic";
+/** Whether figures of a result say that it is made up. */
+export const synthetic = (result, { state }) => result.synthetic || state.get("data_origin") === "synthetic";
 
 /** "0.12 decades" */
 export const decades = (value, digits = 2) => `${value.toFixed(digits).replace("-", "−")} decades`;

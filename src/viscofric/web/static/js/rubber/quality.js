@@ -26,7 +26,7 @@ export function qualityCards(app) {
   const { fields, figures } = app;
   const { h, card } = fields;
   let diagram = "van_gurp_palmen";
-  let answer = null;
+  let result = null;
   const first = card("Validity of superposition");
   first.append(
     pick(
@@ -67,18 +67,18 @@ export function qualityCards(app) {
   });
   third.append(sentence);
   const draw = () => {
-    const check = answer?.check;
+    const check = result?.check;
     if (!check) return;
     const [title, x, y] = DIAGRAMS[diagram];
     const curves = check.diagrams[diagram];
     const temperatures = curves.map((one) => one.temperature);
     points.update({
-      of: answer,
+      of: result,
       title,
       x,
       y,
       temperatures,
-      synthetic: synthetic(answer, app),
+      synthetic: synthetic(result, app),
       caption: `No shift along the frequency changes these points. ${byTemperature(temperatures, app)}`,
       traces: curves.map((one) => ({
         name: named(one.temperature, app),
@@ -94,8 +94,8 @@ export function qualityCards(app) {
       })),
     });
     distances.update({
-      of: answer,
-      synthetic: synthetic(answer, app),
+      of: result,
+      synthetic: synthetic(result, app),
       traces: [
         {
           name: "distance",
@@ -128,8 +128,8 @@ export function qualityCards(app) {
       };
     };
     causal.update({
-      of: answer,
-      synthetic: synthetic(answer, app),
+      of: result,
+      synthetic: synthetic(result, app),
       marks: [{ y: found.allowed, label: "allowed rms of E′" }, { y: -found.allowed }],
       traces: [true, false].flatMap((judged) => [
         part("storage", "E′ computed from E″", "square", "blue", judged),
@@ -140,7 +140,7 @@ export function qualityCards(app) {
   return {
     cards: [first, second, third],
     show(next) {
-      answer = next;
+      result = next;
       for (const one of [first, second, third]) one.hidden = !next?.check;
       draw();
     },

@@ -88,26 +88,26 @@ export function mount(section, app) {
     if (now.running) wait.start(now.words || "Fitting the material");
     else wait.finish();
     problem.set(now.error ? [app.explain(now.error, "shift")] : []);
-    const { answer } = now;
-    const shift = answer?.shift;
-    for (const one of [verdict, laws, notes, limits]) shows(one, answer);
+    const { result } = now;
+    const shift = result?.shift;
+    for (const one of [verdict, laws, notes, limits]) shows(one, result);
     nothing.set(
-      answer && !shift ? ["This material has no shift factors: it is valid at one temperature only."] : [],
+      result && !shift ? ["This material has no shift factors: it is valid at one temperature only."] : [],
     );
-    verdict.show(answer);
-    shifted.show(answer, now);
+    verdict.show(result);
+    shifted.show(result, now);
     factors.hidden = !shift;
     laws.hidden = left.hidden = !shift?.laws.length;
     vertical.hidden = !shift?.vertical;
-    quality.show(answer);
-    notes.set(answer?.notes ?? []);
+    quality.show(result);
+    notes.set(result?.notes ?? []);
     if (!shift) return;
-    alpha.update({ of: answer, ...alphaFigure(answer, app) });
+    alpha.update({ of: result, ...alphaFigure(result, app) });
     limits.textContent = limitsInWords(shift, app);
     explanation.textContent = shift.explanation;
     table.replaceChildren(lawTable(shift, app));
-    residual.update({ of: answer, traces: residualTraces(shift), synthetic: synthetic(answer, app) });
-    if (shift.vertical) b.update({ of: answer, ...verticalFigure(shift.vertical, answer, app) });
+    residual.update({ of: result, traces: residualTraces(shift), synthetic: synthetic(result, app) });
+    if (shift.vertical) b.update({ of: result, ...verticalFigure(shift.vertical, result, app) });
   };
   let last = null;
   follow(app, (now) => show((last = now)));
@@ -196,15 +196,15 @@ function verdictCard({ fields }) {
   const sentences = note([]);
   const numbers = fields.keyNumbers();
   const element = h("section", { class: "card", "aria-live": "polite" }, headline, numbers, sentences);
-  element.show = (answer) => {
-    const check = answer?.check;
+  element.show = (result) => {
+    const check = result?.check;
     element.hidden = !check;
     if (!check) return;
     headline.textContent = check.headline;
     headline.dataset.kind = KIND[check.verdict];
     sentences.set(check.sentences, { error: "error", warning: "warning" }[KIND[check.verdict]] ?? "note");
-    const { misfit, used, origin } = answer.shift;
-    const held = answer.shift.factors.held.filter(Boolean).length;
+    const { misfit, used, origin } = result.shift;
+    const held = result.shift.factors.held.filter(Boolean).length;
     numbers.set([
       { label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` },
       { label: "figure of merit", value: check.figure_of_merit.toPrecision(2), remark: "good if ≤ 1" },

@@ -2,8 +2,8 @@
 
 import { named, synthetic } from "./made.js";
 
-export function alphaFigure(answer, app) {
-  const { shift } = answer;
+export function alphaFigure(result, app) {
+  const { shift } = result;
   const { factors, material } = shift;
   const traces = [];
   if (factors) {
@@ -46,7 +46,7 @@ export function alphaFigure(answer, app) {
     caption:
       "Bars and bands are 95 %. Dotted lines are extrapolated; they end at the limits of validity.",
     marks: [{ x: shift.reference, label: "reference" }],
-    synthetic: synthetic(answer, app),
+    synthetic: synthetic(result, app),
     traces,
   };
 }
@@ -159,14 +159,14 @@ export function residualTraces({ laws, factors }) {
   ];
 }
 
-export function verticalFigure({ temperature, b, upper }, answer, app) {
+export function verticalFigure({ temperature, b, upper }, result, app) {
   const trace = upper
     ? { mode: "markers", x: temperature, y: b, error: upper.map((one, at) => one - b[at]) }
     : { mode: "lines+markers", x: temperature, y: b };
   return {
     traces: [{ name: "b", legend: false, ...trace }],
     marks: [{ y: 1 }],
-    synthetic: synthetic(answer, app),
+    synthetic: synthetic(result, app),
     caption: upper
       ? "Fitted with the shift factors; bars are 95 %."
       : "ρT/(ρ₀T₀), from rubber elasticity.",

@@ -17,7 +17,7 @@ export function shiftedCard(app) {
   const { state, fields, figures, api } = app;
   const { h, card, button } = fields;
   let quantity = "storage_modulus";
-  let answer = null;
+  let result = null;
   let chosen = null; // K
   let table = null; // misfit over decades moved, of the chosen isotherm
   let timer = null;
@@ -74,13 +74,13 @@ export function shiftedCard(app) {
     parts,
   );
 
-  const isotherm = () => answer?.shift?.isotherms.find((one) => one.temperature === chosen);
+  const isotherm = () => result?.shift?.isotherms.find((one) => one.temperature === chosen);
   const misfitAt = (by) => {
     if (!table) return null;
     const at = Math.round((by - table.moved[0]) / STEP);
     return table.misfit[at] ?? null;
   };
-  const tell = (by) => {
+  const describe = (by) => {
     const one = isotherm();
     if (!one) return;
     const misfit = misfitAt(by);
@@ -115,15 +115,15 @@ export function shiftedCard(app) {
         study: { material },
         options: { temperature: worded(kelvin), reach: REACH, step: STEP },
       });
-      if (chosen === kelvin && answer?.made_of === material) {
+      if (chosen === kelvin && result?.made_of === material) {
         table = found;
-        tell(Number(slider.value));
+        describe(Number(slider.value));
       }
     } catch (error) {
       live.textContent = error.message;
     }
   };
-  const traceOf = (kelvin) => answer.shift.isotherms.findIndex((one) => one.temperature === kelvin);
+  const traceOf = (kelvin) => result.shift.isotherms.findIndex((one) => one.temperature === kelvin);
 
   select.addEventListener("change", () => choose(Number(select.value)));
   slider.addEventListener("input", () => {
@@ -136,7 +136,7 @@ export function shiftedCard(app) {
       Number(slider.value),
     );
     exact.value = (one.log10_shift + Number(slider.value)).toFixed(3);
-    tell(Number(slider.value));
+    describe(Number(slider.value));
   });
   slider.addEventListener("change", () => {
     clearTimeout(timer);
@@ -151,37 +151,37 @@ export function shiftedCard(app) {
   );
 
   const canMove = (index) => {
-    const one = answer?.shift?.isotherms[index];
+    const one = result?.shift?.isotherms[index];
     return Boolean(one) && !one.is_reference && !parts.hidden;
   };
   draggable(handle, {
     can: canMove,
     onStart: (index) =>
-      answer.shift.isotherms[index].temperature !== chosen && choose(answer.shift.isotherms[index].temperature),
+      result.shift.isotherms[index].temperature !== chosen && choose(result.shift.isotherms[index].temperature),
     onMove: (index, by) => {
       slider.value = by;
-      exact.value = (answer.shift.isotherms[index].log10_shift + by).toFixed(3);
-      tell(Math.round(by / STEP) * STEP);
+      exact.value = (result.shift.isotherms[index].log10_shift + by).toFixed(3);
+      describe(Math.round(by / STEP) * STEP);
     },
     onEnd: (index, by) =>
-      by && hold(answer.shift.isotherms[index].temperature, answer.shift.isotherms[index].log10_shift + by),
+      by && hold(result.shift.isotherms[index].temperature, result.shift.isotherms[index].log10_shift + by),
   });
 
   const draw = () => {
-    const isotherms = answer?.shift?.isotherms ?? [];
+    const isotherms = result?.shift?.isotherms ?? [];
     const temperatures = isotherms.map((one) => one.temperature);
     const [, label] = QUANTITIES.find(([key]) => key === quantity);
     handle.update({
-      of: answer,
+      of: result,
       caption: [byTemperature(temperatures, app), isotherms.some((one) => one.held) ? "Squares are fixed manually." : ""]
         .filter(Boolean)
         .join(" "),
       y: {
-        label: answer?.shift?.vertical && quantity !== "loss_tangent" ? `${label}/b` : label,
+        label: result?.shift?.vertical && quantity !== "loss_tangent" ? `${label}/b` : label,
         kind: quantity === "loss_tangent" ? undefined : "modulus",
         log: true,
       },
-      synthetic: answer && synthetic(answer, app),
+      synthetic: result && synthetic(result, app),
       temperatures,
       traces: isotherms.map((one) => ({
         name: named(one.temperature, app),
@@ -200,13 +200,13 @@ export function shiftedCard(app) {
 
   element.controls = controls;
   element.show = (next, { running }) => {
-    const same = next && next.made_of === answer?.made_of;
-    answer = next;
-    const isotherms = answer?.shift?.isotherms ?? [];
+    const same = next && next.made_of === result?.made_of;
+    result = next;
+    const isotherms = result?.shift?.isotherms ?? [];
     element.hidden = controls.hidden = isotherms.length === 0;
     element.toggleAttribute("aria-busy", Boolean(running));
     if (isotherms.length === 0) return;
-    const given = answer.shift.origin === "given";
+    const given = result.shift.origin === "given";
     why.textContent = given ? "The shift factors are from a file; fit them to the sweeps to correct one." : "";
     parts.hidden = given;
     freeAll.disabled = !isotherms.some((one) => one.held);

@@ -13,7 +13,7 @@ export function mount(section, app) {
   const doubts = note([], "warning");
   const numbers = fields.keyNumbers();
   const first = card("Modulus against frequency");
-  const at = temperatureChoice(app, (kelvin) => ask(kelvin));
+  const at = temperatureChoice(app, (kelvin) => request(kelvin));
   const modulus = figures.figure(first, {
     id: "modulus",
     title: "E′ and E″",
@@ -76,16 +76,16 @@ export function mount(section, app) {
   );
 
   let now = null;
-  let moved = null; // the answer of "moduli" at another temperature
+  let moved = null; // the result of "moduli" at another temperature
   let running = null;
 
   /** E(ω) at another temperature, by the server. */
-  const ask = async (kelvin) => {
+  const request = async (kelvin) => {
     running?.abort();
-    const reference = now?.answer?.spectrum.reference;
-    if (!now?.answer || kelvin === null || Math.abs(kelvin - reference) < 0.005) {
+    const reference = now?.result?.spectrum.reference;
+    if (!now?.result || kelvin === null || Math.abs(kelvin - reference) < 0.005) {
       moved = null;
-      at.tell("");
+      at.note("");
       return draw();
     }
     running = new AbortController();
@@ -100,28 +100,28 @@ export function mount(section, app) {
       );
       if (running !== mine) return;
       moved = found;
-      at.tell(found.extrapolated ? "The shift factor is extrapolated at this temperature." : "");
+      at.note(found.extrapolated ? "The shift factor is extrapolated at this temperature." : "");
       draw();
     } catch (error) {
-      if (running === mine && error.name !== "AbortError") at.tell(error.message, true);
+      if (running === mine && error.name !== "AbortError") at.note(error.message, true);
     }
   };
 
   const draw = () => {
-    const answer = now?.answer;
-    if (!answer) return;
-    const { spectrum } = answer;
+    const result = now?.result;
+    if (!result) return;
+    const { spectrum } = result;
     const here = moved ?? {
       temperature: spectrum.reference,
       modulus: spectrum.modulus,
-      band: answer.band ?? null,
+      band: result.band ?? null,
       moved: spectrum.measured,
       isotherm: null,
     };
-    const madeUp = synthetic(answer, app);
+    const madeUp = synthetic(result, app);
     const title = here.temperature === null ? "E′ and E″" : `E′ and E″ at ${named(here.temperature, app)}`;
-    const of = moved ?? answer;
-    modulus.update({ of, title, synthetic: madeUp, caption: caption(answer, here, app), traces: modulusTraces(here) });
+    const of = moved ?? result;
+    modulus.update({ of, title, synthetic: madeUp, caption: caption(result, here, app), traces: modulusTraces(here) });
     tangent.update({
       of,
       title: here.temperature === null ? "tan δ" : `tan δ at ${named(here.temperature, app)}`,
@@ -132,7 +132,7 @@ export function mount(section, app) {
     if (spectrum.residual) {
       const x = spectrum.measured.angular_frequency;
       residual.update({
-        of: answer,
+        of: result,
         synthetic: madeUp,
         marks: [{ y: 0 }],
         traces: [
@@ -152,29 +152,29 @@ export function mount(section, app) {
     }
     fourth.hidden = !spectrum.modes;
     if (spectrum.modes) {
-      modes.update({ of: answer, ...modesFigure(answer, kind, madeUp) });
+      modes.update({ of: result, ...modesFigure(result, kind, madeUp) });
       table.replaceChildren(modesTable(spectrum, app));
     }
   };
 
   const show = (next) => {
-    const before = now?.answer?.made_of;
+    const before = now?.result?.made_of;
     now = next;
     if (now.running) wait.start(now.words || "Fitting the material");
-    else wait.finish(now.answer?.no_band ? `No 95 % band: ${now.answer.no_band}.` : "");
+    else wait.finish(now.result?.no_band ? `No 95 % band: ${now.result.no_band}.` : "");
     problem.set(now.error ? [app.explain(now.error, "spectrum")] : []);
-    const { answer } = now;
-    for (const one of [first, second, third, fourth]) one.hidden = !answer;
-    numbers.set(answer ? keyNumbers(answer, app) : []);
-    for (const one of [numbers, doubts, table]) shows(one, answer);
+    const { result } = now;
+    for (const one of [first, second, third, fourth]) one.hidden = !result;
+    numbers.set(result ? keyNumbers(result, app) : []);
+    for (const one of [numbers, doubts, table]) shows(one, result);
     doubts.set(
-      answer ? [...(answer.spectrum.fit?.notes ?? []), ...answer.spectrum.notes, ...(answer.band?.notes ?? [])] : [],
+      result ? [...(result.spectrum.fit?.notes ?? []), ...result.spectrum.notes, ...(result.band?.notes ?? [])] : [],
     );
-    if (!answer) return;
-    at.show(answer);
-    if (answer.made_of !== before) moved = null;
+    if (!result) return;
+    at.show(result);
+    if (result.made_of !== before) moved = null;
     draw();
-    if (at.kelvin() !== null && (answer.made_of !== before || now.complete)) ask(at.kelvin());
+    if (at.kelvin() !== null && (result.made_of !== before || now.complete)) request(at.kelvin());
   };
   follow(app, show);
   units.subscribe(() => now && show(now));

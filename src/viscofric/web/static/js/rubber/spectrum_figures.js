@@ -31,13 +31,13 @@ export function keyNumbers({ spectrum, band }, { units }) {
   return all;
 }
 
-export function caption(answer, here, app) {
+export function caption(result, here, app) {
   const parts = [];
   if (here.band) parts.push(`95 % bands of each modulus (${here.band.draws} bootstrap samples).`);
   if (here.moved) parts.push("Points: all measurements, shifted to this temperature.");
   if (here.isotherm)
     parts.push(`Filled points: the sweep measured at ${named(here.isotherm.temperature, app)}.`);
-  const range = answer.spectrum.fit?.frequency_range;
+  const range = result.spectrum.fit?.frequency_range;
   if (range) parts.push("Beyond the points the spectrum is extrapolated.");
   return parts.join(" ");
 }
@@ -122,8 +122,8 @@ export function tangentTraces({ modulus, band, moved, isotherm }) {
 }
 
 /** A stem for each mode, with its band and the times that no measured frequency reaches. */
-export function modesFigure(answer, kind, synthetic) {
-  const { spectrum, band } = answer;
+export function modesFigure(result, kind, synthetic) {
+  const { spectrum, band } = result;
   const retardation = kind === "retardation";
   const { modes, relaxation } = spectrum;
   const [tau, strength] = retardation

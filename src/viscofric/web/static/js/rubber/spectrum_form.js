@@ -71,10 +71,10 @@ export function temperatureChoice({ fields, units }, onChange) {
   let chosen = null; // K; null is the reference
   let reference = null;
   let timer = null;
-  const tell = () => (shown.textContent = units.show(chosen ?? reference, "temperature"));
+  const showTemperature = () => (shown.textContent = units.show(chosen ?? reference, "temperature"));
   slider.addEventListener("input", () => {
     chosen = Number(slider.value);
-    tell();
+    showTemperature();
     clearTimeout(timer);
     timer = setTimeout(() => onChange(chosen), WAIT);
   });
@@ -82,7 +82,7 @@ export function temperatureChoice({ fields, units }, onChange) {
   const reset = () => {
     chosen = null;
     slider.value = reference;
-    tell();
+    showTemperature();
     onChange(null);
   };
   const element = h(
@@ -93,21 +93,21 @@ export function temperatureChoice({ fields, units }, onChange) {
     said,
   );
   element.kelvin = () => chosen;
-  element.tell = (words, wrong) => {
+  element.note = (words, wrong) => {
     said.textContent = words;
     said.classList.toggle("field-error", Boolean(wrong));
   };
-  element.show = (answer) => {
-    element.hidden = !answer.shift;
-    if (!answer.shift) return (chosen = null);
-    reference = answer.spectrum.reference;
-    const line = answer.shift.material.line.temperature;
+  element.show = (result) => {
+    element.hidden = !result.shift;
+    if (!result.shift) return (chosen = null);
+    reference = result.spectrum.reference;
+    const line = result.shift.material.line.temperature;
     slider.min = 273.15 + Math.ceil(line[0] - 273.15);
     slider.max = 273.15 + Math.floor(line.at(-1) - 273.15);
     slider.step = 1;
     if (chosen !== null && (chosen < line[0] || chosen > line.at(-1))) chosen = null;
     slider.value = chosen ?? reference;
-    tell();
+    showTemperature();
   };
   return element;
 }

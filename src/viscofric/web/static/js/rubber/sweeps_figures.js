@@ -4,46 +4,46 @@ import { byTemperature, fewEnough, named } from "./made.js";
 
 const MOST_ROWS = 200;
 
-export function keyNumbers(answer, app) {
+export function keyNumbers(result, app) {
   const { units } = app;
-  if (answer.source !== "dma") {
+  if (result.source !== "dma") {
     return [
       {
         label: "material",
-        value: answer.name || "unnamed",
-        remark: answer.synthetic ? "synthetic, not measured" : "",
+        value: result.name || "unnamed",
+        remark: result.synthetic ? "synthetic, not measured" : "",
       },
       {
         label: "reference",
-        value: answer.reference === null ? "none" : named(answer.reference, app),
-        remark: answer.reference === null ? "valid at one temperature only" : "",
+        value: result.reference === null ? "none" : named(result.reference, app),
+        remark: result.reference === null ? "valid at one temperature only" : "",
       },
     ];
   }
-  const kelvin = answer.isotherms.map((one) => one.temperature);
-  const omega = answer.isotherms.flatMap((one) => one.angular_frequency);
-  const points = answer.isotherms.reduce((sum, one) => sum + one.angular_frequency.length, 0);
-  const outliers = answer.flagged.filter((one) => one.why !== "left out").length;
+  const kelvin = result.isotherms.map((one) => one.temperature);
+  const omega = result.isotherms.flatMap((one) => one.angular_frequency);
+  const points = result.isotherms.reduce((sum, one) => sum + one.angular_frequency.length, 0);
+  const outliers = result.flagged.filter((one) => one.why !== "left out").length;
   const span = (values, kind) => `${units.show(Math.min(...values), kind)} to ${units.show(Math.max(...values), kind)}`;
   return [
     {
       label: "measured in",
-      ...(answer.asks.includes("deformation") && !app.state.get("material.deformation")
+      ...(result.left_open.includes("deformation") && !app.state.get("material.deformation")
         ? { value: "?", remark: "please select tension or shear" }
-        : { value: answer.deformation, remark: answer.asks.includes("deformation") ? "as given" : "from the file" }),
+        : { value: result.deformation, remark: result.left_open.includes("deformation") ? "as given" : "from the file" }),
     },
-    { label: "isotherms", value: String(answer.isotherms.length), remark: span(kelvin, "temperature") },
+    { label: "isotherms", value: String(result.isotherms.length), remark: span(kelvin, "temperature") },
     { label: "points", value: String(points), remark: span(omega, "angular_frequency") },
     {
       label: "flagged",
-      value: String(answer.left_out + outliers),
-      remark: `${answer.left_out} left out, ${outliers} outliers`,
+      value: String(result.left_out + outliers),
+      remark: `${result.left_out} left out, ${outliers} outliers`,
     },
   ];
 }
 
-export function fileTable(answer, app) {
-  if (!answer?.files?.length) return [];
+export function fileTable(result, app) {
+  if (!result?.files?.length) return [];
   const { units, fields } = app;
   const span = (range, kind) =>
     range
@@ -51,7 +51,7 @@ export function fileTable(answer, app) {
         ? units.show(range[0], kind)
         : `${units.show(range[0], kind)} to ${units.show(range[1], kind)}`
       : "–";
-  const rows = answer.files
+  const rows = result.files
     .slice(0, MOST_ROWS)
     .map((one) => [
       one.name,
@@ -69,17 +69,17 @@ export function fileTable(answer, app) {
   return [
     app.fields.h(
       "details",
-      { open: answer.files.length <= 3 },
-      app.fields.h("summary", {}, answer.files.length === 1 ? "The file" : `${answer.files.length} files`),
+      { open: result.files.length <= 3 },
+      app.fields.h("summary", {}, result.files.length === 1 ? "The file" : `${result.files.length} files`),
       app.fields.h("div", { class: "words" }, table),
     ),
   ];
 }
 
-export function flaggedTable(answer, app) {
-  if (!answer?.flagged?.length) return [];
+export function flaggedTable(result, app) {
+  if (!result?.flagged?.length) return [];
   const { units, fields } = app;
-  const rows = answer.flagged
+  const rows = result.flagged
     .slice(0, MOST_ROWS)
     .map((one) => [
       one.place,
@@ -97,11 +97,11 @@ export function flaggedTable(answer, app) {
   return [fields.h("details", {}, fields.h("summary", {}, "Flagged readings"), table)];
 }
 
-export function isothermFigure(answer, { key, label, primes }, app) {
-  const temperatures = answer.isotherms.map((one) => one.temperature);
-  const symbol = answer.deformation === "shear" ? "G" : "E";
+export function isothermFigure(result, { key, label, primes }, app) {
+  const temperatures = result.isotherms.map((one) => one.temperature);
+  const symbol = result.deformation === "shear" ? "G" : "E";
   const modulus = key !== "loss_tangent";
-  const traces = answer.isotherms.map((one) => ({
+  const traces = result.isotherms.map((one) => ({
     name: named(one.temperature, app),
     legend: fewEnough(temperatures),
     temperature: one.temperature,
@@ -115,7 +115,7 @@ export function isothermFigure(answer, { key, label, primes }, app) {
   }));
   const flags = (left, name, symbol_) => {
     const value = (one) => (modulus ? one[key] : one.storage_modulus > 0 ? one.loss_modulus / one.storage_modulus : null);
-    const some = answer.flagged.filter(
+    const some = result.flagged.filter(
       (one) => (one.why === "left out") === left && one.angular_frequency > 0 && value(one) > 0,
     );
     return some.length

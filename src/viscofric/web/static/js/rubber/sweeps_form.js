@@ -106,7 +106,7 @@ export function sourceForm(app, onError) {
     h("summary", {}, "Add files of the same specimen"),
     fields.fileDrop({ label: "Add files", onFiles: addMore }),
   );
-  const asks = {
+  const required = {
     deformation: fields.choiceField({
       path: "material.deformation",
       label: "Measured in",
@@ -133,7 +133,7 @@ export function sourceForm(app, onError) {
       help: "Not stated in the file.",
     }),
   };
-  asks.sheet = fields.textField({
+  required.sheet = fields.textField({
     path: "material.sheet",
     label: "Sheet",
     help: "Name of the only sheet of the workbook to read.",
@@ -233,17 +233,17 @@ export function sourceForm(app, onError) {
     listFiles();
     showPanel(sourceOf(state.get("material")) ?? shown);
   };
-  const questions = h("div", { class: "panel questions" }, ...Object.values(asks));
+  const questions = h("div", { class: "panel questions" }, ...Object.values(required));
   const several = fields.note([], "several");
   const element = card("Material", several, group, questions, columns, ...Object.values(panels), making);
-  element.ask = (key, values) => {
-    if (asks[key]) asks[key].hidden = false;
-    columns.ask(asks[key] ? null : values); // one question at a time
+  element.require = (key, values) => {
+    if (required[key]) required[key].hidden = false;
+    columns.offer(required[key] ? null : values); // one question at a time
   };
-  element.show = (answer) => {
-    columns.ask(null);
-    for (const [key, field] of Object.entries(asks))
-      field.hidden = !answer?.asks?.includes(key) && state.get(`material.${key}`) === undefined;
+  element.show = (result) => {
+    columns.offer(null);
+    for (const [key, field] of Object.entries(required))
+      field.hidden = !result?.left_open?.includes(key) && state.get(`material.${key}`) === undefined;
   };
   element.show(null);
   state.subscribe(["material"], refresh);

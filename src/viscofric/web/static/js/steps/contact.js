@@ -39,11 +39,11 @@ function mount(section, app) {
   );
   pictures.grid.append(more);
   let position = { speed: null, temperature: null };
-  let answer = null;
+  let result = null;
 
   const curve = frictionCard(app, { onPick: (where) => moveTo(where) });
   const live = follow({
-    ask: (where, stage, signal) =>
+    request: (where, stage, signal) =>
       app.api.runJob(
         "contact",
         {
@@ -62,13 +62,13 @@ function mount(section, app) {
       // a position beyond the rubber is the sliders', no field's
       const beyond = error.field === "conditions.temperature";
       failed.set([beyond ? error.message : app.waits("the contact", error, "live")]);
-      outdated(answer);
+      outdated(result);
     },
     busy: (stage) =>
       (status.textContent = {
         coarse: "solving …",
         sharp: "refining …",
-        "": answer ? (answer.stage === "sharp" ? "converged" : "coarse") : "",
+        "": result ? (result.stage === "sharp" ? "converged" : "coarse") : "",
       }[stage]),
   });
 
@@ -140,31 +140,31 @@ function mount(section, app) {
   }
 
   function show(found, where) {
-    answer = Object.assign(found, { combination: where.combination });
+    result = Object.assign(found, { combination: where.combination });
     const noun = nounOf(where.study);
     failed.set([]);
     fields.clearError("live");
-    for (const one of [numbers, rows.parentElement, why.parentElement, number]) shows(one, answer);
+    for (const one of [numbers, rows.parentElement, why.parentElement, number]) shows(one, result);
     number.set(found.warnings);
     pictures.show(found, { noun, synthetic: app.isSynthetic(studyOf(found)) });
-    curve.mark(answer);
+    curve.mark(result);
     words();
-    state.setResult("contact", answer);
+    state.setResult("contact", result);
   }
 
   function words() {
-    if (!answer) return;
+    if (!result) return;
     const radius = ["ball", "cylinder"].includes(nounOf(state.study))
       ? units.parse(state.get("indenter.radius"), "length")
       : null;
-    const { key, others } = numbersOf(answer, units);
+    const { key, others } = numbersOf(result, units);
     numbers.set(key);
     rows.replaceChildren(
       ...others.map(({ label, value, remark }) =>
         h("tr", {}, h("th", { scope: "row" }, label), h("td", {}, value), h("td", {}, remark)),
       ),
     );
-    why.textContent = whyItLeans(answer, units, nounOf(state.study), radius);
+    why.textContent = whyItLeans(result, units, nounOf(state.study), radius);
   }
 
   const liveCard = card(

@@ -104,7 +104,7 @@ function runFileCard(app) {
   return made;
 }
 
-/** A run file's lines, with headings, keys and remarks told apart. */
+/** A run file's lines, with headings, keys and remarks marked as such. */
 function coloured(text, h) {
   return text.split("\n").flatMap((line) => {
     const key = /^([\w-]+)( = .*)$/.exec(line);

@@ -24,10 +24,10 @@ function source(state) {
 }
 
 function superposition(state) {
-  const answer = state.result("rubber");
-  if (!answer) return "";
-  if (!answer.shift) return "no shift with temperature";
-  return answer.check ? answer.check.short : "from the material file";
+  const result = state.result("rubber");
+  if (!result) return "";
+  if (!result.shift) return "no shift with temperature";
+  return result.check ? result.check.short : "from the material file";
 }
 
 function modes(state) {

@@ -1,4 +1,4 @@
-// Measured friction beside the prediction for the page's rubber and ball, and what else the test tells.
+// Measured friction beside the prediction for the page's rubber and ball, and what else follows from the test.
 
 import { shows } from "../inputs.js";
 import { checkFigure, coulombFigure, frictionFigure, zeroFigure } from "./measurement_figures.js";
@@ -84,9 +84,9 @@ export function comparison(app, step, { changed }) {
     warnings.set(result ? [...result.failures, ...result.warnings] : []);
     checks.set(result?.checks ?? []);
     checked.hidden = !result;
-    const { headings, rows, caption, note: told } = result?.table ?? {};
+    const { headings, rows, caption, note: remark } = result?.table ?? {};
     byTemperature.replaceChildren(
-      ...(rows ? [fields.table(headings, rows, caption), h("p", { class: "help" }, told)] : []),
+      ...(rows ? [fields.table(headings, rows, caption), h("p", { class: "help" }, remark)] : []),
     );
     if (result?.sentences.length) app.announce(result.sentences[0]);
     changed();

@@ -19,8 +19,8 @@ export function fromZero(...columns) {
 /** The upper ends of error bars. */
 export const reach = (values, bars) => values.map((value, at) => (value === null ? null : value + (bars?.[at] ?? 0)));
 
-/** What the pointer tells of a measured point. */
-function told(isotherm, what) {
+/** The text at the pointer on a measured point. */
+function described(isotherm, what) {
   return isotherm.speed.map((_, at) => {
     const error = isotherm[`${what}_error`]?.[at];
     const n = isotherm.replicates?.[at];
@@ -63,7 +63,7 @@ export function frictionFigure(measured, agreement, synthetic) {
 }
 
 function pointTraces(isotherm, what, doubts = []) {
-  const text = told(isotherm, what).map((words, at) => [words, doubts[at]].filter(Boolean).join("; "));
+  const text = described(isotherm, what).map((words, at) => [words, doubts[at]].filter(Boolean).join("; "));
   const scatter = isotherm[`${what}_scatter`];
   const common = {
     mode: "markers",

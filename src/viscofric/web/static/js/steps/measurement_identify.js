@@ -1,11 +1,11 @@
-// The rubber behind measured friction: what fixes its level, the computation, and what it tells.
+// The rubber behind measured friction: what fixes its level, the computation, and its result.
 
 import { shows } from "../inputs.js";
 import { fitFigure, modulusFigure } from "./measurement_inverse.js";
 import { optionChoice, optionField, repeated } from "./measurement_parts.js";
 
-/** What an anchor of each kind asks for. */
-const ASKED = {
+/** Fields of an anchor of each kind. */
+const ANCHOR_FIELDS = {
   nothing: [],
   rubber: ["frequency", "temperature"],
   modulus: ["modulus", "frequency", "temperature", "error"],
@@ -65,7 +65,7 @@ export function identification(app, step, { alone }) {
   };
   const job = repeated(app, "identify", { label: "Identifying", done: show });
   const go = button({ label: "Identify the material", kind: "main", onClick: () => job.run(state.study, options()) });
-  const told = note([]);
+  const sentences = note([]);
   const family = h("div", {});
   const card_ = h("a", { class: "button small", hidden: true, download: "rubber_from_friction.json" }, "Material (JSON)");
   const use = button({ label: "Use this material on the page", kind: "small", onClick: take });
@@ -80,7 +80,7 @@ export function identification(app, step, { alone }) {
   const results = h("div", { class: "step-body", hidden: true });
   card.append(results);
   const pair = h("div", { class: "grid" });
-  results.append(pair, told, family, h("div", { class: "row" }, card_, use));
+  results.append(pair, sentences, family, h("div", { class: "row" }, card_, use));
   const modulus = figures.figure(pair, {
     id: "identified-modulus",
     title: "Modulus identified from friction",
@@ -97,24 +97,24 @@ export function identification(app, step, { alone }) {
   });
 
   function choose() {
-    const asked = ASKED[anchor.value()];
-    for (const [name, box] of Object.entries(boxes)) box.hidden = !asked.includes(name);
+    const shown = ANCHOR_FIELDS[anchor.value()];
+    for (const [name, box] of Object.entries(boxes)) box.hidden = !shown.includes(name);
     const isotherms = state.result("measured")?.curves ?? [];
     const middle = isotherms[Math.floor(isotherms.length / 2)]?.temperature;
     boxes.temperature.input.placeholder = middle ? app.units.show(middle, "temperature") : "30 °C";
   }
 
-  /** What the job is asked for; the placeholders of frequency and temperature count where nothing was typed. */
+  /** The options of the job; the placeholders of frequency and temperature count where nothing was typed. */
   function options() {
     const of = anchor.value();
     const chosen = { shift: shift.value(), beside: !alone() };
     if (of === "nothing") return chosen;
     const typed = (name) => boxes[name].value() || undefined;
-    const asked = Object.fromEntries(ASKED[of].map((name) => [name, typed(name)]));
-    asked.temperature ??= app.units.typed(boxes.temperature.input.placeholder, "temperature");
-    if (of === "rubber") asked.frequency ??= "1 Hz";
-    if (asked.error !== undefined) asked.error = Number(asked.error);
-    return { ...chosen, anchor: { of, ...asked } };
+    const given = Object.fromEntries(ANCHOR_FIELDS[of].map((name) => [name, typed(name)]));
+    given.temperature ??= app.units.typed(boxes.temperature.input.placeholder, "temperature");
+    if (of === "rubber") given.frequency ??= "1 Hz";
+    if (given.error !== undefined) given.error = Number(given.error);
+    return { ...chosen, anchor: { of, ...given } };
   }
 
   function show(found) {
@@ -123,11 +123,11 @@ export function identification(app, step, { alone }) {
     const made = alone() ? step.data() : step.synthetic();
     modulus.update({ of: found, ...modulusFigure(found, made) });
     fit.update({ of: found, ...fitFigure(found, state.result("measured"), made) });
-    for (const one of [told, family]) shows(one, found);
+    for (const one of [sentences, family]) shows(one, found);
     const at =
       found.anchor &&
       `Anchored to |E| = ${app.units.show(found.anchor.modulus, "modulus")} at ${app.units.show(found.anchor.angular_frequency, "angular_frequency")} and ${app.units.show(found.anchor.temperature, "temperature")}.`;
-    told.set([at, ...found.sentences].filter(Boolean));
+    sentences.set([at, ...found.sentences].filter(Boolean));
     const percent = (share) => `${app.units.plainNumber(100 * share, 2)} %`;
     const rows = found.family.map((one) => [
       `× ${one.factor}`,
@@ -152,8 +152,8 @@ export function identification(app, step, { alone }) {
   /** Make the identified rubber that of the page. */
   async function take() {
     const found = state.result("identified");
-    const answer = await fetch(app.api.downloadUrl(found.download));
-    const [name] = await app.api.uploadFiles([new File([await answer.blob()], found.download)]);
+    const response = await fetch(app.api.downloadUrl(found.download));
+    const [name] = await app.api.uploadFiles([new File([await response.blob()], found.download)]);
     state.set("material", { file: name });
     app.announce("The page now uses the identified material.");
   }

@@ -40,7 +40,7 @@ export function masterFigure(master, along, synthetic) {
   };
 }
 
-/** Shift factors that friction tells, beside those of the rubber. */
+/** Shift factors found from friction, beside those of the rubber. */
 export function factorsFigure(result, synthetic) {
   const { found, known: other } = result ?? {};
   const traces = [];

@@ -1,4 +1,4 @@
-// Friction of all temperatures on one curve, by the rubber's shift factors and by those that friction itself tells.
+// Friction of all temperatures on one curve, by the rubber's shift factors and by those found from friction itself.
 
 import { shows } from "../inputs.js";
 import { factorsFigure, masterFigure } from "./measurement_inverse.js";

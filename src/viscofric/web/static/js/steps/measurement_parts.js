@@ -21,7 +21,7 @@ export function repeated(app, kind, { label, done, failed }) {
     app.fields.clearError(kind);
     bar.start();
     try {
-      const onProgress = (told) => own === running && bar.set(told.done, told.total, told.label);
+      const onProgress = (progress) => own === running && bar.set(progress.done, progress.total, progress.label);
       const result = await app.api.runJob(kind, { study, options }, { onProgress, signal: own.signal });
       if (own !== running) return;
       bar.finish();
@@ -129,7 +129,7 @@ export function checkList(app) {
   return element;
 }
 
-/** Something that is folded until it is asked for. */
+/** Something that is folded until it is opened. */
 export function folded(app, title, ...children) {
   const { h } = app.fields;
   return h("details", {}, h("summary", {}, title), h("div", { class: "step-body" }, children));

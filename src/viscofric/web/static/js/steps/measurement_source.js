@@ -139,7 +139,7 @@ export function source(app, { done, gone }) {
     state.setResult("measured", result);
     const origin = result.synthetic ? { data_origin: "synthetic" } : {};
     state.change({ measurement: result.table, ...origin });
-    columns.ask(null);
+    columns.offer(null);
     badge.hidden = !result.synthetic;
     for (const one of [facts, checks, refusal, notes, steps]) shows(one, result);
     facts.set([...result.recognised, ...(result.lines ?? [])]);
@@ -163,7 +163,7 @@ export function source(app, { done, gone }) {
   /** Nothing is known of the measurement; its settings can still be mended. */
   function forget(error) {
     current = null;
-    columns.ask(error?.values);
+    columns.offer(error?.values);
     state.setResult("measured", null);
     for (const one of [facts, checks, refusal, notes]) one.set([]);
     for (const one of [badge, doubts, stepsOfTest, csv]) one.hidden = true;

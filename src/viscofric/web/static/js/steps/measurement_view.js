@@ -10,8 +10,8 @@ import { source } from "./measurement_source.js";
 const RESTS_ON = DEPENDS_ON.agreement.filter((path) => path !== "measurement");
 const WAIT = 400; // ms after the last change
 
-/** What parts of the step ask of each other: whether the measurement is made up, and whether it or the rubber is. */
-function asked(app) {
+/** What the parts of the step share: whether the measurement is made up, and whether it or the rubber is. */
+function origins(app) {
   const { state } = app;
   const data = () => Boolean(state.result("measured")?.synthetic);
   const rubber = () => {
@@ -26,7 +26,7 @@ function asked(app) {
 export function mount(section, app) {
   const { state } = app;
   const { h } = app.fields;
-  const step = asked(app);
+  const step = origins(app);
   const master = masterCurve(app, step, { changed: () => refresh() });
   const compared = comparison(app, step, { changed: () => master.draw() });
   const identify = identification(app, step, { alone: master.alone });
