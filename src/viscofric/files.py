@@ -72,7 +72,7 @@ def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
             raise DataFileError(shown, f"holds {size} MB; {what} at most {right:.0f} MB{hint}.", code="too-large")
         return file.read_bytes()
     except FileNotFoundError:
-        raise DataFileError(shown, "no such file.", code="no-such-file") from None
+        raise DataFileError(shown, "no such file.", code="no-file") from None
     except OSError as error:
         raise DataFileError(shown, f"cannot be opened ({error.strerror or error}).", code="not-opened") from None
 

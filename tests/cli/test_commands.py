@@ -137,7 +137,7 @@ def test_bad_data_is_refused_with_its_file(tmp_path: Path, dma: str, code: str) 
         ('"100 mm/s"', '"0 mm/s"', "not-positive", "conditions.speed"),
         ('speed = "100 mm/s"', 'sped = "100 mm/s"', "unknown-key", "conditions.sped"),
         ('"90 degC"', '"400 degC"', "outside-measured", "conditions.temperature"),
-        ('dma = "dma.csv"', 'dma = "other.csv"', "no-such-file", ""),
+        ('dma = "dma.csv"', 'dma = "other.csv"', "no-file", ""),
     ],
 )
 def test_bad_run_files_are_refused_with_their_field(tmp_path: Path, good: str, bad: str, code: str, field: str) -> None:

@@ -151,7 +151,7 @@ def test_measure_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -
 @pytest.mark.parametrize(
     ("words", "code"),
     [
-        (["measure", "nothing.csv"], "no-such-file"),
+        (["measure", "nothing.csv"], "no-file"),
         (["measure", "runs.csv", "--zero", "0.1 mm"], "wrong-unit"),
         (["measure", "runs.csv", "--speed-tolerance", "2"], "out-of-range"),
         (["measure", "runs.csv", "--except-steps", "2"], "no-steps"),
@@ -265,7 +265,7 @@ def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "code"),
     [
-        (["master", "nothing.csv"], "no-such-file"),
+        (["master", "nothing.csv"], "no-file"),
         (["master", "curves.csv", "runs.csv"], "mixed-inputs"),
         (["master", "curves.csv", "--shift", "no rubber"], "unknown-material"),
         (["master", "curves.csv", "--reference", "90 degC"], "reference-outside"),

@@ -353,7 +353,7 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
         ((*RUBBER, *BALL, "--accuracy", "1e-6", "--tolerance", "1e-10", "--finest", "128"), "accuracy-not-reached"),
         ((*RUBBER, "--ball", "10 mm", "--speed", "1 m/s", "--load", "1 MN"), "beyond-indenter"),
         (("--material", "VHB 491", *BALL), "unknown-material"),
-        (("--material", "none.json", *BALL), "no-such-file"),
+        (("--material", "none.json", *BALL), "no-file"),
         ((*RUBBER, *BALL, "--layer", "1"), "no-unit"),
         (("--material", DMA, *BALL), "unknown-card"),
         ((*RUBBER, "--cone", "0.1", *BALL[2:]), "no-unit"),
@@ -366,7 +366,7 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
             "line-direction",
         ),
         ((*RUBBER, "--ball", "1 cm", "--speed", "inf", "--load", "1 N", "--derivatives"), "elastic-limit"),
-        ((*RUBBER, "--profile", "none.txt", "--spacing", "1 um", *BALL[2:]), "no-such-file"),
+        ((*RUBBER, "--profile", "none.txt", "--spacing", "1 um", *BALL[2:]), "no-file"),
     ],
     ids=lambda value: str(value)[:40],
 )

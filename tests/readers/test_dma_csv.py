@@ -222,7 +222,7 @@ def test_what_is_wrong_is_said_in_one_sentence(tmp_path, lines, refusal):
 
 
 def test_missing_file_folder_and_binary_are_distinguished(tmp_path):
-    with refused("no-such-file"):
+    with refused("no-file"):
         read_dma(tmp_path / "absent.csv")
     with refused("folder"):
         read_dma(tmp_path)

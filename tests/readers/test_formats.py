@@ -92,7 +92,7 @@ def test_a_folder_and_no_file_at_all_are_refused_with_advice(tmp_path):
     with refused("folder"):
         read_dma(tmp_path)
     for nothing in ((), ([],)):
-        with refused("no-file"):
+        with refused("no-files"):
             read_dma(*nothing)
     with refused("not-a-name", None, "3"):
         read_dma(3)

@@ -236,7 +236,7 @@ def test_notes_that_files_share_stand_once():
 
 
 def test_nothing_at_all_is_refused():
-    with refused("no-file"):
+    with refused("no-files"):
         isothermal_sweeps([])
     with refused("no-points"):
         isothermal_sweeps([readings([], [])])

@@ -129,7 +129,7 @@ def test_mixed_replicate_columns_and_no_file_at_all_are_refused(tmp_path):
     second = write(tmp_path, WITHOUT, ROW.replace("30,1", "30"), name="two.csv")
     with refused("no-replicates", None, "two.csv"):
         read_mtm(first, second)
-    with refused("no-file"):
+    with refused("no-files"):
         read_mtm()
 
 

@@ -359,7 +359,7 @@ def test_unknown_formats_and_files_are_refused(tmp_path):
         read_card(tmp_path / "letter")
     with refused("other-card", DataFileError):
         read_card(tmp_path / "letter", "abaqus")
-    with refused("no-such-file", DataFileError):
+    with refused("no-file", DataFileError):
         read_card(tmp_path / "nothing")
     with refused("not-written", DataFileError):
         write_card(rubber(), tmp_path / "no folder" / "card", "json")

@@ -129,7 +129,7 @@ def test_the_best_law_is_the_one_that_was_planted(sweeps: Path) -> None:
 
 
 def test_a_file_that_is_missing_is_named_once(sweeps: Path) -> None:
-    with refused("no-such-file", DataFileError, naming="such.csv"):
+    with refused("no-file", DataFileError, naming="such.csv"):
         rubber(dma=str(sweeps), shift_factors="no such.csv", **REFERENCE)
 
 

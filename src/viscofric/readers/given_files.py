@@ -31,7 +31,7 @@ def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]
         except TypeError:
             raise InputError(f"{path!r} is not the name of a file or a list of names.", code="not-a-name") from None
     if not files:
-        raise InputError(f"{reader} needs at least one file.", code="no-file")
+        raise InputError(f"{reader} needs at least one file.", code="no-files")
     return files
 
 

@@ -71,7 +71,7 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
         If there is no file, or `deformation` is none of `viscofric.data.DEFORMATIONS`.
     """
     if not readings:
-        raise InputError("at least one file of DMA sweeps is needed.", code="no-file")
+        raise InputError("at least one file of DMA sweeps is needed.", code="no-files")
     source, kind, opened = opening(readings, deformation)
     points = joined(readings)
     keep, on_left_out = usable(points, source)

@@ -136,7 +136,7 @@ def read_mtm(
     [10, 20, 30, 45, 65, 90]
     """
     if not paths:
-        raise InputError("read_mtm needs at least one file.", code="no-file")
+        raise InputError("read_mtm needs at least one file.", code="no-files")
     check_choice(thermometer, "thermometer", "lube", "pot")
     if isinstance(paths[0], (list, tuple)):
         raise InputError(

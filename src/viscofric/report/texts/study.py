@@ -277,11 +277,18 @@ def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     return found
 
 
+#: Codes of failures whose sentences differ from case to case in numbers only.
+_ONE_REASON = frozenset(
+    {"accuracy-not-reached", "beyond-indenter", "layer-too-thin", "no-window", "not-converged", "not-finite", "too-fast"}
+)
+
+
 def grouped_failures(failures: Sequence[Note], most: int) -> list[str]:
     """Return failures as at most so many lines: those of one reason together, with their cases."""
-    kinds: dict[str, list[Note]] = {}
+    kinds: dict[tuple[str, str], list[Note]] = {}
     for failure in failures:
-        kinds.setdefault(failure.code or failure.text, []).append(failure)
+        text = "" if failure.code in _ONE_REASON else failure.text
+        kinds.setdefault((failure.code, text), []).append(failure)
     shown = list(kinds.values())
     if len(shown) > most:
         shown = shown[: most - 1]

@@ -165,7 +165,8 @@ class Dask(Executor):
         try:
             outcome: Outcome = future.result()
         except self._distributed.KilledWorker:
-            return Lost("several workers ended while solving it, mostly for lack of memory.", task.label)
+            why = "several workers ended while solving it, mostly for lack of memory."
+            return Lost(why, task.label, "process-ended")
         except self._distributed.CancelledError as error:
             raise ViscofricError("the Dask scheduler ended, or cancelled the tasks.", code="scheduler-ended") from error
         except ViscofricError:

@@ -144,8 +144,9 @@ class Lost(Failure):
     @classmethod
     def by(cls, error: BaseException, task: Task) -> Self:
         """Return the failure due to an error."""
-        kind = "" if isinstance(error, ViscofricError) else f"unexpectedly, {type(error).__name__}: "
-        return cls(f"{kind}{error}", task.label)
+        if isinstance(error, ViscofricError):
+            return cls(str(error), task.label, error.code)
+        return cls(f"unexpectedly, {type(error).__name__}: {error}", task.label, "unexpected-error")
 
 
 @one_blas_thread
