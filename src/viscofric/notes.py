@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from viscofric.datasets import plain
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
@@ -192,6 +194,16 @@ def note_of(record: Mapping[str, Any] | str) -> Note:
 def records(notes: Iterable[str]) -> list[dict[str, Any]]:
     """Return notes as JSON."""
     return [note_of(note).record() for note in notes]
+
+
+def listed(name: str, notes: Iterable[str], reader: Reader = "python") -> dict[str, list[Any]]:
+    """Return notes as two entries of a JSON object: sentences under `name`, and their records.
+
+    Records are under the name in the singular with ``_records``: ``notes`` and ``note_records``.
+    """
+    found = [note_of(note) for note in notes]
+    sentences = [note.words(reader) for note in found]
+    return {name: sentences, f"{name.removesuffix('s')}_records": plain(records(found), None)}
 
 
 def codes(notes: Iterable[str]) -> set[str]:

@@ -118,7 +118,8 @@ def test_coulomb_friction_that_is_not_needed_is_reported(tmp_path: Path) -> None
     alone = record("measure", path)
     given = record("measure", path, "--coulomb", "45")
     assert given["points"] == alone["points"]
-    assert len(given["notes"]) == len(alone["notes"]) + 1
+    (more,) = (one for one in given["note_records"] if one not in alone["note_records"])
+    assert (more["code"], len(given["notes"])) == ("coulomb-not-used", len(alone["notes"]) + 1)
     assert "Note: " in call("measure", path, "--coulomb", "45").stderr
 
 
@@ -225,7 +226,7 @@ def test_friction_below_zero_is_reported(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv")
     measured = vf.read_friction_curves(path)
     vf.write_friction_curves(replace(measured, viscoelastic=-measured.viscoelastic), path)
-    assert len(record("master", path)["notes"]) == 1
+    assert [one["code"] for one in record("master", path)["note_records"]] == ["friction-below-zero"]
     assert "Note: " in call("master", path).stderr
 
 

@@ -84,7 +84,8 @@ def test_the_rubber_can_be_fetched(context: Context, identified: dict[str, Any])
 def test_a_rubber_from_friction_is_no_witness_of_friction(context: Context, identified: dict[str, Any]) -> None:
     shutil.copy(context.downloads / identified["download"], context.files / "found.json")
     found = done("agreement", context, {**CURVES, "material": {"file": "found.json"}}, accuracy=0.1)
-    assert "itself identified from friction" in found["warnings"][0]
+    assert found["warning_records"][0]["code"] == "identified-from-friction"
+    assert len(found["warnings"]) == len(found["warning_records"])
     # It fits what it was found from to its noise, which proves nothing.
     assert np.nanmax(np.abs([value for one in found["points"] for value in one["difference"]])) < 0.15
 

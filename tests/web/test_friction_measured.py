@@ -71,7 +71,7 @@ def test_settings_of_the_separation_stay_and_count(context: Context) -> None:
     found = done("measured", context, before, files=["mtm.csv"])
     assert found["table"] == {"mtm": "mtm.csv", "zero": "0.5 N"}
     # The test determines its own zero, 0.12 N; one that contradicts it is reported.
-    assert any("0.5" in note for note in found["notes"]), found["notes"]
+    assert "given-zero-contradicted" in [one["code"] for one in found["note_records"]]
 
 
 def test_what_is_read_once_is_not_read_again(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from viscofric.study.cases.sweep import Axis
@@ -116,7 +117,7 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
             "memory_per_process": found.expected.memory_per_process,
         },
         "outputs": ["netcdf", "figures", "report", *extra],
-        "notes": list(found.notes),
+        **listed("notes", found.notes),
     }
 
 

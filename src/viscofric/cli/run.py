@@ -10,6 +10,7 @@ import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.errors import print_doubtful_checks
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from viscofric.study import StudyResults
@@ -116,8 +117,8 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
     }
     listener.write(
         "finished",
-        failures=list(results.failures),
-        warnings=list(results.warnings),
+        **listed("failures", results.failures),
+        **listed("warnings", results.warnings),
         beyond_accuracy=results.beyond_accuracy,
         **written,
     )

@@ -22,6 +22,7 @@ from viscofric.cli.contact_options import (
 from viscofric.cli.errors import reported_errors
 from viscofric.cli.files import PICTURES, check_ending, refuse_to_overwrite, write_fields
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.cli.contact_options import NamedIndenter
@@ -119,7 +120,7 @@ def _speed(text: str) -> float | str:
     return text
 
 
-def _beyond_known(rubber: NamedRubber, solution: ContactSolution) -> tuple[str, ...]:
+def _beyond_known(rubber: NamedRubber, solution: ContactSolution) -> tuple[Note, ...]:
     """Return a warning where the frequency of the contact lies in the extrapolated part of the modulus."""
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 
@@ -135,7 +136,7 @@ def _beyond_known(rubber: NamedRubber, solution: ContactSolution) -> tuple[str, 
         f"the contact's frequency v/a, {frequency:.3g} rad/s, lies beyond those at which the rubber was {known}, "
         f"{low:.3g} to {high:.3g} rad/s at this temperature: the friction rests on the extrapolated modulus."
     )
-    return (said,)
+    return (Note("beyond-measured", said),)
 
 
 def _inputs(

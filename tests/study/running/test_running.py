@@ -87,6 +87,7 @@ def test_failed_cases_leave_the_others_alone(request: pytest.FixtureRequest, pro
         "0.1 m/s: it does not converge.",
         "5 m/s: unexpectedly, MemoryError: nobody thought of that",
     ]
+    assert [one.code for one in failures] == ["", "unexpected-error"]
     assert {event.reason for event in heard if event.event == "failed"} == {one.reason for one in failures}
     # What was unexpected may go another time; what does not converge will not.
     assert store.get(plan.first[0].key) == failures[0]
@@ -99,7 +100,7 @@ def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processe
     plan, store = TwoWaves(), CaseStore(tmp_path)
     run_plan(plan, store, pair, solve=solve_or_end)
     (failure,) = (one for one in plan.known.values() if isinstance(one, Failure))
-    assert failure.label == "0.1 m/s"
+    assert (failure.label, failure.code) == ("0.1 m/s", "process-ended")
     assert store.get(plan.first[0].key) is None
     assert len(list(store.stored())) == 7
 

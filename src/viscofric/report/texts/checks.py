@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.checks import Check
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.friction.assumption_check import assumption_checks_of
+from viscofric.notes import Note
 from viscofric.report.results import (
     SAME_TEMPERATURE,
     group,
@@ -177,7 +178,10 @@ def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
 
 
 #: What a comparison with friction is worth where the rubber comes from friction.
-CIRCULAR = "The material was itself identified from friction; if from this friction, the comparison tests nothing."
+CIRCULAR = Note(
+    "identified-from-friction",
+    "The material was itself identified from friction; if from this friction, the comparison tests nothing.",
+)
 # Largest values that are good
 _COMPLEMENTARITY = 1e-6  # over the indentation, or the rms height; contacts are solved to less
 # Probability of differences as large, below which two sets of shift factors are not the same

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.datasets import plain
+from viscofric.notes import listed
 from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
 from viscofric.units import shown_number
 
@@ -209,7 +210,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
             "errors": errors,
             "derivatives": derivative_record(solution),
             "diagnostics": work,
-            "warnings": list(solution.warnings),
+            **listed("warnings", solution.warnings),
             "units": UNITS | (_UNITS_OF_A_LINE if line else {}),
         },
         digits=None,

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.datasets import record
 from viscofric.nominal import SAME_TEMPERATURE, numbered
+from viscofric.notes import listed
 from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
 from viscofric.report.texts.tables import aligned
 from viscofric.units import shown_celsius, shown_number
@@ -93,7 +94,7 @@ def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str,
             dict(zip(names, point, strict=True)) for point in zip(*(found[name] for name in names), strict=True)
         ],
         "assumption": curves.assumption or None,
-        "notes": list(curves.notes),
+        **listed("notes", curves.notes),
         "units": {name: found["units"][name] for name in names},
     }
 

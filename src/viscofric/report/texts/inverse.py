@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.datasets import plain, record
+from viscofric.notes import listed
 from viscofric.report.results import values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
 from viscofric.report.texts.tables import aligned
@@ -135,7 +136,7 @@ def shift_record(
             },
             "agreement": None if agreement is None else {name: getattr(agreement, name) for name in _AGREEMENT},
             "master_curve": {name: curve[name] for name in names},
-            "notes": master.notes,
+            **listed("notes", master.notes),
             "units": _SHIFT_UNITS | {"reduced_speed": "m/s", "viscoelastic": "1", "load": master.curves.load_unit},
         },
         digits=None,

@@ -279,7 +279,15 @@ def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
 
 #: Codes of failures whose sentences differ from case to case in numbers only.
 _ONE_REASON = frozenset(
-    {"accuracy-not-reached", "beyond-indenter", "layer-too-thin", "no-window", "not-converged", "not-finite", "too-fast"}
+    {
+        "accuracy-not-reached",
+        "beyond-indenter",
+        "layer-too-thin",
+        "no-window",
+        "not-converged",
+        "not-finite",
+        "too-fast",
+    }
 )
 
 

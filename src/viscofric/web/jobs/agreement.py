@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.datasets import plain
+from viscofric.notes import listed, note_of
 
 if TYPE_CHECKING:
     import xarray
@@ -63,7 +64,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     from viscofric.study.running.executors import Serial
     from viscofric.study.running.running import run_plan
     from viscofric.study.running.store import CaseStore
-    from viscofric.web.jobs.friction_data import texts
     from viscofric.web.jobs.friction_input import friction_curves
 
     curves = friction_curves(study, context)
@@ -78,9 +78,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, report)
     # What is to be said of the rubber and of the measurement, other steps say.
     rubber = contacts.rubbers[0]
-    reply = _reply(tree_of(contacts)) | {"notes": texts(rubber.bands.notes)}
+    reply = _reply(tree_of(contacts)) | listed("notes", dict.fromkeys(rubber.bands.notes), "page")
     if rubber.rubber.from_friction:
-        reply["warnings"] = [CIRCULAR, *reply["warnings"]]
+        reply |= listed("warnings", [CIRCULAR, *map(note_of, reply["warning_records"])], "page")
     numbers: dict[str, Any] = plain(reply)
     return numbers
 
@@ -159,7 +159,8 @@ def _reply(tree: xarray.DataTree) -> dict[str, Any]:
         "table": table_record(agreement_table(tree)),
         "checks": [one.record("page") for one in friction_checks(tree)],
         "band": lines.has_band,
-        **{name: texts(notes(tree.attrs, name)) for name in ("warnings", "failures")},
+        **listed("warnings", dict.fromkeys(notes(tree.attrs, "warnings")), "page"),
+        **listed("failures", dict.fromkeys(notes(tree.attrs, "failures")), "page"),
     }
 
 

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict
 
+from viscofric.notes import listed
+
 if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
@@ -42,5 +44,5 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "seconds": found.expected.seconds,
         "memory": found.expected.memory,
         "synthetic": any(rubber.synthetic for rubber in found.rubbers),
-        "notes": list(found.notes),
+        **listed("notes", found.notes),
     }

@@ -11,6 +11,7 @@ from scipy.ndimage import uniform_filter
 
 from viscofric.contact.fields.surface import surface_displacement
 from viscofric.datasets import plain
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -213,7 +214,7 @@ def pictures(
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
-        "warnings": [*solution.warnings, *_doubts(requested, within)],
+        **listed("warnings", [*solution.warnings, *_doubts(requested, within)]),
     }
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
     found: dict[str, Any] = drawn(requested, case, solution)

@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
+from viscofric.notes import listed
 from viscofric.study.assumptions import assumption_checks
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, doubts
@@ -87,9 +88,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         **layout,
         **columns(contacts, requested),
         "master": master_curve(contacts, along),
-        "failures": [str(one) for one in requested.failures],
-        "warnings": [*_of_rubbers(contacts, known=True), *doubts((requested,), contacts.rubbers)],
-        "notes": _notes(contacts, checked),
+        **listed("failures", [one.note for one in requested.failures]),
+        **listed("warnings", [*_of_rubbers(contacts, known=True), *doubts((requested,), contacts.rubbers)]),
+        **listed("notes", _notes(contacts, checked)),
         "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points)]),
     }
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from viscofric.notes import listed
 from viscofric.web.jobs.export_files import archive, lay_out, offered
 from viscofric.web.study_text import study_of
 
@@ -61,7 +62,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     from viscofric.report import write_figures_and_report
     from viscofric.report.texts.study import grouped_failures
     from viscofric.study import run_study
-    from viscofric.web.jobs.friction_data import texts
 
     text, checked = study_of(study, context.files)
     folder = context.cache / "study"
@@ -81,8 +81,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "cases": int(results.dataset["friction_coefficient"].size),
         "failed": int(results.dataset["failed"].sum()),
         "failures": grouped_failures(results.failures, _MOST_SHOWN),
-        "warnings": texts(results.warnings),
-        "notes": texts(results.notes),
+        **listed("warnings", dict.fromkeys(results.warnings), "page"),
+        **listed("notes", dict.fromkeys(results.notes), "page"),
         "synthetic": results.tree.attrs.get("data_origin") == "synthetic",
     }
 

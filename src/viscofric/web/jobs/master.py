@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.datasets import plain
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
@@ -65,7 +66,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         If a table is wrong, or friction curves can be shifted neither way.
     """
     from viscofric.errors import SuperpositionError
-    from viscofric.web.jobs.friction_data import texts
     from viscofric.web.jobs.friction_input import friction_curves, indenter_of
     from viscofric.web.jobs.rubbers import made_rubber
 
@@ -93,7 +93,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         notes += found_notes
     if known is not None:
         result["known"] = _known(known, result["found"] or result["by_rubber"])
-    numbers: dict[str, Any] = plain(result | {"notes": texts(notes)})
+    numbers: dict[str, Any] = plain(result | listed("notes", dict.fromkeys(notes), "page"))
     return numbers
 
 

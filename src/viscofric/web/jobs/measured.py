@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.datasets import plain
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
@@ -45,7 +46,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     StudyError, DataFileError
         If [measurement] is wrong, or a file cannot be read.
     """
-    from viscofric.web.jobs.friction_data import measured_points, pairs, texts
+    from viscofric.web.jobs.friction_data import measured_points, pairs
     from viscofric.web.jobs.friction_input import measured, table_of_files
 
     table = table_of_files(study, context, options.files) if options.files else study.get("measurement")
@@ -58,7 +59,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "runs": found.runs,
         "synthetic": found.synthetic,
         "refusal": found.refusal.words("page") or None,
-        "notes": texts(found.notes),
+        **listed("notes", dict.fromkeys(found.notes), "page"),
         "curves": None,
     }
     if found.curves is not None:

@@ -8,9 +8,10 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain, record
+from viscofric.notes import listed
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
-from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber, without_folder
+from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber, notes_without_folder, without_folder
 from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
 
@@ -75,7 +76,7 @@ def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -
         "citation": rubber.material.citation,
         "synthetic": rubber.synthetic,
         "deformation": None if rubber.sweeps is None else rubber.sweeps.deformation,
-        "notes": [without_folder(note, context) for note in rubber.notes if note not in read],
+        **listed("notes", notes_without_folder((one for one in rubber.notes if one not in read), context)),
         "shift": shift_numbers(rubber, held),
         "check": None if rubber.fit is None else check_numbers(rubber.fit),
         "spectrum": spectrum_numbers(rubber),

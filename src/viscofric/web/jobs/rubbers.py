@@ -13,7 +13,7 @@ from pydantic import Field, ValidationError
 
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_bytes, write_atomically
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 from viscofric.study.rubber import Rubber, make_rubber
 from viscofric.study.run_file.errors import wrong_tables
 from viscofric.study.run_file.material import MaterialTable, files_of
@@ -22,7 +22,7 @@ from viscofric.study.run_file.study import TABLES
 from viscofric.study.run_file.tables import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
     from viscofric.study.study_rubber import FrictionBands, StudyRubber
@@ -171,6 +171,11 @@ def kept(
 def without_folder(text: str, folders: Folders) -> str:
     """Return a sentence that names uploaded files as the user named them."""
     return text.replace(f"{folders.files}/", "").replace(f"{folders.files.resolve()}/", "")
+
+
+def notes_without_folder(notes: Iterable[str], folders: Folders) -> list[Note]:
+    """Return notes that name uploaded files as the user named them."""
+    return [note_of(note).reworded(lambda text: without_folder(text, folders)) for note in notes]
 
 
 def named_without_folder(error: InputError, folders: Folders) -> InputError:

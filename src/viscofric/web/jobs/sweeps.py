@@ -10,10 +10,11 @@ from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
 from viscofric.errors import DataFileError, InputError
+from viscofric.notes import listed
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.web.jobs.context import Context, JobError
-from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, without_folder
+from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
 from viscofric.web.jobs.spectrum_numbers import moduli
 
 if TYPE_CHECKING:
@@ -94,7 +95,6 @@ def _asking(error: InputError) -> JobError:
 def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> dict[str, Any]:
     sweeps = traced.sweeps
     nearest = float(sweeps.temperatures[np.argmin(np.abs(sweeps.temperatures - _USUAL_REFERENCE))])
-    notes = [without_folder(note, context) for note in sweeps.notes]
     return {
         "source": "dma",
         "format": sweeps.format,
@@ -111,7 +111,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> 
         ],
         "flagged": [*_left_out(traced), *_outliers(traced)],
         "left_out": int(traced.left_out.size),
-        "notes": notes,
+        **listed("notes", notes_without_folder(sweeps.notes, context)),
         "reference": plain(round(nearest, 2)),
         "synthetic": False,
     }
@@ -201,7 +201,7 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         "source": source,
         "name": rubber.material.name,
         "about": about or [text for text in (rubber.source, rubber.material.citation) if text],
-        "notes": [without_folder(note, context) for note in rubber.notes],
+        **listed("notes", notes_without_folder(rubber.notes, context)),
         "synthetic": rubber.synthetic,
         "reference": None if rubber.material.reference is None else plain(rubber.material.reference),
         "isotherms": [],
