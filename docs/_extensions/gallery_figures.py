@@ -33,8 +33,8 @@ def words_of_axes(axes: Axes) -> str:
 
 def words(figure: Figure) -> str:
     """Describe a figure, one Axes after the other."""
-    told = dict.fromkeys(words_of_axes(axes) for axes in figure.axes)
-    return "; ".join(part for part in told if part)
+    described = dict.fromkeys(words_of_axes(axes) for axes in figure.axes)
+    return "; ".join(part for part in described if part)
 
 
 def scrape(block: tuple[Any, ...], block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:

@@ -39,17 +39,17 @@ class Schema:
         found = self.choices(node)
         is_range = any("from" in one.get("properties", {}) for one in found)
         single = [one for one in found if one.get("type") not in ("object", "array")]
-        told = list(dict.fromkeys(self._single(one) for one in single))
+        kinds = list(dict.fromkeys(self._single(one) for one in single))
         listed = [one for one in found if one.get("type") == "array"]
         if not single and listed:
-            told = [f"list of {self.values(listed[0].get('items', {}))}"]
+            kinds = [f"list of {self.values(listed[0].get('items', {}))}"]
         elif listed:
-            told.append("a list")
+            kinds.append("a list")
         if is_range:
-            told.append("a range")
+            kinds.append("a range")
         elif any(one.get("type") == "object" for one in found):
-            told.append("a table")
-        return ", ".join(told[:-1]) + (" or " if len(told) > 1 else "") + told[-1]
+            kinds.append("a table")
+        return ", ".join(kinds[:-1]) + (" or " if len(kinds) > 1 else "") + kinds[-1]
 
     def _single(self, node: dict[str, Any]) -> str:
         if "const" in node:

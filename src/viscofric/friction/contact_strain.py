@@ -114,12 +114,12 @@ def solve_at_contact_strain(
     insist_on(material, "material", Material)
     insist_on(law, "law", KrausLaw)
     insist_on(indenter, "indenter", Indenter)
-    asked = {"speed": speed, "load": load, "temperature": temperature, **settings}
-    linear = found = solve_steady(material, indenter, **asked)
+    arguments = {"speed": speed, "load": load, "temperature": temperature, **settings}
+    linear = found = solve_steady(material, indenter, **arguments)
     strain = _strain(indenter, linear)
     for _ in range(TURNS):
         scaled = material_at_strain(material, law, strain, measured_at=measured_at)
-        found = solve_steady(scaled, indenter, **asked)
+        found = solve_steady(scaled, indenter, **arguments)
         now = _strain(indenter, found)
         if abs(now - strain) <= CONVERGED * now:
             return ContactAtStrain(linear, found, strain, scaled, tuple(on_strain(law, strain)))

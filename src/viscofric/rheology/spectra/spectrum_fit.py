@@ -153,7 +153,7 @@ def _of_several(
         fitted = nonnegative_modes(misfit, lattice(misfit, tau_ratio))
     spectrum = as_spectrum(fitted)
     levels = misfit.levels(misfit.compliance(spectrum))
-    told = [
+    on_levels = [
         level_note(str(getattr(curve, "kind", "sweep")), float(level), joint.shift_factors.reference)
         for curve, level, free in zip(curves, levels, misfit.free, strict=True)
         if free and abs(level) > LEVEL_WORTH_A_NOTE
@@ -169,7 +169,7 @@ def _of_several(
         method=method,
         tau_ratio=None if method == "sparse" else tau_ratio,
         regularisation=strength,
-        notes=(*told, *notes),
+        notes=(*on_levels, *notes),
     )
 
 
