@@ -10,7 +10,7 @@ from viscofric.errors import DataFileError
 from viscofric.readers import read_dma, read_mtm
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.topography.read import read_scan
-from viscofric.readers.topography.scan import Asked
+from viscofric.readers.topography.scan import ScanOptions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -82,12 +82,12 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     ),
     (read_mtm, [MTM, "20,1,0.5,0,30"], "0 in column 'load (N)' must be above zero."),
     (
-        lambda path: read_scan(path, Asked()),
+        lambda path: read_scan(path, ScanOptions()),
         ["1,2,3,4", "5,6,7,8"],
         "does not state the spacing of its points; give spacing='5 um', for instance.",
     ),
     (
-        lambda path: read_scan(path, Asked(unit="um")),
+        lambda path: read_scan(path, ScanOptions(unit="um")),
         ["x (um),z (um)", "1,2", "2,3"],
         "column 'x (um)' states its unit; leave unit = 'um' out.",
     ),

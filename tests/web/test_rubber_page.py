@@ -197,7 +197,7 @@ def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     assert tab.page.get_by_label("Column of the frequency").count() == 0
     unit.fill("Pa")
     unit.press("Tab")
-    tab.until("page.state.state.result('rubber')?.spectrum.measured?.storage.length === 11")
+    tab.until("page.state.state.result('rubber')?.spectrum.measured?.storage_modulus.length === 11")
     drawn(tab, "isotherms-storage-modulus", 1)
     tab.step("shift")
     tab.until("document.querySelector('#step-shift').textContent.includes('valid at one temperature only')")
