@@ -217,5 +217,7 @@ def _make_a_mistake(tab: Tab) -> None:
     assert "Fix the marked field to update the " in tab.text("#step-contact .notes.error:not([hidden])")
     radius.fill("5 mm")
     radius.press("Enter")
-    tab.until("!document.querySelector('.live-contact .stale') && !document.querySelector('#step-contact .field.wrong')")
+    tab.until(
+        "!document.querySelector('.live-contact .stale') && !document.querySelector('#step-contact .field.wrong')"
+    )
     finished(tab)
