@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
 from friction.synthetic_curves import synthetic_curves
+from friction.test_curve_files import FOREIGN
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -127,3 +129,40 @@ def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str)
     with pytest.raises(vf.ViscofricError) as caught:
         call()
     assert caught.value.words(reader) == sentence
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("load (N);", "", ", line 2: the row has 4 cells where the header names 3 columns."),
+        (
+            "viscoelastic friction (%)",
+            "mu",
+            (
+                ": there is no column 'viscoelastic friction'; there are 'speed (mm/s)', 'temperature (degC)', "
+                "'load (N)', 'mu'."
+            ),
+        ),
+        (
+            "temperature (degC)",
+            "temperature",
+            ": column 'temperature' has no unit; write it as 'temperature (degC)'.",
+        ),
+        ("load (N)", "load (Pa)", ": column 'load (Pa)' has the unit 'Pa'; it must be one like 'N'."),
+        (
+            "friction (%)",
+            "friction (N)",
+            ": column 'viscoelastic friction (N)' has the unit 'N'; it is a number without a unit, or in '%'.",
+        ),
+        ("20;30", "-20;30", ", line 2: '-20' in column 'speed (mm/s)' must be above zero."),
+        ("200;60", "200;-300", ", line 3: '-300' in column 'temperature (degC)' must be above absolute zero."),
+        ("2,5", "two", ", line 3: 'two' in column 'viscoelastic friction (%)' is not a finite number."),
+        ("2,5", "", ", line 3: the cell in column 'viscoelastic friction (%)' is empty; give a number."),
+    ],
+)
+def test_files_of_curves(old: str, new: str, sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("curves.csv").write_text(FOREIGN.replace(old, new), encoding="utf-8")
+    with pytest.raises(vf.DataFileError) as caught:
+        vf.read_friction_curves("curves.csv")
+    assert str(caught.value) == f"curves.csv{sentence}"

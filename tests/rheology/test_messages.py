@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from rheology.test_cards_foreign import ABAQUS, ANSYS, COMSOL, LS_DYNA
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,6 +28,18 @@ LIQUID = vf.RelaxationSpectrum(0.0, [1e6], [1.0])
 def written(name: str, text: str) -> str:
     Path(name).write_text(text, encoding="utf-8")
     return name
+
+
+def card(text: str, old: str, new: str) -> vf.Material:
+    assert old in text
+    return vf.read_card(written("card", text.replace(old, new)))
+
+
+abaqus, ansys, comsol, ls_dyna = (partial(card, text) for text in (ABAQUS, ANSYS, COMSOL, LS_DYNA))
+
+
+def shifts(text: str) -> vf.ShiftFactors:
+    return vf.read_shift_factors(written("a.csv", text))
 
 
 SAID = [
@@ -242,6 +256,105 @@ SAID = [
         lambda: vf.read_shift_factors(written("a.csv", "T_C,log10_aT\n0,3\n20,2\n40,1\n")),
         "no-reference",
         "a.csv: log10 aT is not zero between 0.0 and 40.0 °C; give the temperature where α is 1 (reference=).",
+    ),
+    (
+        lambda: abaqus("0.3, 0.3, 1.0", "0.5, 0.5, 1.0"),
+        "relative-moduli",
+        (
+            "card: the long-term shear modulus is zero (the relative moduli add up to 1): a liquid has no rubber "
+            "plateau, which a Material needs."
+        ),
+    ),
+    (
+        lambda: abaqus("0.3, 0.3, 1.0", "0.6, 0.6, 1.0"),
+        "relative-moduli",
+        "card: the relative moduli add up to 1.1; they must stay below 1.",
+    ),
+    (
+        lambda: abaqus("0.3, 0.3, 1.0", "0.3, 0.3, soft"),
+        "not-a-number",
+        "card: line 10: '0.3, 0.3, soft' is not a row of numbers parted by commas.",
+    ),
+    (
+        lambda: abaqus("TIME=PRONY", "TIME=CREEP TEST DATA"),
+        "not-prony",
+        ("card: line 8: *VISCOELASTIC must have TIME=PRONY or FREQUENCY=PRONY; other ways of giving it are not read."),
+    ),
+    (
+        lambda: abaqus("60.0, 0.49", "60.0, 0.6"),
+        "no-modulus",
+        "card: line 6: *ELASTIC needs a modulus above zero, a Poisson ratio from 0 to 0.5.",
+    ),
+    (
+        lambda: ansys("MP,PRXY,1,0.45\n", ""),
+        "no-modulus",
+        "card: contains no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.",
+    ),
+    (
+        lambda: ansys("TBDATA,1,0.4,5.0", "TBDATA,2,0.4"),
+        "missing-constants",
+        "card: line 5: TB,PRONY,…,BULK lacks constant 1 of 2.",
+    ),
+    (
+        lambda: ansys("60.0e6", "9**9**9"),
+        "not-a-number",
+        "card: line 2: '9**9**9' is neither a number nor simple arithmetic.",
+    ),
+    (
+        lambda: comsol("tau_1 10[ms]\n", ""),
+        "missing-constants",
+        "card: lacks the parameter tau_1.",
+    ),
+    (
+        lambda: comsol("10[ms]", "ten"),
+        "not-a-number",
+        "card: line 4: 'tau_1 ten' is not a name, a number with [unit] and a description.",
+    ),
+    (
+        lambda: ls_dyna("    2000.0", "       0.0"),
+        "not-positive",
+        "card: the bulk modulus BULK and all KI are zero; one of them must be above zero.",
+    ),
+    (
+        lambda: ls_dyna("    2000.0", "       1.0"),
+        "out-of-range",
+        (
+            "card: shear and bulk moduli give Poisson ratios of 0.125 (long-term) and -0.625 (instantaneous); both "
+            "must lie between 0 and 0.5."
+        ),
+    ),
+    (
+        lambda: shifts("T_C,E\n1,2\n3,4\n"),
+        "missing-columns",
+        (
+            "a.csv: a table of shift factors has one column of temperatures, such as 'T_C', and one of 'log10 aT' or "
+            "'aT'; this one has 'T_C', 'E'."
+        ),
+    ),
+    (
+        lambda: shifts("T,log_aT\n1,2\n3,0\n"),
+        "no-unit",
+        "a.csv: the temperatures have no unit; write 'T_C' or 'T (K)' above them, or C below T.",
+    ),
+    (
+        lambda: shifts("T_C,aT\n1,2\n3,-1\n"),
+        "not-positive",
+        "a.csv, line 3: a shift factor aT must be above zero; name the column 'log10 aT' if it holds logarithms.",
+    ),
+    (
+        lambda: shifts("T_C,log_aT\n1,2\n3\n"),
+        "row-length",
+        "a.csv, line 3: the row has 1 cells where the header names 2 columns.",
+    ),
+    (
+        lambda: shifts("T_C,log_aT\n1,1\n1,0\n"),
+        "wrong-length",
+        "a.csv: shift factors need at least two temperatures, none twice, all above absolute zero.",
+    ),
+    (
+        lambda: shifts("T_C,log_aT,cov 1\n1,1,0\n2,0,0\n"),
+        "missing-columns",
+        "a.csv: the covariance must have the columns cov 1 to cov 2, one for each row.",
     ),
 ]
 

@@ -75,11 +75,11 @@ def _look_and_move(tab: Tab) -> None:
     finished(tab)
     tab.until(f"{_DRAWN}.length > 3")
     found = curves(tab)
-    assert {"30\u00a0°C", "60\u00a0°C", "90\u00a0°C", "doubtful", "live contact"} <= set(found)
+    assert {"30\u00a0°C", "60\u00a0°C", "90\u00a0°C", "live contact"} <= set(found)
     assert all(len(found[f"{celsius}\u00a0°C"]) == 25 for celsius in (30, 60, 90))
     result = tab.value("page.state.state.result('curve')")
     assert found["30\u00a0°C"] == result["friction"][:25]
-    assert len(found["doubtful"]) == sum(map(bool, result["doubts"]))
+    assert len(found.get("doubtful", ())) == sum(map(bool, result["doubts"]))
     assert "small strain" in tab.text("#step-contact .notes.warning")
     assert "75 points" in tab.text("#step-contact .progress-text")
     friction = tab.value(CONTACT)["numbers"]["friction_coefficient"]["value"]
