@@ -64,6 +64,7 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
                 "negative-friction",
                 f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is "
                 f"negative ({_shown(entries[places[0]], number)}): {why}.",
+                values={"coefficient": name, "conditions": len(places)},
             )
             for why, places in reasons.items()
         ]
@@ -106,6 +107,7 @@ def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[Note]:
         "inconsistent",
         f"{where([groups[one] for one in found], len(groups))} the four sign configurations are inconsistent: their "
         f"residual is {_shown(entries[found[0]], 3)} of the load, where scatter alone would give zero.",
+        values={"conditions": len(found), "of": len(groups)},
     )
     return [note]
 
@@ -142,6 +144,7 @@ def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[Note]:
                 f"{where([group for group, _ in rolled], total)} slip is zero (pure rolling) in {readings} "
                 f"reading{'s' if readings > 1 else ''}, so that not every replicate has all configurations and all "
                 "readings are fitted together.",
+                values={"readings": int(readings)},
             )
         )
     missing = [group for group, readings in zip(together, beside, strict=True) if not readings]
@@ -280,6 +283,7 @@ def outlier_notes(runs: TractionRuns, found: list[tuple[Condition, int]], *, lef
         f"{'One reading deviates' if one else f'{len(found)} readings deviate'} from the others of the same "
         f"configuration by more than {_OUTLIER:g} robust standard deviations and {'was' if one else 'were'} "
         f"{'left out' if left_out else 'kept'}: {', '.join(named)}{more}.",
+        values={"readings": len(found), "rows": [int(row) + 1 for _, row in found[:_NAMED]]},
     )
     return [note]
 

@@ -131,6 +131,7 @@ def _contents(export: Export, used: Integers) -> Iterator[str]:
         yield Note(
             "steps-without-traction",
             f"{len(without)} of {len(export.steps)} steps contain no traction readings and are skipped: {listed}.",
+            values={"steps": len(without), "kinds": dict(kinds)},
         )
 
 
@@ -183,6 +184,7 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
                 "force-contradicts",
                 f"In {int(off.sum())} rows the printed Traction Force is not half of TF1 - TF2, the first being "
                 f"{rows.at(int(np.argmax(off))).removesuffix(': ')}; readings are those of TF1 and TF2.",
+                values={"rows": int(off.sum()), "first": rows.at(int(np.argmax(off))).removesuffix(": ")},
             )
         )
     loaded = np.where(load > 0.0, load, np.nan)
@@ -208,13 +210,15 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
                 "sliding-speed-contradicts",
                 f"In {int(off.sum())} rows the printed Sliding Speed is not the difference of disc and ball speed, the "
                 f"first being {rows.at(int(np.argmax(off))).removesuffix(': ')}; readings are those of disc and ball.",
+                values={"rows": int(off.sum()), "first": rows.at(int(np.argmax(off))).removesuffix(": ")},
             )
         )
 
 
 def _unfinished(export: Export) -> Iterator[str]:
     if export.cut:
-        yield Note("cut-short", f"The last row of the file ({export.cut}) is cut short and left out.")
+        said = f"The last row of the file ({export.cut}) is cut short and left out."
+        yield Note("cut-short", said, values={"row": export.cut})
     planned, completed = (export.header.get(f"number of steps {what}", "") for what in ("in profile", "completed"))
     if completed.isdecimal() and planned.isdecimal() and planned != completed:
         yield Note("steps-missing", f"{completed} of the {planned} steps of the profile were completed.")
@@ -222,5 +226,5 @@ def _unfinished(export: Export) -> Iterator[str]:
         yield Note("steps-missing", f"The file states {completed} completed steps, but contains {len(export.steps)}.")
     for remark in export.remarks:
         if _ABORTED.search(remark) and "completed normally" not in remark:
-            yield Note("aborted", f"The file contains the remark {remark[:120]!r}.")
+            yield Note("aborted", f"The file contains the remark {remark[:120]!r}.", values={"remark": remark[:120]})
             break

@@ -93,6 +93,7 @@ def _load(rows: Rows) -> tuple[Array, tuple[str, ...]]:
     note = Note(
         "rows-of-a-pin",
         f"{pinned} rows are of a pin, which is at rest: their load is the pin's and the ball's speed is zero.",
+        values={"rows": pinned},
     )
     return np.where(np.isnan(ball), pin, ball), (note,) if pinned else ()
 
@@ -110,7 +111,9 @@ def _readings(rows: Rows, load: Array) -> tuple[Integers, Integers, tuple[str, .
     for some, what in ((~forced, "hold no traction force"), (forced & ~loaded, "were taken without load")):
         if some.any():
             first = rows.at(int(np.argmax(some))).removesuffix(": ")
-            out.append(Note("rows-left-out", f"{int(some.sum())} rows {what} and are left out; the first is {first}."))
+            rows_out = int(some.sum())
+            said = f"{rows_out} rows {what} and are left out; the first is {first}."
+            out.append(Note("rows-left-out", said, values={"rows": rows_out, "first": first}))
     row, signal = np.nonzero((there & loaded).T)
     return row, signal, tuple(out)
 
@@ -144,6 +147,7 @@ def _temperature(rows: Rows, row: Integers, thermometer: Thermometer) -> tuple[A
             Note(
                 "thermometer-missing",
                 f"The {thermometer} RTD was not recorded; temperatures are those of the {_OTHER[thermometer]} RTD.",
+                values={"missing": thermometer, "used": _OTHER[thermometer]},
             )
         )
         own, other = other, own
@@ -221,7 +225,9 @@ def _times(rows: Rows, row: Integers) -> tuple[Array, datetime | None, tuple[str
         )
     first = float(np.nanmin(time))
     note = Note(
-        "date-unread", f"The date of {undated} steps cannot be read; they are assumed to follow the one before at once."
+        "date-unread",
+        f"The date of {undated} steps cannot be read; they are assumed to follow the one before at once.",
+        values={"steps": int(undated)},
     )
     began = clock + timedelta(seconds=first) if clock is not None and not undated else None
     return time - first, began, (note,) if undated else ()
