@@ -14,6 +14,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.rheology.cards.card import Reading, Solid, Writing, card_law, relaxation_of, written_poisson_ratio
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -186,7 +187,7 @@ def read_branches(text: str, reading: Reading, content: dict[str, Any] | None) -
     return Solid(spectrum, ratio)
 
 
-def _bulk_note(values: dict[str, str], ratio: float) -> list[str]:
+def _bulk_note(values: dict[str, str], ratio: float) -> list[Note]:
     """Return a sentence if bulk moduli do not agree with nu and the shear moduli."""
     odd = []
     for name in (one for one in values if re.fullmatch(r"K_long_term|K_\d+", one)):
@@ -194,7 +195,10 @@ def _bulk_note(values: dict[str, str], ratio: float) -> list[str]:
         expected = 2.0 * (1.0 + ratio) * shear
         if not abs(3.0 * (1.0 - 2.0 * ratio) * bulk - expected) <= _SAME * expected:
             odd.append(name)
-    return [f"The bulk moduli {', '.join(odd)} do not belong to nu = {ratio:g}, which counts."] if odd else []
+    if not odd:
+        return []
+    said = f"The bulk moduli {', '.join(odd)} do not belong to nu = {ratio:g}, which counts."
+    return [Note("bulk-contradicts", said, values={"parameters": odd})]
 
 
 def _value(values: dict[str, str], name: str, unit: str) -> float:

@@ -197,7 +197,7 @@ def _shift(
     if A > 0.0:
         notes.append(
             Note(
-                "assumed",
+                "wrong-sign",
                 f"A = {A:g} with B = {B:g} would make relaxation slower as it gets warmer (time is multiplied by "
                 "exp(-A(T-TREF)/(B+T-TREF))); the shift was left out, check the sign of A.",
             )
