@@ -40,7 +40,7 @@ LARGEST_STEP, CONVERGED = 0.3, 1e-6
 #: Second derivatives are taken for this part at least of what Gauss and Newton say.
 SMALLEST_PART = 0.2
 #: Factor of the covariance for what the choice of knots and smoothing by the same points adds, found in planted tests:
-#: without it 95 % intervals hold 91 to 96 % (`benchmarks/rheology/ramps.py`).
+#: without it 95 % intervals hold 89 to 97 % (`benchmarks/rheology/ramps.py`).
 CHOICE = 1.15
 #: Step of the logarithm of a constant for differences of the gradient.
 DIFFERENCE = 1e-4
