@@ -107,7 +107,7 @@ def test_signals_stop_what_is_served_and_are_given_back() -> None:
         with module._stopped_by_signals() as stopping:
             with pytest.raises(KeyboardInterrupt):
                 signal.raise_signal(kind)
-            assert stopping.asked
+            assert stopping.requested
             stopping += [lambda: called.append("server"), lambda: called.append("children")]  # noqa: B023
             signal.raise_signal(kind)
         assert called == ["server", "children"]
