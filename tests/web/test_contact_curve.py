@@ -64,7 +64,7 @@ def test_a_rubber_made_of_sweeps_has_the_bands_and_doubts_of_the_run_file(desk: 
         "solver": {"accuracy": 0.1, "master_curve_points": 2},
         "uncertainty": {"draws": 50},
     }
-    with as_file(files("viscofric.example") / "dma.csv") as sweeps:
+    with as_file(files("viscofric.templates") / "paper" / "dma.csv") as sweeps:
         for folder in (desk.context.files, tmp_path):
             shutil.copy(sweeps, folder / "dma.csv")
     answer = desk.run(curve, study)
