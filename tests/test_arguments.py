@@ -65,6 +65,10 @@ def shifted():
 
 
 @functools.cache
+def polynomial():
+    return vf.InversePolynomial([5000.0, 1e6], 300.0, fitted_range=(280.0, 380.0))
+
+
 def wlf():
     return vf.WLF(9.0, 100.0, 300.0, covariance=np.diag([0.1, 1.0]), fitted_range=(280.0, 380.0))
 
@@ -380,6 +384,8 @@ CALLS: dict[str, Any] = {
         [300.0], "load": 1e3, "samples": None, "accuracy": 3e-2, "workers": 1, "progress": None, "finest": 2048},
     "shift_friction": lambda: {"curves": shifting(), "shift": None, "reference": 300.0, "vertical_shift": None,
         "indenter": None, "load": None, "level_error": 0.0},
+    "FrictionMasterCurve.standard_error": lambda: (friction_master_curve(), {"speed": np.array([0.05]), "temperature":
+        305.0, "load": 25.0}),
     "FrictionMasterCurve.covers": lambda: (friction_master_curve(), {"speed": np.array([0.05]), "temperature": 305.0,
         "load": 25.0}),
     "compare_shift_factors": lambda: {"found": factors(), "other": wlf()},
@@ -426,6 +432,16 @@ CALLS: dict[str, Any] = {
     "ShiftFactors": lambda: {**table(), "notes": ()},
     "ShiftFactors.to_dataset": lambda: (factors(), {"temperatures": [310.0]}),
     "ShiftFactors.with_value": lambda: (factors(), {"temperature": 308.0, "log10": -3.0, "standard_error": 0.1}),
+    "ShiftFactors.at_reference": lambda: (factors(), {"reference": 305.0}),
+    "ShiftFactors.save": lambda: (factors(), {"path": at("saved.csv")}),
+    "WLF.at_reference": lambda: (wlf(), {"reference": 310.0}),
+    "InversePolynomial.at_reference": lambda: (polynomial(), {"reference": 310.0}),
+    "InversePolynomial.with_parameters": lambda: (polynomial(), {"parameters": [4e3, 1e6]}),
+    "DensityShift.at_reference": lambda: (vf.DensityShift(300.0), {"reference": 310.0}),
+    "VerticalShiftFactors.at_reference": lambda: (vf.VerticalShiftFactors(**table()), {"reference": 305.0}),
+    "PowerSpectrum.rms_height": lambda: (spectrum(), {"shortest": 2e-5}),
+    "PowerSpectrum.rms_curvature": lambda: (spectrum(), {"shortest": 2e-5}),
+    "FrictionCurves.select": lambda: (curves(), {"keep": np.ones(len(curves()), dtype=bool)}),
     "ShiftFactors.law": lambda: (factors(), {"kind": "wlf", "above": None, "degree": None}),
     "ShiftFactors.compare_laws": lambda: (factors(), {"above": 295.0}),
     "read_shift_factors": lambda: {"path": at("alpha.csv"), "reference": 300.0, "inverse": False},
@@ -534,7 +550,15 @@ def call(function, arguments):
 
 
 #: Names that take no argument, classes to derive from, and what needs a workbook of an instrument.
-WITHOUT_CALL = {"catalogue", "synthetic_fluoroelastomer", "ShiftLaw", "VerticalShift", "read_vendor_law"}
+WITHOUT_CALL = {
+    "catalogue",
+    "synthetic_fluoroelastomer",
+    "ShiftLaw",
+    "ShiftLaw.at_reference",
+    "VerticalShift",
+    "VerticalShift.at_reference",
+    "read_vendor_law",
+}
 #: What takes seconds, for what its good call needs.
 SLOW = {
     "IdentifiedMaterial.standard_error",
@@ -565,6 +589,7 @@ RIGHT = {
     ("read_dma", "temperature", "list of None"),
     ("read_step_tests", "temperature", "list of None"),
     ("StudyResults.to_csv", "path", "None"),
+    ("FrictionCurves.select", "keep", "booleans"),
     ("surface_from_spectrum", "spectrum", "class"),
 }
 

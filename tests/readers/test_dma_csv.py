@@ -425,7 +425,7 @@ def test_the_layout_of_two_rows_of_a_real_file(real_data):
         ("acrylic_468mp", 20, 339, ["2 loss moduli"]),
         ("adhesive_ems_ca", 21, 210, []),
         ("eva_shear", 19, 183, ["2 storage moduli", "2 loss moduli"]),
-        ("vinyl_nitrile_foam", 19, 209, ["The loss modulus at -35.0"]),
+        ("vinyl_nitrile_foam", 19, 209, ["The loss modulus at −35.0"]),
     ],
 )
 def test_real_tables_are_read_and_few_of_their_points_are_doubted(real_data, name, isotherms, points, outliers):

@@ -87,20 +87,7 @@ class HeightMap(Indenter):
         return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), dy=1, grid=False), 0.0)
 
     def check(self, contact: Extent, held: str) -> None:
-        """Raise an error for a contact that reaches the outermost points of the map.
-
-        Parameters
-        ----------
-        contact : Extent
-            Along x and y of the map, m.
-        held : str
-            Start of the message, such as the load.
-
-        Raises
-        ------
-        InputError
-            If it does.
-        """
+        """Raise an error for a contact (m) that reaches the outermost points of the map; `held` begins its message."""
         (rear, front), side = self._ends[0], min(self._ends[1])
         if contact.rear > rear or contact.front > front or contact.side > side:
             raise InputError(
@@ -206,20 +193,7 @@ class Profile(Indenter):
         return 0.0 * x + 0.0 * y
 
     def check(self, contact: Extent, held: str) -> None:
-        """Raise an error for a contact that reaches the outermost points of the profile.
-
-        Parameters
-        ----------
-        contact : Extent
-            Along x, m.
-        held : str
-            Start of the message, such as the load.
-
-        Raises
-        ------
-        InputError
-            If it does.
-        """
+        """Raise an error for a contact (m) that reaches the outermost points of the profile; `held` begins it."""
         x, step = self._points, float(self.spacing)
         if contact.rear > -x[0] - step or contact.front > x[-1] - step:
             raise InputError(

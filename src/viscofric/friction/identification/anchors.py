@@ -146,17 +146,7 @@ class ContactAnchor:
         return float(getattr(self, self.size))
 
     def of(self, solution: ContactSolution) -> float:
-        """Return the size of a solved contact that the anchor measures.
-
-        Parameters
-        ----------
-        solution : ContactSolution
-
-        Returns
-        -------
-        float
-            m, or m² for the contact area.
-        """
+        """Return the size of a solved contact that the anchor measures, m, or m² for the contact area."""
         return float(getattr(solution, self.size))
 
 

@@ -7,12 +7,12 @@ import io
 import math
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError, not_written
+from viscofric.errors import DataFileError
+from viscofric.files import file_path, write_atomically
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -212,10 +212,7 @@ def write_shift_table(table: ShiftTable, path: str | PathLike[str]) -> None:
     columns = (table.temperatures, table.log10_values, errors, table.covariance)
     for kelvin, value, error, covariance in zip(*columns, strict=True):
         rows.writerow([_in_celsius(kelvin), *(repr(float(number)) for number in (value, error, *covariance))])
-    try:
-        Path(path).write_text(text.getvalue(), encoding="utf-8")
-    except (OSError, ValueError) as error:
-        raise not_written(path, error) from None
+    write_atomically(file_path(path), text.getvalue().encode(), make_folder=False)
 
 
 def _in_celsius(kelvin: float) -> str:

@@ -74,7 +74,7 @@ def reciprocal_modes(level: float, strengths: Array, positions: Array) -> tuple[
         return weights, poles
     # Without dimension, so that no unit over- or underflows.
     scale = float(np.exp(np.mean(np.log(poles))))
-    weights, poles = weights / level, poles / scale
+    weights, poles = merged(weights / level, poles / scale)  # once more: scaling may round two positions to one
     nearest, distance = _zeros(weights * poles, poles)
     near = poles[nearest]
     zeros = near + distance

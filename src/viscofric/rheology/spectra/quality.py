@@ -74,13 +74,7 @@ class SpectrumFit:
     rms_step: float | None = None
 
     def shifted(self, alpha: float, b: float) -> SpectrumFit:
-        """Return the same for the spectrum at another temperature; the notes describe the original fit.
-
-        Parameters
-        ----------
-        alpha, b : float
-            Shift factor and vertical shift there.
-        """
+        """Return the same for the spectrum at a temperature with factors α and b; notes describe the original fit."""
         low, high = self.frequency_range
         measured = self.measured_storage
         return replace(
