@@ -231,7 +231,8 @@ class TractionRuns:
             for column in fields(self)
             if isinstance(value := getattr(self, column.name), np.ndarray)
         }
-        note = Note("readings-selected", f"{chosen.size} of {len(self)} readings are selected.")
+        counts = {"readings": int(chosen.size), "of": len(self)}
+        note = Note("readings-selected", f"{chosen.size} of {len(self)} readings are selected.", values=counts)
         return replace(self, **columns, notes=(*self.notes, note))
 
     def to_dataset(self) -> xarray.Dataset:

@@ -12,6 +12,7 @@ from click.testing import CliRunner, Result
 import viscofric as vf
 from cli.refusals import refusal
 from viscofric.cli import main
+from viscofric.notes import note_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -53,6 +54,7 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any
 def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path, dict[str, Any]]) -> None:
     reported = found[1]
     band, modulus = reported["identified"], reported["modulus"]
+    assert [note_of(one).words("python") for one in reported["note_records"]] == reported["notes"]
     assert band["high"] > 100.0 * band["low"]
     omega = np.array(modulus["angular_frequency"])
     inside = (omega >= band["low"]) & (omega <= band["high"])

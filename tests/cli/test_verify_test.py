@@ -14,6 +14,7 @@ from click.testing import CliRunner
 from refusals import refused
 from viscofric.cli import main, run
 from viscofric.errors import StudyError
+from viscofric.notes import note_of
 from viscofric.report import html
 from viscofric.study.friction_test import open_friction_test
 
@@ -75,6 +76,8 @@ def test_a_test_is_compared_point_by_point_and_synthetic_data_are_marked(
     assert found["licence"] == "MIT"
     assert len(found["points"]["predicted"]) == len(found["points"]["viscoelastic_error"]) == 30
     assert abs(found["agreement"]["bias"]) < 0.02
+    for name in ("note", "warning"):
+        assert [note_of(one).words("python") for one in found[f"{name}_records"]] == found[f"{name}s"]
     page = (folder / "test.results" / "report.html").read_text(encoding="utf-8")
     assert found["report"] == str(folder / "test.results" / "report.html")
     assert "A. Author, Journal 1 (2026) 1" in page

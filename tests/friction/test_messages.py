@@ -13,6 +13,7 @@ import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
 from friction.synthetic_curves import synthetic_curves
 from friction.test_curve_files import FOREIGN
+from friction.test_tribometry import rows_of, runs_from
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,6 +35,27 @@ def drifting() -> vf.FrictionCurves:
     """Separate runs whose temperature drifts without a gap."""
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, speeds=[0.1], temperatures=[303.15], replicates=30)
     return vf.separate(replace(runs, temperature=303.15 + 0.15 * runs.replicate))
+
+
+def rolling() -> vf.FrictionCurves:
+    """Separate runs in pure rolling, in one direction."""
+    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03))
+    rows[:, 1] = rows[:, 0]
+    return vf.separate(runs_from(rows[rows[:, 0] > 0]))
+
+
+def reversed_signs(disc: int, ball: int, force: int, *, constant_mean: bool = False) -> vf.FrictionCurves:
+    """Separate runs in which signs are reversed; at a constant mean speed the sense of slip alone."""
+    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=3)) * [disc, ball, force, 1, 1, 1]
+    if constant_mean:
+        rows[:, 1] = 2.0 * rows[:, 0] - rows[:, 1]
+    return vf.separate(runs_from(rows))
+
+
+def with_readings_at_rest() -> vf.FrictionCurves:
+    """Separate runs with one reading at rest."""
+    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03))
+    return vf.separate(runs_from(np.concatenate([rows, [[0.0, 0.0, 0.3, 25.0, 303.15, 1]]])))
 
 
 def constant(*celsius: float) -> vf.FrictionCurves:
@@ -121,7 +143,68 @@ SAID: list[tuple[Callable[[], object], Reader, str]] = [
             "friction to assume (--coulomb)."
         ),
     ),
+    (
+        rolling,
+        "python",
+        (
+            "At 6 of 6 conditions, the first being 30.0 °C and 20 mm/s, slip is zero (pure rolling) and the signs of "
+            "the velocities do not separate the force cell's zero from viscoelastic friction; measure also with the "
+            "velocities of disc and ball reversed, or give its zero, read with ball and disc apart (zero=)."
+        ),
+    ),
+    (
+        lambda: vf.separate(
+            traction_runs(viscoelastic=lambda v, T: v, speeds=0.02 * 1.03 ** np.arange(12), temperatures=[303.15])
+        ),
+        "python",
+        (
+            "disc_speed from 20 to 27.68 mm/s has no gaps and cannot be grouped into nominal values: if there is one "
+            "nominal value, give speed_tolerance = 0.085; if there are several, one below 0.05; or leave out unsteady "
+            "readings, such as by runs.select(abs(abs(runs.disc_speed) - 0.02353) < 0.0014)."
+        ),
+    ),
 ]
+
+NOTES: list[tuple[Callable[[], vf.FrictionCurves], str, str]] = [
+    (
+        with_readings_at_rest,
+        "disc-at-rest",
+        "1 of 49 readings were taken with the disc at rest and left out.",
+    ),
+    (
+        lambda: reversed_signs(1, 1, -1),
+        "negative-friction",
+        "probably the sign of the force, or of the velocities, is reversed.",
+    ),
+    (
+        lambda: reversed_signs(1, 1, 1, constant_mean=True),
+        "negative-friction",
+        "probably the speeds of disc and ball are exchanged.",
+    ),
+    (
+        lambda: reversed_signs(1, 1, -1, constant_mean=True),
+        "negative-friction",
+        (
+            "Coulomb friction is positive as it should be, so probably the zero of the force cell differs between the "
+            "directions of the disc, or the disc turns against the sign of its speed."
+        ),
+    ),
+]
+
+
+@pytest.mark.parametrize(("separated", "code", "end"), NOTES)
+def test_notes_say(separated: Callable[[], vf.FrictionCurves], code: str, end: str) -> None:
+    (said, *_) = [note for note in separated().notes if getattr(note, "code", "") == code]
+    assert said.endswith(end)
+
+
+def test_agreement_says() -> None:
+    speed, kelvin = np.tile([0.05, 0.1], 2), np.repeat([303.15, 333.15], 2)
+    measured = friction_curves(speed, kelvin, np.array([0.01, 0.02, 0.03, 0.04]), error=1e-5)
+    assert str(vf.compare(measured, friction_curves(speed, kelvin, 1.1 * measured.viscoelastic))) == (
+        "Over 4 points the predicted friction is on average 10.0 % above the measured one (standard error ±0.0 %); the "
+        "rms difference is 10.0 %. The difference is within twice the standard error at 0 % of the points."
+    )
 
 
 @pytest.mark.parametrize(("call", "reader", "sentence"), SAID)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from readers.samples import pcs
 from viscofric.errors import DataFileError
 from viscofric.readers import read_dma, read_mtm
 from viscofric.readers.dma.master_curves import read_master_curve
@@ -129,3 +130,24 @@ def test_notes_on_traction_runs(tmp_path: Path) -> None:
             "and rows in succession are one pass. Give a replicate column if they are repetitions."
         ),
     ]
+
+
+def test_notes_on_an_export_of_a_tribometer(tmp_path: Path) -> None:
+    runs = read_mtm(pcs.TRACTION_SAMPLES["MTM"](tmp_path))
+    assert list(runs.notes[:2]) == [
+        (
+            "A text export of PCS Instruments' MTM or ETM; profile 'synthetic profile'; lubricant 'none'; test started "
+            "'23/03/2018 10:00:00'."
+        ),
+        "1 of 5 steps contain no traction readings and are skipped: 1 MAPPER.",
+    ]
+    assert runs.notes[6] == "Temperatures are those of the lube RTD."
+    assert str(runs.steps[1]) == (
+        "step 3 (TRACTION, 'slip reversed'): 6 readings at 25 N, 40.0 °C, 46.67 mm/s, slip 20 %"
+    )
+    assert runs.select([0, -1]).notes[-1] == "2 of 24 readings are selected."
+    lines = [line.replace("\t42.0\t40.0\t", "\t120.0\t13.0\t") for line in pcs.mtm()]
+    assert read_mtm(pcs.write(tmp_path, lines)).notes[6] == (
+        "Temperatures are those of the lube RTD, 13.0 °C on average, but the pot RTD reads 120.0 °C; "
+        "thermometer='pot' takes that one."
+    )

@@ -43,7 +43,6 @@ def test_every_step_gives_its_signed_readings(mtm):
     assert mtm.steps[1].load == pytest.approx(25.0)
     assert mtm.steps[1].speed == pytest.approx(np.mean(pcs.SPEEDS) * 1e-3)  # disc faster as often as slower
     assert mtm.steps[1].slip_ratio == pytest.approx(pcs.SLIP)
-    assert "step 3 (TRACTION, 'slip reversed'): 6 readings at 25 N, 40.0 °C" in str(mtm.steps[1])
     expected = [pcs.force(disc, ball) for disc, ball in zip(mtm.disc_speed, mtm.ball_speed, strict=True)]
     assert mtm.traction_force[mtm.step >= 4] == pytest.approx(np.array(expected)[mtm.step >= 4], abs=5e-5)  # 4 digits
     assert mtm.load == pytest.approx(np.full(24, 25.0))
@@ -147,9 +146,12 @@ def test_repeated_headings_and_cells_left_out_at_the_end_of_rows(tmp_path, mtm):
 
 
 def test_steps_without_readings_are_counted(mtm):
-    assert note(mtm, "steps-without-traction").startswith("1 of 5 steps")
     assert note(mtm, "steps-without-traction").values["kinds"]["MAPPER"] == 1
-    assert "profile 'synthetic profile'; lubricant 'none'; test started '23/03/2018 10:00:00'" in mtm.notes[0]
+    assert note(mtm, "format").values == {
+        "profile": "synthetic profile",
+        "lubricant": "none",
+        "test started": "23/03/2018 10:00:00",
+    }
 
 
 def test_the_last_row_may_be_cut_short(tmp_path):
@@ -185,7 +187,7 @@ def test_the_thermometer_can_be_chosen(tmp_path, mtm):
 def test_thermometers_that_disagree_are_reported(tmp_path):
     lines = [line.replace("\t42.0\t40.0\t", "\t120.0\t13.0\t") for line in pcs.mtm()]
     runs = read_mtm(pcs.write(tmp_path, lines))
-    assert "13.0 °C on average, but the pot RTD reads 120.0 °C; thermometer='pot'" in note(runs, "thermometers-differ")
+    assert note(runs, "thermometers-differ").values == pytest.approx({"lube": 286.15, "pot": 393.15})
 
 
 def test_forces_of_the_other_sign_are_turned_round(tmp_path, mtm):
@@ -247,9 +249,8 @@ def test_headings_may_begin_with_a_blank(tmp_path, mtm):
     ],
 )
 def test_what_is_wrong_is_said_with_step_row_and_column(tmp_path, old, new, refusal):
-    with refused(*refusal) as caught:
+    with refused(*refusal, file="changed.txt"):
         read_mtm(changed(tmp_path, old, new))
-    assert "changed.txt" in str(caught.value)
 
 
 def test_a_file_without_a_single_force_is_refused(tmp_path):
@@ -276,7 +277,7 @@ def test_several_files_make_one_test(tmp_path, mtm):
     assert runs.select(runs.step == 9).steps[0].kind == "BIDIRECTIONAL"
     assert [step.number for step in runs.steps] == [2, 3, 4, 5, 7, 8, 9, 10]
     assert runs.steps[0].source == str(later)
-    assert runs.notes[0].startswith("changed.txt: ")
+    assert runs.notes[0].where == "changed.txt"
     with refused("given-twice"):
         read_mtm(first, pcs.write(tmp_path, pcs.mtm(), "copy.txt"))
 
@@ -307,7 +308,7 @@ def test_repetitions_of_a_condition_are_numbered(tmp_path):
 def test_readings_can_be_selected(mtm):
     warm = mtm.select([0, -1])
     assert len(warm) == 2
-    assert warm.notes[-1] == "2 of 24 readings are selected."
+    assert (warm.notes[-1].code, warm.notes[-1].values) == ("readings-selected", {"readings": 2, "of": 24})
     assert [step.number for step in warm.steps] == [2, 5]
     for wrong, refusal in (
         (mtm.step == 77, ("wrong-selection",)),

@@ -154,10 +154,7 @@ def test_comsol_with_deviatoric_branches_takes_the_bulk_modulus_of_the_glass(tmp
     assert young(values["K_long_term"], glass) == pytest.approx(130e6, rel=0.01)  # 130 MPa, far too soft
     # In the rubber 3/2.98 - 1 = 0.67 % too stiff, as the card says.
     assert young(values["K_constant"], values["G_long_term"]) == pytest.approx(1e6 * 3 / 2.98, rel=1e-5)
-    said = words(text, "% ")
-    assert "enter K_constant, that of the glass" in said
-    assert "at most 0.67 percent too stiff in the rubber" in said
-    assert '"Volumetric and deviatoric" (in COMSOL 6.2)' in said
+    assert float(re.search(r"at most ([.\d]+) percent", words(text, "% "))[1]) == pytest.approx(0.67, abs=0.005)
 
 
 def test_comsol_states_how_far_a_constant_bulk_modulus_is_off_at_a_low_poisson_ratio(tmp_path):
@@ -165,7 +162,7 @@ def test_comsol_states_how_far_a_constant_bulk_modulus_is_off_at_a_low_poisson_r
     values = parameters(text)
     # K = 4/1.5 MPa, G = 0.4 MPa: E = 9KG/(3K + G) = 9.6/8.4 = 1.142857 MPa
     assert young(values["K_constant"], values["G_long_term"]) == pytest.approx(1e6 * 9.6 / 8.4, rel=1e-12)
-    assert "at most 14 percent too stiff" in words(text, "% ")
+    assert float(re.search(r"at most ([.\d]+) percent", words(text, "% "))[1]) == pytest.approx(14.29, abs=0.5)
 
 
 def test_comsol_branches_show_the_bulk_moduli_in_their_comments(tmp_path):
@@ -212,13 +209,6 @@ def test_ls_dyna_leaves_its_second_card_blank_and_its_numbers_are_those_of_the_m
     assert rows[0] == pytest.approx([1e6 / 2.98, 0, 1e6 / 0.06, 0], rel=1e-13)
     assert rows[1] == pytest.approx([0.25 * 999e6 / 2.98, 1e4, 0.25 * 999e6 / 0.06, 1e4], rel=1e-13)
     assert rows[2] == pytest.approx([0.75 * 999e6 / 2.98, 2.0, 0.75 * 999e6 / 0.06, 2.0], rel=1e-13)
-
-
-def test_ls_dyna_asks_to_check_the_sign_of_its_shift(tmp_path):
-    said = words(written(tmp_path, rubber(WLF(8.86, 101.6, 298.0)), "ls-dyna", density=1100.0), "$")
-    assert "Check it on one element: if that relaxes slower when warm, change the sign of A" in said
-    for law in (None, Arrhenius(1e5, 298.0)):
-        assert "one element" not in words(written(tmp_path, rubber(law), "ls-dyna", density=1100.0), "$")
 
 
 # --- tonne, mm, s ------------------------------------------------------------------------------------------------

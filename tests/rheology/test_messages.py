@@ -11,6 +11,7 @@ import pytest
 
 import viscofric as vf
 from rheology.test_cards_foreign import ABAQUS, ANSYS, COMSOL, LS_DYNA
+from viscofric.rheology.cards import open_card
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -356,6 +357,16 @@ SAID = [
         "missing-columns",
         "a.csv: the covariance must have the columns cov 1 to cov 2, one for each row.",
     ),
+    (
+        lambda: vf.StepTest(300.0, [2.0, 1.0, 3.0], [1e-6, 2e-6, 3e-6]),
+        "not-ascending",
+        "the times of a step test must ascend without repeats.",
+    ),
+    (
+        lambda: vf.StepTest(300.0, [1.0, 2.0, 3.0], [-1e-6, 2e-6, 3e-6]),
+        "wrong-column",
+        "response of a step test must be one row of positive numbers, one per time.",
+    ),
 ]
 
 
@@ -367,3 +378,52 @@ def test_message(
     with pytest.raises(vf.ViscofricError) as caught:
         does()
     assert (caught.value.code, str(caught.value)) == (code, message)
+
+
+NOTES = [
+    (
+        ABAQUS.replace("*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=USER\n*MULLINS EFFECT\n1.1, 2., 0.1"),
+        {"modulus_unit": "MPa", "time_unit": "s"},
+        [
+            "Keywords that were not read: *MULLINSEFFECT.",
+            "*TRS, DEFINITION=USER is a subroutine outside the card; the material holds at its reference only.",
+        ],
+    ),
+    (
+        ABAQUS + ABAQUS.replace("EPDM70", "NR55"),
+        {"modulus_unit": "MPa", "time_unit": "s", "temperature_unit": "degC"},
+        ["The file holds 2 viscoelastic materials; the first, 'EPDM70', was read."],
+    ),
+    (COMSOL, {}, ["Parameters that were not read: width."]),
+]
+
+
+@pytest.mark.parametrize(("text", "units", "notes"), NOTES)
+def test_notes_on_cards(text: str, units: dict[str, str], notes: list[str], tmp_path: Path) -> None:
+    (tmp_path / "card").write_text(text, encoding="utf-8")
+    assert list(open_card(tmp_path / "card", **units).notes) == notes
+
+
+def test_notes_on_step_tests() -> None:
+    step = vf.StepTest(300.0, [1.0, 2.0, 3.0], [1e-6, 2e-6, 3e-6])
+    assert vf.StepTests((step,), "creep", "shear").in_tension(0.5).notes == (
+        "Shear responses converted to tensile ones by E = 2(1+ν)G with ν = 0.5.",
+    )
+
+
+def test_comments_of_cards(tmp_path: Path) -> None:
+    """What a user of the program must check by hand is in the comments of the card, and only where it applies."""
+
+    def comments(program: str, law: vf.WLF | vf.Arrhenius | None, mark: str) -> str:
+        material = vf.Material(SOLID.spectrum, law, 0.49)
+        text = vf.write_card(material, tmp_path / "card", program, density=1100.0).read_text(encoding="utf-8")
+        return " ".join(line[len(mark) :].strip() for line in text.splitlines() if line.startswith(mark))
+
+    check = "Check it on one element: if that relaxes slower when warm, change the sign of A"
+    assert check in comments("ls-dyna", vf.WLF(8.86, 101.6, 298.0), "$")
+    for law in (None, vf.Arrhenius(1e5, 298.0)):
+        assert "one element" not in comments("ls-dyna", law, "$")
+    said = comments("comsol", None, "% ")
+    assert "enter K_constant, that of the glass" in said
+    assert "percent too stiff in the rubber" in said
+    assert '"Volumetric and deviatoric" (in COMSOL 6.2)' in said

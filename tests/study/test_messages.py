@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+import viscofric as vf
 from study.wrong_run_files import NO_TOML, WRONG, Wrong
 from viscofric.errors import InputError, StudyError
+from viscofric.friction.identification.conclusions import with_origin
 from viscofric.study.cases.surfaces import step_of
 from viscofric.study.run_file.study import parse_study
 
@@ -43,3 +47,19 @@ def test_preparation_of_a_surface(words: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         step_of(words)
     assert str(caught.value) == message
+
+
+@pytest.mark.parametrize(("source", "behind"), [("fr.csv", " (fr.csv)"), ("", "")])
+def test_origin_of_an_identified_rubber(source: str, behind: str) -> None:
+    solid = vf.Material.standard_linear_solid("2 MPa", "6 MPa", "10 ms")
+    band = SimpleNamespace(low=3.0, high=400.0)
+    found: Any = SimpleNamespace(
+        material=vf.Material(solid.modes_at()), identified=band, middle=30.0, known=("Known.",)
+    )
+    spectrum = with_origin(found, source).spectrum
+    assert isinstance(spectrum, vf.RetardationSpectrum)
+    assert spectrum.fit is not None
+    assert spectrum.fit.notes == (
+        f"The rubber was identified from friction{behind}, no modulus of it was measured.",
+        "Known.",
+    )

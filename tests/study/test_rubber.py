@@ -95,9 +95,14 @@ def test_a_material_is_made_of_ramps(ramps: Path) -> None:
     assert assumed.shift_used == "assumed"
     assert "shift-assumed" in codes(assumed.notes)
     assert assumed.material.shift.activation_energy == pytest.approx(1.5e5)
-    for wrong in ({"shift": "polynomial"}, {"vertical_shift": "free"}, {"assumed_shift": "x"}, {"shift_by": "loss"}):
-        with pytest.raises(InputError, match=r"shift"):
-            rubber(ramps=str(ramps), **wrong, **REFERENCE)
+    for name, value, code in (
+        ("shift", "polynomial", "contradiction"),
+        ("vertical_shift", "free", "contradiction"),
+        ("assumed_shift", "x", "no-number"),
+        ("shift_by", "loss", "contradiction"),
+    ):
+        with refused(code, naming=name):
+            rubber(ramps=str(ramps), **{name: value}, **REFERENCE)
 
 
 def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
@@ -106,13 +111,13 @@ def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
     assert rubber_groups(made)["/shift_factors"].attrs["shifted_by"] == "storage"
     weighted = rubber(dma=str(sweeps), shift_weights=[1.0, 0.25], **REFERENCE).fit
     assert weighted.weights == pytest.approx((1.6, 0.4))
-    for wrong in (
-        {"shift_by": "loss", "shift_weights": [1.0, 1.0]},
-        {"shift_by": "loss-tangent", "vertical_shift": "free"},
-        {"shift_by": "loss", "shift_factors": "alpha.csv"},
-        {"shift_weights": [1.0, 0.0]},
+    for wrong, code in (
+        ({"shift_by": "loss", "shift_weights": [1.0, 1.0]}, "contradiction"),
+        ({"shift_by": "loss-tangent", "vertical_shift": "free"}, "contradiction"),
+        ({"shift_by": "loss", "shift_factors": "alpha.csv"}, "contradiction"),
+        ({"shift_weights": [1.0, 0.0]}, "greater-than"),
     ):
-        with pytest.raises(InputError, match=r"shift_(by|weights)"):
+        with refused(code, naming=tuple(set(wrong) & {"shift_by", "shift_weights"})):
             rubber(dma=str(sweeps), **wrong, **REFERENCE)
 
 
@@ -135,7 +140,8 @@ def test_a_file_that_is_missing_is_named_once(sweeps: Path) -> None:
 
 def test_a_catalogue_rubber_says_where_it_comes_from() -> None:
     made = rubber(catalogue="pvb interlayer")
-    assert "1999" in str(made.attributes["citation"])
+    assert made.material.citation
+    assert made.attributes["citation"] == made.material.citation
     assert not made.synthetic
     assert rubber(catalogue="synthetic fluoroelastomer").synthetic
     # What a ready rubber has, its results show: spectrum and shift law, and no sweeps.
@@ -169,10 +175,9 @@ def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path
     assert isinstance(spectrum, vf.RetardationSpectrum)
     assert spectrum.fit is not None
     assert spectrum.fit.frequency_range == (3.0, 400.0)
-    assert spectrum.fit.notes == (
-        "The rubber was identified from friction (fr.csv), no modulus of it was measured.",
-        "|E(ω)| is known to 5 % from 3 to 400 rad/s.",
-    )
+    origin, known = spectrum.fit.notes
+    assert "fr.csv" in origin
+    assert (known,) == found.known
     assert spectrum.fit.E_inf_remark == "extrapolated: beyond the range of the friction"
     assert not rubber(catalogue="pvb interlayer").from_friction
 

@@ -13,6 +13,7 @@ from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
 from viscofric.cli.separation_options import separation_options, settings_of
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -191,7 +192,7 @@ def command(
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
             inputs |= chosen(parameters) | settings
-            record = identification_record(found, inputs)
+            record = identification_record(found, inputs) | listed("notes", curves.notes)
             click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False, default=str))
         else:
             _print(found)

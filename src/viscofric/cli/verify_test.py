@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli.errors import reported_errors
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,7 +48,8 @@ def compare_test(folder: Path, as_json: bool) -> None:
         if stop.code != SOME_CASES_FAILED:
             raise
         status = SOME_CASES_FAILED
-    tree = open_results(output).tree
+    results = open_results(output)
+    tree = results.tree
     measurement, agreement, table = group(tree, "measurement"), group(tree, "agreement"), measurement_table(tree)
     said = [] if agreement is None else sentences(agreement.attrs, "sentences")
     assert measurement is not None
@@ -61,6 +63,8 @@ def compare_test(folder: Path, as_json: bool) -> None:
             "points": record(measurement),
             "agreement": None if agreement is None else plain(agreement.attrs) | {"sentences": said},
             "by_temperature": None if agreement is None else record(agreement.drop_attrs(deep=False)),
+            **listed("warnings", results.warnings),
+            **listed("notes", results.notes),
             "report": str(output / "report.html"),
         }
         click.echo(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))

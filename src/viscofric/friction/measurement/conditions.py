@@ -43,17 +43,18 @@ class Gapless:
 
     def __call__(self, low: float, high: float) -> Note:
         """Return a note on values without a gap from `low` to `high`, with a remedy."""
+        values = {"of": self.expression, "low": float(low), "high": float(high)}
         words = f"{self.shown(low, high)} has no gaps and cannot be grouped into nominal values"
         if not self.option:
             words += f" (a gap is {100 * self.gap:g} %); "
-            return Note("no-gap", words, remedy=self._selection(low, high) + ".")
+            return Note("no-gap", words, remedy=self._selection(low, high) + ".", values=values)
         wide = (math.log(high / low) if self.relative else high - low) / LONGEST_CHAIN
         # Rounded up to two digits.
         wide = float(f"{1.05 * wide:.1e}")
         one = setting(*self.option, f"{wide:g}{self.unit}")
         several = f"; if there are several, one below {self.gap:g}{self.unit}; or "
         remedy = ": if there is one nominal value, give " + one + several + self._selection(low, high) + "."
-        return Note("no-gap", words, remedy=remedy)
+        return Note("no-gap", words, remedy=remedy, values=values)
 
     def _selection(self, low: float, high: float) -> Remedy:
         """Return the selection to make: all steps except unsteady ones, or values near the median."""
@@ -153,6 +154,7 @@ def conditions(
             Note(
                 "disc-at-rest",
                 f"{len(runs) - moving.size} of {len(runs)} readings were taken with the disc at rest and left out.",
+                values={"readings": len(runs) - moving.size, "of": len(runs)},
             )
         )
     if not moving.size:

@@ -64,39 +64,48 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
                 "negative-friction",
                 f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is "
                 f"negative ({_shown(entries[places[0]], number)}): {why}.",
-                values={"coefficient": name, "conditions": len(places)},
+                values={"coefficient": name, "conditions": len(places), "reasons": list(causes)},
             )
-            for why, places in reasons.items()
+            for (causes, why), places in reasons.items()
         ]
     return notes
 
 
-def _why_viscoelastic(fit: Fit, entry: Entry) -> str:
-    """Return possible causes of negative viscoelastic friction.
+_CAUSES = {
+    "signs-reversed": "the sign of the force, or of the velocities, is reversed",
+    "zero-differs-by-direction": "the zero of the force cell differs between the directions of the disc",
+    "zero-differs": "the zero of the force cell at these readings differs from the one that is used",
+    "coulomb-not-assumed": "Coulomb friction is not the one assumed",
+    "disc-turns-against-sign": "the disc turns against the sign of its speed",
+    "speeds-exchanged": "the speeds of disc and ball are exchanged",
+}
+
+
+def _why_viscoelastic(fit: Fit, entry: Entry) -> tuple[tuple[str, ...], str]:
+    """Return possible causes of negative viscoelastic friction, and their words.
 
     The sign of the force is one only where Coulomb friction is not positive.
     """
     measured = entry.slides and fit.coulomb is None
     reasons = []
     if not measured or entry.value[2] <= 0.0:
-        reasons.append("the sign of the force, or of the velocities, is reversed")
+        reasons.append("signs-reversed")
     elif fit.fits_offset:
-        reasons.append("the zero of the force cell differs between the directions of the disc")
+        reasons.append("zero-differs-by-direction")
     if not fit.fits_offset:
-        reasons.append("the zero of the force cell at these readings differs from the one that is used")
+        reasons.append("zero-differs")
     if fit.coulomb is not None and entry.slides:
-        reasons.append("Coulomb friction is not the one assumed")
+        reasons.append("coulomb-not-assumed")
     if measured and entry.value[2] > 0.0:
-        reasons.append("the disc turns against the sign of its speed")
+        reasons.append("disc-turns-against-sign")
     sound = "Coulomb friction is positive as it should be, so probably " if len(reasons) > 1 and measured else ""
-    return f"{sound or 'probably '}{', or '.join(reasons)}"
+    return tuple(reasons), f"{sound or 'probably '}{', or '.join(_CAUSES[one] for one in reasons)}"
 
 
-def _why_coulomb(fit: Fit, entry: Entry) -> str:
-    """Return possible causes of negative Coulomb friction."""
-    if entry.value[1] > 0.0 and fit.fits_offset:
-        return "probably the speeds of disc and ball are exchanged"
-    return "probably the sign of the force, or of the velocities, is reversed"
+def _why_coulomb(fit: Fit, entry: Entry) -> tuple[tuple[str, ...], str]:
+    """Return the probable cause of negative Coulomb friction, and its words."""
+    cause = "speeds-exchanged" if entry.value[1] > 0.0 and fit.fits_offset else "signs-reversed"
+    return (cause,), f"probably {_CAUSES[cause]}"
 
 
 def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[Note]:

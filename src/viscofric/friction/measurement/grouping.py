@@ -195,4 +195,10 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
     because = "slip is zero (pure rolling) and " if rolls else ""
     leaving = "; these readings are left out" if left_out else ""
     unclear = f"the signs of the velocities do not separate {separated} friction"
-    return Note("signs-missing", f"{where(poor, total)} {because}{unclear}{leaving}", remedy=advice + ".")
+    return Note(
+        "signs-missing",
+        f"{where(poor, total)} {because}{unclear}{leaving}",
+        remedy=advice + ".",
+        # signs of u_disc and of u_disc − u_ball
+        values={"missing": [list(signs) for signs in _WORDS if signs not in first.signs], "pure_rolling": rolls},
+    )

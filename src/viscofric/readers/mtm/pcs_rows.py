@@ -113,8 +113,8 @@ def notes(rows: Rows, row: Integers, signal: Integers, load: Array) -> Iterator[
 
 
 def _contents(export: Export, used: Integers) -> Iterator[str]:
-    found = [
-        f"{what} {export.header[key]!r}"
+    found = {
+        what: export.header[key]
         for key, what in (
             ("profile description", "profile"),
             ("lubricant name", "lubricant"),
@@ -122,8 +122,9 @@ def _contents(export: Export, used: Integers) -> Iterator[str]:
             ("comments", "comments"),
         )
         if export.header.get(key)
-    ]
-    yield Note("format", f"A text export of PCS Instruments' MTM or ETM{''.join(f'; {one}' for one in found)}.")
+    }
+    said = "".join(f"; {what} {value!r}" for what, value in found.items())
+    yield Note("format", f"A text export of PCS Instruments' MTM or ETM{said}.", values=found)
     without = [step for place, step in enumerate(export.steps) if place not in set(used.tolist())]
     if without:
         kinds = Counter(step.word("step type") or "of no named type" for step in without)

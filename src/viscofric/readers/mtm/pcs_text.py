@@ -155,12 +155,16 @@ def _temperature(rows: Rows, row: Integers, thermometer: Thermometer) -> tuple[A
         gap = np.abs(own - other)
         far = gap[~np.isnan(gap)]
         if far.size and far.mean() > _THERMOMETERS_AGREE:
+            means: dict[str, float] = {
+                thermometer: float(np.nanmean(own)),
+                _OTHER[thermometer]: float(np.nanmean(other)),
+            }
             words = (
-                f"Temperatures are those of the {thermometer} RTD, {shown_celsius(float(np.nanmean(own)))} °C on "
-                f"average, but the {_OTHER[thermometer]} RTD reads {shown_celsius(float(np.nanmean(other)))} °C"
+                f"Temperatures are those of the {thermometer} RTD, {shown_celsius(means[thermometer])} °C on "
+                f"average, but the {_OTHER[thermometer]} RTD reads {shown_celsius(means[_OTHER[thermometer]])} °C"
             )
             choice = Remedy(f"; thermometer={_OTHER[thermometer]!r} takes that one.", ".", page=".")
-            remarks.append(Note("thermometers-differ", words, remedy=choice))
+            remarks.append(Note("thermometers-differ", words, remedy=choice, values=means))
         else:
             remarks.append(Note("thermometer", f"Temperatures are those of the {thermometer} RTD."))
     lacking = np.flatnonzero(np.isnan(own))

@@ -191,12 +191,17 @@ def _material(blocks: list[_Block], notes: list[str]) -> tuple[list[_Block], str
             Note(
                 "first-of-several",
                 f"The file holds {len(viscoelastic)} viscoelastic materials; the first, {name!r}, was read.",
+                values={"materials": len(viscoelastic), "read": name},
             )
         )
     ignored = sorted({block.keyword for block in chosen} - _UNDERSTOOD - _IMMATERIAL)
     if ignored:
         notes.append(
-            Note("not-read", f"Keywords that were not read: {', '.join('*' + keyword for keyword in ignored)}.")
+            Note(
+                "not-read",
+                f"Keywords that were not read: {', '.join('*' + keyword for keyword in ignored)}.",
+                values={"names": ignored},
+            )
         )
     return chosen, name
 
@@ -319,6 +324,7 @@ def _shift(
         Note(
             "shift-in-subroutine",
             f"*TRS, DEFINITION={kind} is a subroutine outside the card; the material holds at its reference only.",
+            values={"option": kind},
         )
     )
     return None

@@ -221,9 +221,10 @@ def _shift(
         )
     notes.append(
         Note(
-            "assumed",
+            "shift-in-subroutine",
             f"TB,SHIFT,…,{table.option or 'without option'} is a subroutine outside the card (constants "
             f"{', '.join(f'{value:g}' for value in values)}); the material holds at its reference temperature only.",
+            values={"option": table.option, "constants": [float(value) for value in values]},
         )
     )
     return None

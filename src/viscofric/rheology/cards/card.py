@@ -236,6 +236,7 @@ def tensile(shear: RelaxationSpectrum, bulk: RelaxationSpectrum | None) -> tuple
         "ratio-of-rubber",
         f"Bulk does not relax as shear does, so that the Poisson ratio runs from {poisson[1]:.4g} (glass) to "
         f"{poisson[0]:.4g} (rubber); E(ω) is exact, the material's constant ratio is that of the rubber.",
+        values={"glass": float(poisson[1]), "rubber": float(poisson[0])},
     )
     return spectrum, poisson[0], [note]
 

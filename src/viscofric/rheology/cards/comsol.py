@@ -150,7 +150,10 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
         ):
             ignored.append(match["name"])
         values[match["name"]] = f"{match['value']} {match['unit']}" if match["unit"] else match["value"]
-    notes = [f"Parameters that were not read: {', '.join(ignored)}."] if ignored else []
+    notes = []
+    if ignored:
+        said = f"Parameters that were not read: {', '.join(ignored)}."
+        notes.append(Note("not-read", said, values={"names": ignored}))
     branches = sorted(int(name[2:]) for name in values if re.fullmatch(r"G_\d{1,4}", name))
     ratio = _value(values, "nu", "dimensionless")
     factor = 2.0 * (1.0 + ratio)
