@@ -188,7 +188,7 @@ def test_installed_elsewhere_it_works(built: tuple[Path, Path], tmp_path: Path) 
     run([*ways[0], "--no-deps", "--no-index", str(built[1])], tmp_path)
 
     program = scripts / "viscofric"
-    assert "Viscoelastic friction" in run([str(program), "--help"], tmp_path)
+    assert "Hysteresis friction" in run([str(program), "--help"], tmp_path)
     version = built[1].name.split("-")[1]
     assert run([str(program), "--version"], tmp_path).strip().endswith(version)
     run([str(python), "-W", "error", "-c", WORK.format(place=str(home), study=STUDY)], tmp_path)

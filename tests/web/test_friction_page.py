@@ -97,9 +97,9 @@ def test_the_example_from_its_file_to_the_rubber_behind_it(tab: Tab) -> None:
     assert "synthetic data" in facts
     assert "configurations: passed" in facts
     agreement = part(tab, "Measured against predicted").inner_text()
-    assert re.search(r"Over 78 points the predicted friction is 0\.\d % (below|above) the measured one", agreement)
+    assert re.search(r"Over 78 points the predicted friction is on average 0\.\d % (below|above) the measured one", agreement)
     for figure in ("coulomb-friction", "four-runs", "force-cell-zero"):
-        until_drawn(tab, figure, 3)
+        until_drawn(tab, figure, 6)
     until_drawn(tab, "friction-master-curve", 7)
     assert re.fullmatch(r"78 points, predicted to [01]\.\d+.%", tab.text('#steps a[href="#measurement"] .step-summary'))
 
@@ -152,7 +152,7 @@ def test_what_is_wrong_stands_beside_its_field_and_identifying_can_be_cancelled(
     zero.fill("0.12")
     zero.press("Tab")
     tab.until("page.state.state.get('measurement.zero') === '0.12 N'")
-    until_drawn(tab, "four-runs", 3)
+    until_drawn(tab, "four-runs", 6)
     other = tmp_path / "nothing.csv"
     other.write_text("this is, no table\n", encoding="utf-8")
     drop(tab, other)

@@ -30,7 +30,7 @@ def example(opened: Tab) -> None:
     opened.step("sweeps")
     opened.page.check("input[name=material-source][value=dma]")
     opened.page.get_by_role("button", name="Use the synthetic example").click()
-    drawn(opened, "isotherms-storage-modulus", 26)
+    drawn(opened, "isotherms-storage-modulus", 24)
 
 
 def rubber_is_made(opened: Tab) -> None:
