@@ -24,7 +24,20 @@ class Options(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     do: Literal[
-        "rest", "insist", "hold", "grow", "die", "fail", "leak", "refuse", "solve", "share", "report", "print", "write"
+        "rest",
+        "insist",
+        "hold",
+        "grow",
+        "die",
+        "fail",
+        "leak",
+        "refuse",
+        "solve",
+        "share",
+        "report",
+        "print",
+        "write",
+        "load",
     ]
     amount: float = 0.0
 
@@ -39,6 +52,13 @@ def rest(amount: float, context: Context) -> dict[str, Any]:
     while time.monotonic() < end:
         time.sleep(0.01)
     return {"process": os.getpid()}
+
+
+def load(amount: float, context: Context) -> dict[str, Any]:
+    """Import a module that takes its time."""
+    import web.slow_module  # noqa: F401
+
+    return {}
 
 
 def insist(amount: float, context: Context) -> dict[str, Any]:
@@ -128,6 +148,7 @@ def write(amount: float, context: Context) -> dict[str, Any]:
 
 
 ODD: dict[str, Callable[[float, Context], dict[str, Any]]] = {
+    "load": load,
     "rest": rest,
     "insist": insist,
     "hold": hold,

@@ -172,6 +172,21 @@ def test_cancelled_job_frees_its_process_for_the_next(
     bench(work, most=1)
 
 
+def test_job_cancelled_while_it_imports_ends_its_process(
+    bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A module that was imported by half, such as pandas, fails whoever imports it next."""
+    monkeypatch.setattr(module, "_SOFT", 25.0)  # it is interrupted in time, and ends by itself
+
+    async def work(bench: Bench) -> None:
+        process = await bench.cancelled("load", after=0.5)
+        await bench.idle(within=LONG)
+        assert ended([process], within=LONG)
+        assert (await bench.last("rest"))["result"]["process"] != process
+
+    bench(work, most=1)
+
+
 def test_job_that_does_not_let_itself_be_cancelled_is_ended(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
         for do, amount in [("insist", 50.0), ("hold", 2e9)]:

@@ -189,8 +189,12 @@ def _json(message: dict[str, Any]) -> bytes:
 
 
 def _was_importing(trace: TracebackType | None) -> bool:
-    """Whether an interrupt came while a module was loaded, which may be left half done."""
-    return any("importlib._bootstrap" in frame.f_code.co_filename for frame, _ in traceback.walk_tb(trace))
+    """Whether an interrupt came while a module was loaded, which may be left half done.
+
+    Python removes the frames of `importlib` from most tracebacks, but not those of the module's own code.
+    """
+    codes = [frame.f_code for frame, _ in traceback.walk_tb(trace)]
+    return any(code.co_name == "<module>" or "importlib._bootstrap" in code.co_filename for code in codes)
 
 
 def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
