@@ -34,6 +34,7 @@ _WORDS = {
     "/prediction_master": "Friction at the reference temperature over the reduced speeds α(T)·v.",
     "/measurement": "The separated measurement, and the prediction at the same points.",
     "/measurement_master": "Measured friction over the reduced speed, at the load of the master curve.",
+    "/friction_shift_factors": "log10 α found from the measured friction alone, beside that of the material.",
     "/agreement": "Prediction against measurement, at each temperature.",
     "/assumptions": "Assumptions of the predictions, and their checks.",
     "/fields/<n>": "Pressure and displacement of the case with the number n, if they were kept.",
@@ -51,8 +52,8 @@ def example(folder: Path) -> StudyResults:
     study.write_text(text, encoding="utf-8")
     runs = folder / "mtm.csv"
     lines = runs.read_text(encoding="utf-8").splitlines(keepends=True)
-    cooler = ("29.", "30.", "59.", "60.")  # °C: one temperature of three is enough
-    runs.write_text("".join(line for line in lines if not line.startswith(cooler)), encoding="utf-8")
+    others = ("9.", "10.", "19.", "20.", "29.", "30.", "89.", "90.")  # °C: two temperatures of six are enough
+    runs.write_text("".join(line for line in lines if not line.startswith(others)), encoding="utf-8")
     return viscofric.run_study(study)
 
 
