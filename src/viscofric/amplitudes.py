@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import sentences, text
-from viscofric.data import DEFORMATIONS, Deformation, read_only
+from viscofric.data import DEFORMATIONS, Deformation, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.notes import Note
-from viscofric.units import angular_frequency, checked_poisson_ratio, positive, shown_celsius
+from viscofric.units import angular_frequency, positive, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -96,15 +95,14 @@ class AmplitudeSweep:
         """
         if self.deformation != "shear":
             return self
-        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
-        said = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}, strains by ε = γ/√3."
+        factor, note = tensile_from_shear(poisson_ratio, more=", strains by ε = γ/√3")
         return replace(
             self,
             strain_amplitude=self.strain_amplitude / np.sqrt(3.0),
             storage_modulus=factor * self.storage_modulus,
             loss_modulus=factor * self.loss_modulus,
             deformation="tension",
-            notes=(*self.notes, Note("tensile-from-shear", said)),
+            notes=(*self.notes, note),
         )
 
     def to_dataset(self) -> xarray.Dataset:

@@ -23,6 +23,14 @@ if TYPE_CHECKING:
 Deformation: TypeAlias = Literal["tension", "compression", "bending", "shear"]
 DEFORMATIONS: tuple[Deformation, ...] = ("tension", "compression", "bending", "shear")
 
+
+def tensile_from_shear(poisson_ratio: float, what: str = "moduli", more: str = "") -> tuple[float, Note]:
+    """Return the factor from a shear modulus to a tensile one, 2(1+ν), and the note that says so; `more` ends it."""
+    factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
+    said = f"Shear {what} converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}{more}."
+    return factor, Note("tensile-from-shear", said)
+
+
 #: Larger whole numbers are not exact as floats.
 _LARGEST_WHOLE = 2**53
 
@@ -174,7 +182,7 @@ class IsothermalSweeps:
         """Return the sweeps as tensile moduli, E = 2(1+ν)G if they were measured in shear."""
         if self.deformation != "shear":
             return self
-        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
+        factor, note = tensile_from_shear(poisson_ratio)
         isotherms = tuple(
             replace(
                 sweep,
@@ -182,10 +190,6 @@ class IsothermalSweeps:
                 loss_modulus=factor * sweep.loss_modulus,
             )
             for sweep in self.isotherms
-        )
-        note = Note(
-            "tensile-from-shear",
-            f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}.",
         )
         return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
 

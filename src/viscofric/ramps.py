@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import insist_on, number, sentences, text
-from viscofric.data import DEFORMATIONS, Deformation, read_only
+from viscofric.data import DEFORMATIONS, Deformation, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.notes import Note
-from viscofric.units import angular_frequency, celsius, checked_poisson_ratio, positive
+from viscofric.units import angular_frequency, celsius, positive
 
 if TYPE_CHECKING:
     import xarray
@@ -161,15 +160,14 @@ class TemperatureRamps:
         """Return the ramps as tensile moduli, E = 2(1+ν)G if they were measured in shear."""
         if self.deformation != "shear":
             return self
-        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
+        factor, note = tensile_from_shear(poisson_ratio)
         ramps = tuple(
             TemperatureRamp(
                 one.angular_frequency, one.temperature, factor * one.storage_modulus, factor * one.loss_modulus
             )
             for one in self.ramps
         )
-        said = f"Shear moduli converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
-        return replace(self, ramps=ramps, deformation="tension", notes=(*self.notes, Note("tensile-from-shear", said)))
+        return replace(self, ramps=ramps, deformation="tension", notes=(*self.notes, note))
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the points along the dimension ``reading``, ramp by ramp.

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on, numbers, sentences, text, whole_number
-from viscofric.data import DEFORMATIONS, Deformation, read_only
+from viscofric.data import DEFORMATIONS, Deformation, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.units import checked_poisson_ratio, positive
+from viscofric.units import positive
 
 if TYPE_CHECKING:
     import xarray
@@ -155,10 +155,9 @@ class StepTests:
         """
         if self.deformation != "shear":
             return self
-        factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
+        factor, note = tensile_from_shear(poisson_ratio, "responses")
         factor = 1.0 / factor if self.kind == "creep" else factor
         tests = tuple(replace(one, response=factor * one.response) for one in self.tests)
-        note = f"Shear responses converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}."
         return replace(self, tests=tests, deformation="tension", notes=(*self.notes, note))
 
     def thinned(self, per_decade: int) -> StepTests:

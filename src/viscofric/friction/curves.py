@@ -63,6 +63,18 @@ _COORDINATES = ("speed", "temperature", "load", "slip")
 _LOADS = {"N": "normal load", "N/m": "normal load per length"}
 
 
+def half_widths(freedom: Array | None, size: int, level: float) -> Array:
+    """Return the half-widths (size,) of confidence intervals in standard errors; normal where `freedom` is unknown."""
+    from scipy.special import ndtri, stdtrit
+
+    above = 0.5 + 0.5 * level
+    widths = np.full(size, float(ndtri(above)))
+    if freedom is not None:
+        student = np.isfinite(freedom) & (freedom > 0.0)
+        widths[student] = stdtrit(freedom[student], above)
+    return widths
+
+
 @dataclass(frozen=True, eq=False)
 class FrictionCurves:
     """Viscoelastic (and Coulomb) friction coefficients, one entry per speed and temperature.
@@ -269,8 +281,6 @@ class FrictionCurves:
         InputError
             If the level is not between 0 and 1, or there is no such coefficient.
         """
-        from scipy.special import ndtri, stdtrit
-
         level = share(level, "level", example=0.95)
         check_choice(of, "of", "viscoelastic", "coulomb")
         value, error, freedom = (getattr(self, name) for name in (of, f"{of}_error", f"{of}_freedom"))
@@ -278,13 +288,7 @@ class FrictionCurves:
             raise InputError(
                 f"of = {of!r}: these friction curves have no such coefficient with a standard error.", code="not-known"
             )
-        freedom = np.full(len(self), np.inf) if freedom is None else freedom
-        known = np.isfinite(error)
-        student = known & np.isfinite(freedom) & (freedom > 0.0)
-        wide = np.full(len(self), float(ndtri(0.5 + 0.5 * level)))
-        wide[student] = stdtrit(freedom[student], 0.5 + 0.5 * level)
-        half = np.full(len(self), np.inf)
-        half[known] = wide[known] * error[known]
+        half = np.where(np.isfinite(error), half_widths(freedom, len(self), level) * error, np.inf)
         return value - half, value + half
 
     def select(self, keep: Mask | Integers) -> FrictionCurves:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.datasets import record
+from viscofric.friction.curves import half_widths
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
@@ -66,18 +67,14 @@ def consistency(left_over: Array, error: Array, freedom: Array | None) -> tuple[
     `left_over` (n,) is the combination of them that should vanish, relative to the load; `error` its standard error
     with `freedom` degrees of freedom (normal where unknown). The words are empty where no error is known.
     """
-    from scipy.special import bdtrc, ndtri, stdtrit
+    from scipy.special import bdtrc
 
     known = np.isfinite(left_over) & np.isfinite(error)
     count = int(known.sum())
     if not count:
         return "", True
-    above = 1.0 - 0.5 * _OUTSIDE
-    wide = np.full(left_over.shape, float(ndtri(above)))
-    if freedom is not None:
-        student = np.isfinite(freedom) & (freedom > 0.0)
-        wide[student] = stdtrit(freedom[student], above)
-    outside = int(np.sum(np.abs(left_over[known]) > wide[known] * error[known]))
+    limit = half_widths(freedom, left_over.size, 1.0 - _OUTSIDE) * error
+    outside = int(np.sum(np.abs(left_over[known]) > limit[known]))
     largest = significant(float(np.max(np.abs(left_over[known]))), 2)
     words = f"within its 95 % interval at {count - outside} of {count} points; {largest} of the load at most"
     return words, outside == 0 or float(bdtrc(outside - 1, count, _OUTSIDE)) >= _CHANCE

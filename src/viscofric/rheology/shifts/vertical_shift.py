@@ -308,3 +308,11 @@ class VerticalShiftFactors(VerticalShift):
         self._refuse(np.array([kelvin]))
         change = np.eye(self.temperatures.size) - self._weights(np.array([kelvin]))
         return VerticalShiftFactors(self.temperatures, self.log10_values, kelvin, change @ self.covariance @ change.T)
+
+
+def with_vertical_shift(factors: xarray.Dataset, vertical: VerticalShift | None, temperatures: Array) -> xarray.Dataset:
+    """Return a data set of shift factors with b(T) at the same temperatures (K), where there is a vertical shift."""
+    if vertical is None:
+        return factors
+    found = vertical.to_dataset(temperatures)
+    return factors.assign(found.data_vars).assign_attrs(vertical_shift=found.attrs["vertical_shift"])

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, overload
 
 from viscofric.arguments import insist_on
+from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.superposition import consistency
 from viscofric.rheology.superposition.joined_isotherms import shown
 from viscofric.rheology.superposition.step_result import StepSuperposition
@@ -99,10 +100,7 @@ class Superposition:
         }
         if self.weights is not None:
             found.attrs["shift_weights"] = list(self.weights)
-        if self.vertical_shift is None:
-            return found
-        vertical = self.vertical_shift.to_dataset(self.shift_factors.temperatures)
-        return found.assign(vertical.data_vars).assign_attrs(vertical_shift=vertical.attrs["vertical_shift"])
+        return with_vertical_shift(found, self.vertical_shift, self.shift_factors.temperatures)
 
     @cached_property
     @one_blas_thread

@@ -13,6 +13,7 @@ import numpy as np
 from viscofric.datasets import dataset
 from viscofric.notes import Note
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
+from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.superposition.consistency import LARGEST_FIGURE, ONE_PAIR, REPRODUCIBILITY, ROUGH_FIGURE
 from viscofric.rheology.superposition.joined_isotherms import ranges, shown
 from viscofric.rheology.superposition.overlap import LogSweep, join, own_shifts
@@ -174,10 +175,7 @@ class StepSuperposition:
             "neighbours": quality.neighbours,
             "neighbours_without_overlap": quality.without_overlap,
         }
-        if self.vertical_shift is None:
-            return found
-        vertical = self.vertical_shift.to_dataset(self.shift_factors.temperatures)
-        return found.assign(vertical.data_vars).assign_attrs(vertical_shift=vertical.attrs["vertical_shift"])
+        return with_vertical_shift(found, self.vertical_shift, self.shift_factors.temperatures)
 
     @cached_property
     @one_blas_thread
