@@ -588,6 +588,7 @@ RIGHT = {
     ("read_topography", "missing", "1"),
     ("read_dma", "temperature", "list of None"),
     ("read_step_tests", "temperature", "list of None"),
+    ("read_amplitude_sweep", "temperature", "list of None"),
     ("StudyResults.to_csv", "path", "None"),
     ("FrictionCurves.select", "keep", "booleans"),
     ("surface_from_spectrum", "spectrum", "class"),

@@ -194,7 +194,8 @@ class IdentifiedMaterial:
         """
         from viscofric.datasets import dataset
 
-        omega = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
+        wanted = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
+        omega = np.ravel(wanted)
         modulus, band = np.asarray(self.material.complex_modulus(omega)), self.samples.modulus_band(omega)
         columns = {"modulus_error": (self.standard_error(omega), "1", "relative standard error of |E|")}
         if not self.anchored:
