@@ -232,6 +232,7 @@ def test_random_rough_contacts_are_all_counted(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("contact_path")
+@pytest.mark.slow
 def test_the_sliding_ball_is_within_the_tolerances_of_its_table() -> None:
     import sliding_ball
 
@@ -291,6 +292,7 @@ def test_curve_benchmark_measures_its_true_error(tmp_path: Path, capsys: pytest.
     assert row["wall_seconds"] > 0.0 < row["seconds"]
 
 
+@pytest.mark.slow
 def test_benchmark_of_repeated_runs_measures_coverage_and_width(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

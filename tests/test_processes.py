@@ -116,6 +116,7 @@ def test_workers_outlive_a_call_that_failed(children: list[subprocess.Popen[byte
         assert len(children) == 2
 
 
+@pytest.mark.slow
 def test_workers_that_ended_are_reported_and_replaced(children: list[subprocess.Popen[bytes]]) -> None:
     with Workers(2) as workers:
         with refused("process-ended", ViscofricError):
@@ -131,6 +132,7 @@ def test_workers_that_ended_are_reported_and_replaced(children: list[subprocess.
     assert all(child.returncode is not None for child in children)
 
 
+@pytest.mark.slow
 def test_interrupted_workers_end_at_once_and_start_anew(children: list[subprocess.Popen[bytes]]) -> None:
     with Workers(2) as workers:
         with pytest.raises(KeyboardInterrupt):
@@ -184,6 +186,7 @@ def test_exception_that_cannot_be_handed_back_keeps_its_sentence(
         assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
 
 
+@pytest.mark.slow
 def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text(

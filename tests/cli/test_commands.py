@@ -140,6 +140,7 @@ def test_bad_data_is_refused_with_its_file(tmp_path: Path, dma: str, code: str) 
         ('dma = "dma.csv"', 'dma = "other.csv"', "no-file", ""),
     ],
 )
+@pytest.mark.slow
 def test_bad_run_files_are_refused_with_their_field(tmp_path: Path, good: str, bad: str, code: str, field: str) -> None:
     assert good in STUDY
     found = refusal("run", write(tmp_path, study=STUDY.replace(good, bad)))
@@ -177,6 +178,7 @@ def test_few_notes_are_printed_and_many_are_counted(
     assert set(printed[1:]) <= {"Note: At −30 °C."}
 
 
+@pytest.mark.slow
 def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: pytest.CaptureFixture[str]) -> None:
     results = open_results(finished)
     reasons = [(f"{speed} reached.", f"−90 °C, {speed} mm/s") for speed in (20, 40, 80)]

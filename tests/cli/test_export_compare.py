@@ -38,6 +38,7 @@ def test_each_format_is_written_beside_the_results(pair: tuple[Path, Path]) -> N
         assert (pair[0] / name).stat().st_size > 0
 
 
+@pytest.mark.slow
 def test_several_formats_are_written_at_once(pair: tuple[Path, Path]) -> None:
     written = [pair[1] / "results.csv", pair[1] / "results.xlsx"]
     done = call("export", pair[1], "--to", "csv", "--to", "excel", "--to", "csv")
@@ -76,6 +77,7 @@ def test_different_results_are_reported_with_their_provenance(pair: tuple[Path, 
     assert {one["name"] for one in found["differences"]} >= {"friction_coefficient", "indentation", "max_pressure"}
 
 
+@pytest.mark.slow
 def test_what_cannot_be_compared_has_an_exit_status_of_its_own(pair: tuple[Path, Path], tmp_path: Path) -> None:
     done = call("compare", pair[0], tmp_path)
     assert done.exit_code == 2

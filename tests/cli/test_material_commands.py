@@ -81,6 +81,7 @@ def test_fit_writes_the_rubber_for_everyone(fitted: tuple[Path, str]) -> None:
     assert "WLF" in printed
 
 
+@pytest.mark.slow
 def test_what_fit_writes_is_the_same_rubber(fitted: tuple[Path, str]) -> None:
     folder, _ = fitted
     rubber, card = vf.read_card(folder / "rubber.json"), vf.read_card(folder / "cards" / "rubber_abaqus.inp")
@@ -95,6 +96,7 @@ def test_what_fit_writes_is_the_same_rubber(fitted: tuple[Path, str]) -> None:
     np.testing.assert_allclose(factors.log10_values, again.shift_factors.log10_values, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_report_shows_the_command_that_made_it(fitted: tuple[Path, str]) -> None:
     folder, _ = fitted
     page = (folder / "report.html").read_text(encoding="utf-8")
@@ -104,6 +106,7 @@ def test_the_report_shows_the_command_that_made_it(fitted: tuple[Path, str]) -> 
     assert "--poisson-ratio" not in page  # the default needs no mention
 
 
+@pytest.mark.slow
 def test_show_prints_the_modulus_asked_for(fitted: tuple[Path, str]) -> None:
     folder, _ = fitted
     done = call("show", folder / "rubber.json", "--temperature", "60 degC", "--frequency", "1 Hz")
@@ -114,6 +117,7 @@ def test_show_prints_the_modulus_asked_for(fitted: tuple[Path, str]) -> None:
     assert f"{modulus.imag:.4g}" in done.output
 
 
+@pytest.mark.slow
 def test_convert_there_and_back_loses_nothing(fitted: tuple[Path, str], tmp_path: Path) -> None:
     folder, _ = fitted
     assert call("convert", folder / "rubber.json", tmp_path / "a.txt", "--format", "comsol").exit_code == 0
@@ -168,6 +172,7 @@ def test_a_card_that_cannot_be_written_keeps_no_other_from_it(tmp_path: Path) ->
     assert isinstance(vf.read_card(tmp_path / "law.inp").shift, vf.WLF)
 
 
+@pytest.mark.slow
 def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str], tmp_path: Path) -> None:
     folder, _ = fitted
     before = vf.read_card(folder / "rubber.json")
@@ -220,6 +225,7 @@ def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, mo
     assert (found.status, found.code) == (1, code), found
 
 
+@pytest.mark.slow
 def test_ramp_prints_peaks_and_makes_a_material(tmp_path: Path) -> None:
     made = vf.synthetic_fluoroelastomer()
     rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]

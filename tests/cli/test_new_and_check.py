@@ -24,6 +24,7 @@ def call(*arguments: str | Path, given: str | bytes | None = None) -> Result:
 
 
 @pytest.mark.parametrize("template", TEMPLATES)
+@pytest.mark.slow
 def test_starter_files_and_their_data_are_right(tmp_path: Path, template: str) -> None:
     assert call("new", tmp_path, "--template", template).exit_code == 0
     result = call("check", tmp_path / "study.toml", "--json")
@@ -59,6 +60,7 @@ def test_starter_files_keep_what_they_promise(tmp_path: Path, template: str) -> 
     assert len(set(said)) == len(said)
 
 
+@pytest.mark.slow
 def test_check_says_how_much_is_asked_for(tmp_path: Path) -> None:
     call("new", tmp_path, "--template", "sweep")
     result = call("check", tmp_path / "study.toml")
@@ -103,6 +105,7 @@ def test_check_shows_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
     assert all(name in found.sentence for name in ("no.csv", "none.csv"))
 
 
+@pytest.mark.slow
 def test_check_shows_a_temperature_without_a_shift_factor(tmp_path: Path) -> None:
     call("new", tmp_path, "--template", "ball")
     text = (tmp_path / "study.toml").read_text(encoding="utf-8").replace('"90 degC"', '"400 degC"')

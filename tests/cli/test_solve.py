@@ -170,6 +170,7 @@ def test_a_layer_stiffens_the_contact() -> None:
 OBLIQUE = (*RUBBER, "--ellipsoid", "10 mm,30 mm", "--speed", "0.5 m/s", "--load", "1 N")
 
 
+@pytest.mark.slow
 def test_a_direction_is_an_angle_or_two_numbers() -> None:
     by_angle, by_numbers = record(*OBLIQUE, "--direction", "90 deg"), record(*OBLIQUE, "--direction", "0,2")
     assert by_angle["inputs"]["direction"] == [0.0, 1.0]
@@ -295,6 +296,7 @@ def test_pictures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
+@pytest.mark.slow
 def test_pictures_of_line_contacts_have_no_map() -> None:
     rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
     cylinder = vf.Cylinder("10 mm")

@@ -88,6 +88,7 @@ def assert_same(found: NDArray[np.float64], expected: NDArray[np.float64]) -> No
 
 
 @pytest.mark.parametrize("name", CONTACTS)
+@pytest.mark.slow
 def test_contact_is_the_same_with_any_arrays_and_ffts(name: str, backend: Backend) -> None:
     expected = by_scipy(name)
     found = CONTACTS[name](backend)

@@ -104,6 +104,7 @@ def hertz_on_grid(cells: int, compliance: float) -> tuple[float, float, float]:
 
 
 @pytest.mark.parametrize("compliance", [1.0, *slow(0.1)], ids=["E0", "E_inf"])
+@pytest.mark.slow
 def test_hertz_contact_converges_with_the_grid(compliance: float) -> None:
     errors = np.array([hertz_on_grid(cells, compliance) for cells in (32, 128, 512)])
     assert np.all(errors[1] < 0.005)  # half a percent on 128 × 128 cells

@@ -31,6 +31,7 @@ MATERIALS = {
 
 
 @pytest.mark.parametrize("name", ["elastic", "one mode", *slow("one mode, slow", "one mode, k = 1000", "six modes")])
+@pytest.mark.slow
 def test_pressure_is_that_of_dense_pivoting(name: str) -> None:
     material = MATERIALS[name]
     window = Window(spacing=2.4 / 28, behind=14, ahead=14, beside=12)

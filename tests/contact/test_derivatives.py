@@ -246,6 +246,7 @@ def test_contact_grows_with_its_load_as_hertz_says(geometry: Geometry) -> None:
 @pytest.mark.parametrize(
     ("k", "length"), [(10.0, 1.0), *slow((2.0, 0.5), (10.0, 1e-3), (100.0, 0.01), (100.0, 10.0), (1000.0, 0.1))]
 )
+@pytest.mark.slow
 def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, length: float) -> None:
     E0, ratio, radius, load = 1e6, 0.5, 10e-3, 100.0
     E_inf, C = k * E0, (1.0 - 1.0 / k) / E0
@@ -348,6 +349,7 @@ def test_similarity_ties_the_derivatives_together(
         assert found.load == pytest.approx(expected, abs=3.0 * solution.derivatives.error)
 
 
+@pytest.mark.slow
 def test_modes_that_are_split_or_empty_share_their_derivative() -> None:
     whole = solved([6e-7, 3e-7], [1e-3, 1e-4], accuracy=0.1)
     parts = solved([4e-7, 3e-7, 2e-7, 0.0], [1e-3, 1e-4, 1e-3, 1e-4], accuracy=0.1)

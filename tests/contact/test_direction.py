@@ -63,6 +63,7 @@ def test_a_ball_does_not_feel_the_direction() -> None:
     assert abs(aside.lateral_friction_coefficient) < 1e-6 * ahead.friction_coefficient
 
 
+@pytest.mark.slow
 def test_ellipsoid_across_is_the_ellipsoid_with_its_radii_exchanged() -> None:
     across, exchanged = solve(LONG, (0.0, 1.0)), solve(Ellipsoid(radius_x=10e-3, radius_y=30e-3))
     for name in ("friction_coefficient", "indentation", "contact_area", "front", "rear", "half_width"):

@@ -327,6 +327,7 @@ def test_lateral_friction_is_that_of_the_turned_axes() -> None:
     assert abs(by_slopes) > 0.02 * solution.friction_coefficient
 
 
+@pytest.mark.slow
 def test_estimated_friction_error_is_of_the_order_of_the_error() -> None:
     z = self_affine(64, points_per_shortest_wave=4.0)
     solutions = {
@@ -476,6 +477,7 @@ def test_few_points_and_all_but_few_touch(pressure: float) -> None:
 
 @pytest.mark.parametrize("speed", [*slow(0.0), 1.0])
 @pytest.mark.parametrize("kind", ["the same surface", *slow("a rougher one")])
+@pytest.mark.slow
 def test_work_does_not_grow_with_the_grid(kind: str, speed: float) -> None:
     """On a refined surface, and on one whose shortest wave is always eight points long."""
     z = self_affine(64, points_per_shortest_wave=4.0)

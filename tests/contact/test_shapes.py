@@ -257,6 +257,7 @@ def test_given_indentation_is_the_inverse_of_a_given_load(indenter: Indenter) ->
     assert pressed.diagnostics.load_error < 1e-12 * LOAD
 
 
+@pytest.mark.slow
 def test_elastic_indenter_adds_its_compliance() -> None:
     """Two bodies in series are one with (1−ν²)/E0 + c and (1−ν²)/E∞ + c: a softer rubber on a rigid ball."""
     modulus, ratio = 2.5e6, 0.3

@@ -184,6 +184,7 @@ def test_orders_of_convergence_against_hunter() -> None:
 @pytest.mark.parametrize(
     ("modulus_ratio", "memory_length", "resolved"), [(1000.0, 0.3, False), (300.0, 0.05, False), (10.0, 3.0, True)]
 )
+@pytest.mark.slow
 def test_peak_is_called_resolved_only_where_the_leading_layer_is(
     modulus_ratio: float, memory_length: float, resolved: bool
 ) -> None:

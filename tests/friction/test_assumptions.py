@@ -119,6 +119,7 @@ def test_a_line_contact_does_not_forget_the_thickness() -> None:
     assert said.holds is False
 
 
+@pytest.mark.slow
 def test_without_a_thickness_the_one_that_serves_is_reported() -> None:
     check = checks(RUBBER, BALL, solved_curves(), contact_radius="2.4 mm")["half-space"]
     assert (check.value, check.holds) == (None, None)
@@ -277,6 +278,7 @@ def test_coupling_is_that_of_an_elastic_layer_on_a_bonded_base(poisson_ratio: fl
     ("poisson_ratio", "thickness", "holds"),
     [(0.5, None, True), (0.5, "20 mm", True), (0.5, "2 mm", False), (0.49, None, True), (0.3, None, False)],
 )
+@pytest.mark.slow
 def test_coulomb_friction_that_changes_the_pressure_is_reported(
     poisson_ratio: float, thickness: str | None, holds: bool
 ) -> None:

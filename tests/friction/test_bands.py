@@ -73,6 +73,7 @@ def test_each_drawn_material_has_the_friction_of_its_own_contact(measured, tempe
     np.testing.assert_allclose(found, by_themselves, rtol=2e-4)
 
 
+@pytest.mark.slow
 def test_the_samples_do_not_move_what_is_predicted(measured) -> None:
     material, samples = measured
     alone, beside = (predicted(material, given, 333.15, [0.02, 0.2]) for given in (None, samples))
@@ -91,6 +92,7 @@ def test_what_is_known_exactly_has_no_band(measured) -> None:
     assert not curves.notes
 
 
+@pytest.mark.slow
 def test_shift_factors_alone_move_friction_along_its_slope() -> None:
     """Errors of log10 α of 0.01 decades: Δμ = ∂μ/∂ln v · ln 10 · Δlog10 α, to the curvature's 0.5 % of the error."""
     rubber = vf.synthetic_fluoroelastomer()
@@ -109,6 +111,7 @@ def test_shift_factors_alone_move_friction_along_its_slope() -> None:
     assert at_reference.material_error[0] < 1e-10 * at_reference.viscoelastic[0]
 
 
+@pytest.mark.slow
 def test_a_vertical_shift_moves_friction_by_the_load_rule() -> None:
     """Moduli b times larger at a temperature are a load b times smaller: Δμ = −F ∂μ/∂F Δln b."""
     rubber = vf.synthetic_fluoroelastomer()
@@ -122,6 +125,7 @@ def test_a_vertical_shift_moves_friction_by_the_load_rule() -> None:
     np.testing.assert_allclose(found, np.sort(expected), rtol=6e-5)
 
 
+@pytest.mark.slow
 def test_what_the_spectrum_misses_widens_the_band(measured) -> None:
     """Moduli off by one factor throughout move friction by the load rule, losses off by one factor by that factor."""
     material, _ = measured
@@ -152,6 +156,7 @@ def test_the_misfit_counts_at_the_frequency_of_the_contact(measured) -> None:
     assert curves.material_error[0] == pytest.approx(expected * curves.viscoelastic[0], rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_wide_band_and_a_foreign_one_are_reported() -> None:
     rubber = vf.synthetic_fluoroelastomer()
     softer, stiffer = (replace(rubber, spectrum=rubber.spectrum.shifted(1.0, b)) for b in (0.4, 2.0))
@@ -161,6 +166,7 @@ def test_a_wide_band_and_a_foreign_one_are_reported() -> None:
     assert "outside-band" in codes(notes)
 
 
+@pytest.mark.slow
 def test_a_line_contact_under_an_elastic_cylinder_has_its_band_too(measured) -> None:
     """Second order as above; a line contact is solved to 1e-5."""
     material, samples = measured

@@ -82,6 +82,7 @@ def test_processes_that_share_the_contacts_find_the_same_digits(rubber: vf.Mater
     np.testing.assert_array_equal(shared.viscoelastic_error, predicted.viscoelastic_error)
 
 
+@pytest.mark.slow
 def test_settings_of_the_contact_are_passed_on(rubber: vf.Material) -> None:
     """The same digits as the contact solved for itself."""
     ellipsoid = vf.Ellipsoid("10 mm", "20 mm")

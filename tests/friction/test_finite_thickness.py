@@ -101,6 +101,7 @@ def holds(case: Case) -> None:
 
 
 @pytest.mark.parametrize("case", QUICK)
+@pytest.mark.slow
 def test_friction_changes_on_a_layer_as_estimated(case: Case) -> None:
     holds(case)
 

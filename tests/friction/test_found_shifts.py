@@ -242,6 +242,7 @@ def test_what_chance_makes_of_constant_friction_is_refused() -> None:
 
 
 @pytest.mark.parametrize("friction", [power, peak, double_peak])
+@pytest.mark.slow
 def test_curves_with_and_without_maxima_are_joined(friction: Callable[[Array], Array]) -> None:
     """Where one flank could pass for another, the curves of all temperatures together decide."""
     celsius = (32.0, 38.0, 44.0, 50.0, 56.0, 62.0, 68.0)
@@ -267,6 +268,7 @@ def test_curves_that_fit_in_two_places_are_not_placed() -> None:
 
 
 @pytest.mark.parametrize("level", [0.05, 0.1])
+@pytest.mark.slow
 def test_flanks_of_two_maxima_are_not_taken_for_one(level: float) -> None:
     """In noise those of temperatures far apart look alike, but what was measured in between says that they are not."""
 
@@ -375,6 +377,7 @@ def test_unknown_errors_and_friction_near_zero_are_fitted_too() -> None:
 
 @settings(max_examples=10, deadline=None)
 @given(st.floats(-3.0, 3.0), st.floats(-2.0, 2.0), st.integers(0, 3))
+@pytest.mark.slow
 def test_units_and_order_do_not_matter(speed: float, friction: float, seed: int) -> None:
     """Other units of speed, other friction by a factor (another radius), rows in any order: the same α and errors."""
     plain = made(power, 44.0, 50.0, 56.0, noise=NOISE)

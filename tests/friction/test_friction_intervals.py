@@ -63,6 +63,7 @@ def test_intervals_hold_the_truth_in_95_of_100_tests() -> None:
     assert false_alarms <= 4
 
 
+@pytest.mark.slow
 def test_the_consistency_is_a_calibrated_test_of_the_measurement() -> None:
     """Its t has Student's distribution in sound tests, replicates complete or not."""
     for replicates, complete in ((4, True), (3, False)):
@@ -147,6 +148,7 @@ FIVE = np.array([0.02, 0.04, 0.08, 0.13, 0.2])
 @pytest.mark.parametrize(
     ("variation", "anew"), [(0.0, False), (0.01, False), (0.04, False), (0.04, True)], ids=["white", "1", "4", "anew"]
 )
+@pytest.mark.slow
 def test_intervals_hold_the_truth_where_runs_differ_and_steps_have_many_readings(variation: float, anew: bool) -> None:
     """Three runs of each configuration, eight readings a step; by readings 4 % holds 35 to 55 % only."""
     held: dict[str, list[float]] = {"viscoelastic": [], "coulomb": []}
@@ -167,6 +169,7 @@ def test_intervals_hold_the_truth_where_runs_differ_and_steps_have_many_readings
     assert np.mean(width) < 2.0 * 1.96 * one * 4.3 / 1.96 * 1.3
 
 
+@pytest.mark.slow
 def test_what_configurations_leave_over_is_in_the_errors_where_runs_are_not_repeated() -> None:
     """One run of each configuration, which differ by 4 %: the readings alone say a tenth of it."""
     errors, left = [], []
@@ -182,6 +185,7 @@ def test_what_configurations_leave_over_is_in_the_errors_where_runs_are_not_repe
     assert 0.4 < np.mean(errors) / np.mean(left) < 2.5
 
 
+@pytest.mark.slow
 def test_readings_that_follow_each_other_count_as_fewer() -> None:
     """One run of three configurations leaves nothing over: errors follow from readings, correlated by .7 here."""
     held: list[float] = []

@@ -35,6 +35,7 @@ ROUNDING = 1e-12
     seed=st.integers(0, 1000),
 )
 @settings(deadline=None, max_examples=15, derandomize=True)
+@pytest.mark.slow
 def test_half_difference_and_half_sum_above_the_recorded_zero(
     viscoelastic: float, coulomb: float, offset: float, slip_ratio: float, seed: int
 ) -> None:
@@ -268,6 +269,7 @@ def test_viscoelastic_friction_that_changes_with_speed_does_not_reach_coulomb_fr
 
 @pytest.mark.parametrize("slip_ratio", [0.2, 0.5])
 @pytest.mark.parametrize("speeds", [(0.03, 0.06), (0.02, 0.05, 0.1, 0.2)], ids=["two speeds", "four speeds"])
+@pytest.mark.slow
 def test_a_sharp_maximum_of_friction_does_not_reach_coulomb_friction_unnoticed(
     speeds: tuple[float, ...], slip_ratio: float
 ) -> None:
@@ -290,6 +292,7 @@ def test_a_sharp_maximum_of_friction_does_not_reach_coulomb_friction_unnoticed(
         assert count >= binom.ppf(1e-4, 8 * len(speeds), 0.95), (name, count)
 
 
+@pytest.mark.slow
 def test_swept_slip_is_cut_into_intervals() -> None:
     parts = [rows_of(exported_runs(slip_ratio=ratio, steps=2, points=1)) for ratio in np.linspace(0.001, 0.5, 200)]
     curves = separate(runs_from(np.concatenate(parts)), zero=0.3)
@@ -478,6 +481,7 @@ def test_the_error_of_a_drift_is_in_the_standard_errors() -> None:
     assert low_count <= held <= high_count
 
 
+@pytest.mark.slow
 def test_steady_zeros_are_seldom_said_to_drift() -> None:
     reported = 0
     for seed in range(40):

@@ -82,6 +82,7 @@ def test_another_reference_changes_no_verdict() -> None:
     assert amid.chi2 == pytest.approx(about.chi2, rel=0.05)  # but for what interpolation does
 
 
+@pytest.mark.slow
 def test_friction_and_dma_of_one_rubber_agree() -> None:
     """The paper's claim, on the synthetic fluoroelastomer: both are measured with noise, and coincide within it."""
     with as_file(files("viscofric") / "example" / "dma.csv") as path:

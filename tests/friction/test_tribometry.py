@@ -39,6 +39,7 @@ coefficients = st.floats(0.0, 1.0)
     seed=st.integers(0, 2**32 - 1),
 )
 @settings(deadline=None, max_examples=30, derandomize=True)
+@pytest.mark.slow
 def test_four_runs_give_back_what_was_planted(
     viscoelastic: float,
     coulomb: float,
@@ -235,6 +236,7 @@ def test_rolling_and_sliding_are_conditions_of_their_own() -> None:
     assert np.all(np.isinf(curves.coulomb_error) == rolls)
 
 
+@pytest.mark.slow
 def test_standard_errors_are_honest() -> None:
     """Intervals of 95 % by Student's t, n − 1 degrees of freedom, hold the truth in 95 % of noisy tests."""
     replicates, temperatures = 8, tuple(290.0 + 5.0 * np.arange(60))

@@ -81,6 +81,7 @@ def test_rubber_rests_on_its_law_and_on_those_who_measured_it() -> None:
     assert keys(vf.Layer("1 mm")) == {"carbone2008", "putignano2015", "johnson1985"}
 
 
+@pytest.mark.slow
 def test_sweeps_become_a_rubber() -> None:
     planted = vf.synthetic_fluoroelastomer()
     omega = np.geomspace(1.0, 100.0, 8)

@@ -131,6 +131,7 @@ def test_wrong_mappings_are_refused(tmp_path):
         read_dma(path, sheet=1)
 
 
+@pytest.mark.slow
 def test_one_sheet_is_chosen(tmp_path):
     points = [[float(cell) for cell in row.split(",")] for row in ROWS]
     header = ["T (degC)", "f (Hz)", "E' (MPa)", "E'' (MPa)"]
@@ -250,6 +251,7 @@ LAYOUTS = st.fixed_dictionaries(
 
 @settings(max_examples=40, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(layout=LAYOUTS)
+@pytest.mark.slow
 def test_any_layout_gives_the_same_numbers_where_the_user_names_its_columns(tmp_path, layout):
     """Headings without any sense, units anywhere, rows of nothing between: named by place, the numbers come back."""
     random = np.random.default_rng(layout["seed"])

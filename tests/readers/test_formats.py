@@ -98,6 +98,7 @@ def test_a_folder_and_no_file_at_all_are_refused_with_advice(tmp_path):
         read_dma(3)
 
 
+@pytest.mark.slow
 def test_readers_are_imported_without_slow_packages():
     script = "import sys, viscofric.readers; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

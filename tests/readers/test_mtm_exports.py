@@ -358,6 +358,7 @@ def printed_rows(path):
 
 
 @pytest.mark.parametrize("name", sorted(REAL))
+@pytest.mark.slow
 def test_real_exports_are_read_completely(real_data, name):
     path = real_data / "mtm" / name
     if not path.is_file():

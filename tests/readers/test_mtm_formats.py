@@ -65,6 +65,7 @@ def test_words_of_an_ehd_rig(tmp_path):
     assert noted(runs.notes, "steps-without-traction", "1 Film")
 
 
+@pytest.mark.slow
 def test_an_export_saved_as_a_workbook(tmp_path):
     path = tmp_path / "ehd.txt"
     path.write_text(EXPORT, encoding="utf-8")

@@ -96,6 +96,7 @@ def test_flipped_bytes(tmp_path, sample_bytes, name, seed, count):
 @every_sample
 @damage
 @given(seed=st.integers(0, 10**6), count=st.integers(1, 8))
+@pytest.mark.slow
 def test_printable_characters_changed(tmp_path, sample_bytes, name, seed, count):
     rng, damaged = random.Random(seed), bytearray(sample_bytes[name])
     for _ in range(count):

@@ -86,6 +86,7 @@ def test_a_whole_file_is_read(tmp_path, name):
     assert sweeps.format in sweeps.notes[0]
 
 
+@pytest.mark.slow
 def test_every_format_has_a_sample(tmp_path):
     from viscofric.readers.dma.read import format_of
     from viscofric.readers.source import Source

@@ -168,6 +168,7 @@ def test_a_creep_export_of_trios_rings(real_data):
     assert np.all(np.diff(np.log(first.response)) > -0.01)
 
 
+@pytest.mark.slow
 def test_polystyrene_has_four_temperatures(real_data):
     celsius = (145, 160, 175, 190)
     creep = vf.read_step_tests(

@@ -12,6 +12,7 @@ from viscofric.report.figures.contact import contact_figure
 
 
 @pytest.mark.parametrize("degrees", [0.0, 30.0, 90.0, 200.0])
+@pytest.mark.slow
 def test_the_surface_lies_on_the_indenter_where_there_is_pressure(degrees: float) -> None:
     rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
     indenter = vf.Ellipsoid("5 mm", "20 mm")

@@ -77,6 +77,7 @@ def test_drawing_leaves_matplotlibs_settings_alone(tree: xr.DataTree) -> None:
 
 
 @pytest.mark.parametrize(("origin", "said"), [("synthetic", True), ("measured", False)])
+@pytest.mark.slow
 def test_figures_of_synthetic_data_say_so(
     make_tree: Callable[..., xr.DataTree], monkeypatch: pytest.MonkeyPatch, origin: str, said: bool
 ) -> None:

@@ -82,6 +82,7 @@ def test_every_study_has_a_report(make_study: Callable[..., xr.DataTree], tmp_pa
     "missing",
     ["prediction", "prediction_master", "isotherms", "shift_factors", "shift_law", "spectrum", "master_curve", "all"],
 )
+@pytest.mark.slow
 def test_no_group_is_needed(make_study: Callable[..., xr.DataTree], tmp_path: Path, missing: str) -> None:
     tree = make_study(STUDIES["loads"])
     for name in list(tree.children) if missing == "all" else [missing]:

@@ -69,6 +69,7 @@ def test_distances_of_neighbours_lie_within_their_standard_errors():
     assert np.mean(np.abs(scores) < 1.96) > 0.88
 
 
+@pytest.mark.slow
 def test_relaxations_that_shift_apart_do_not_superpose():
     check = check_superposition(vf.superpose(sweeps(two_processes, 0.01), "30 degC"))
     assert not check.holds
@@ -81,6 +82,7 @@ def strongly_shifted(omega, temperature):
     return RUBBER.complex_modulus(omega, temperature) * 1.1 ** ((temperature - 303.15) / 10.0)
 
 
+@pytest.mark.slow
 def test_a_change_of_modulus_alone_is_mended_by_a_vertical_shift():
     measured = sweeps(strongly_shifted, 0.01, celsius=CELSIUS[2:])
     without = check_superposition(vf.superpose(measured, "30 degC"))
@@ -96,6 +98,7 @@ def entropic(omega, temperature):
     return POLYMER.complex_modulus(omega, temperature) * temperature / 303.15
 
 
+@pytest.mark.slow
 def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
     """No pair is farther apart than sweeps repeat, but all to one side: a vertical shift was left out."""
     measured = sweeps(entropic, 0.005, celsius=np.arange(-25.0, 101.0, 5.0))
@@ -230,6 +233,7 @@ def test_an_acrylic_superposes(real_data):
     assert check.kramers_kronig.holds
 
 
+@pytest.mark.slow
 def test_a_foam_drifts_within_the_reproducibility_of_its_sweeps(real_data):
     """From 10 to 40 °C six neighbours in a row lie to one side, by 0.005 to 0.028 decades, which b would mend."""
     fit = of_file(real_data, "vinyl_nitrile_foam.csv", "20 degC")
@@ -246,6 +250,7 @@ def test_a_foam_drifts_within_the_reproducibility_of_its_sweeps(real_data):
     assert np.all(away < 2.0 * fit.shift_factors.standard_errors + 1e-3)
 
 
+@pytest.mark.slow
 def test_eva_is_reported_as_a_failure(real_data):
     check = check_superposition(of_file(real_data, "eva_shear.csv", "20 degC"))
     assert not check.holds
@@ -253,6 +258,7 @@ def test_eva_is_reported_as_a_failure(real_data):
     assert check.sentences[0].code == "superposition-fails"
 
 
+@pytest.mark.slow
 def test_the_adhesive_fails_by_a_little(real_data):
     """Its neighbours between −20 and 20 °C lie 0.02 to 0.06 decades apart, always to the same side."""
     check = check_superposition(of_file(real_data, "adhesive_ems_ca.csv", "25 degC"))

@@ -142,6 +142,7 @@ def test_what_neighbours_miss_alike_is_distinguished_from_noise():
     assert "E' by up to 0.05" in found.notes[0]
 
 
+@pytest.mark.slow
 def test_a_band_holds_the_measurement_where_superposition_fails():
     made = planted_sweeps(0, 0.003)
     # Every other sweep 20 % stiffer, as a sample clamped anew each time may be.
@@ -182,6 +183,7 @@ def test_superposition_may_hold_roughly(real_data):
     assert failed.sentences[0].code == "superposition-fails"
 
 
+@pytest.mark.slow
 def test_a_nominal_temperature_stands_for_a_measured_one(real_data):
     vendor = vf.read_shift_factors(real_data / "dma" / "adhesive_ems_ca__vendor_shift.csv")
     fit = superposed(real_data, "adhesive", shift=vendor)
@@ -206,6 +208,7 @@ def test_what_is_no_measurement_is_named():
     assert fit_retardation_spectrum(fit).E0 == fit_retardation_spectrum(fit.master_curve).E0
 
 
+@pytest.mark.slow
 def test_every_result_is_shown_in_one_line():
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC", vertical="free")
     spectrum = fit_retardation_spectrum(fit)

@@ -293,6 +293,7 @@ def test_sixteen_modes_describe_the_acrylic_adhesive(real_data):
 
 
 @pytest.mark.parametrize("choice", ["cross-validation", "l-curve"])
+@pytest.mark.slow
 def test_a_smooth_spectrum_of_the_acrylic_adhesive_keeps_to_its_data(real_data, choice):
     spectrum = fit_retardation_spectrum(acrylic(real_data), method="regularised", regularisation=choice)
     # The noise floor is .0101/.0143; coldest and second coldest isotherm disagree by .06 decades, which no

@@ -381,6 +381,7 @@ def test_acrylic_overlaps_as_well_as_with_the_best_peer(real_data):
     assert elapsed < 0.5  # about 0.03 s of one core; a loaded machine may be slow
 
 
+@pytest.mark.slow
 def test_the_adhesives_hot_plateau_is_reported(real_data):
     fit = vf.superpose(vf.read_dma(real_data / "dma" / "adhesive_ems_ca.csv", deformation="tension"), "25 degC")
     [note] = [note for note in fit.notes if codes([note]) == {"alpha-not-identified"}]
@@ -395,6 +396,7 @@ def test_the_adhesives_hot_plateau_is_reported(real_data):
 
 @pytest.mark.parametrize("vertical", [None, "density", "free"])
 @pytest.mark.parametrize("name", ["adhesive_ems_ca", "eva_shear", "vinyl_nitrile_foam"])
+@pytest.mark.slow
 def test_real_rubbers_are_joined_over_all_their_temperatures(real_data, name, vertical):
     sweeps = vf.read_dma(real_data / "dma" / f"{name}.csv", deformation="tension")
     fit = vf.superpose(sweeps, "20 degC", vertical=vertical)

@@ -81,6 +81,7 @@ def test_bands_grow_with_the_noise():
     assert widths[2] / widths[1] == pytest.approx(2.0, rel=0.2)
 
 
+@pytest.mark.slow
 def test_fewer_per_cent_are_narrower():
     samples = sample_materials(known_superposition())
     omega = np.geomspace(*samples.frequency_range, 20)
@@ -124,6 +125,7 @@ def test_an_uncertain_shift_does_not_matter_where_its_isotherm_was_measured():
     assert np.median(at_reference / there[1]) > 3.0
 
 
+@pytest.mark.slow
 def test_shifts_are_drawn_from_their_covariance():
     root = np.tril(np.random.default_rng(0).standard_normal((KELVIN.size, KELVIN.size))) * 0.01
     covariance = root @ root.T
@@ -191,6 +193,7 @@ def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
 
 
 @pytest.mark.parametrize("method", ["non-negative", "regularised", "sparse"])
+@pytest.mark.slow
 def test_every_method_is_refitted_its_own_way(method):
     fit = known_superposition()
     chosen = {"regularised": {"regularisation": 1e-3}, "sparse": {"modes": 14}}.get(method, {})

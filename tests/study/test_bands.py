@@ -83,6 +83,7 @@ def test_stored_cases_give_the_same_bands_again(results: StudyResults, monkeypat
             np.testing.assert_array_equal(again.tree[part][name].values, results.tree[part][name].values)
 
 
+@pytest.mark.slow
 def test_a_sensitivity_that_is_none_is_refused(results: StudyResults) -> None:
     first = min((results.folder / "cases").glob("*.json"))
     stored = json.loads(first.read_text(encoding="utf-8"))["case"]
@@ -92,6 +93,7 @@ def test_a_sensitivity_that_is_none_is_refused(results: StudyResults) -> None:
     assert Record.from_values(stored).sensitivity is not None
 
 
+@pytest.mark.slow
 def test_modulus_has_its_band_too(results: StudyResults) -> None:
     assert "storage_modulus_lower" in results.tree["spectrum_curve"]
 

@@ -66,6 +66,7 @@ def test_friction_curves_that_are_ready_are_the_measurement(results: StudyResult
     assert np.abs(measured["predicted"].values / given.viscoelastic - 1.0).max() < 0.05
 
 
+@pytest.mark.slow
 def test_shift_factors_of_friction_stand_beside_those_of_the_modulus(results: StudyResults) -> None:
     found, law = results.tree["friction_shift_factors"], vf.synthetic_fluoroelastomer().shift
     assert law is not None
@@ -78,12 +79,14 @@ def test_shift_factors_of_friction_stand_beside_those_of_the_modulus(results: St
     assert found.attrs["slope"] == pytest.approx(1.0, abs=4.0 * found.attrs["slope_error"])
 
 
+@pytest.mark.slow
 def test_agreement_is_reported_point_by_point_and_on_the_master_curve(results: StudyResults) -> None:
     over, along = json.loads(results.tree["agreement"].attrs["sentences"])
     assert all("15 points" in sentence for sentence in (over, along))  # none lies outside
     assert results.tree["agreement"].attrs["material_counted"] == 0  # a ready rubber has no bands
 
 
+@pytest.mark.slow
 def test_points_of_the_master_curve_are_at_its_load(results: StudyResults) -> None:
     master, law = results.tree["measurement_master"], vf.synthetic_fluoroelastomer().shift
     assert law is not None
@@ -94,6 +97,7 @@ def test_points_of_the_master_curve_are_at_its_load(results: StudyResults) -> No
     assert results.dataset["load"].values.tolist() == [25.0, 10.0]
 
 
+@pytest.mark.slow
 def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:
     checked = results.tree["assumptions"].to_dataset()
     verdict = dict(zip(checked["assumption_name"].values.tolist(), checked["holds"].values.tolist(), strict=True))
@@ -105,6 +109,7 @@ def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:
     assert sentence == warning.words("run_file")
 
 
+@pytest.mark.slow
 def test_coulomb_friction_on_thin_rubber_is_warned_of(results: StudyResults) -> None:
     """With ν = ½ a half-space would not feel it; a layer of two contact radii does."""
     checked = results.tree["assumptions"].to_dataset()
@@ -114,6 +119,7 @@ def test_coulomb_friction_on_thin_rubber_is_warned_of(results: StudyResults) -> 
     assert checked["sentence"].values[row] in results.warnings
 
 
+@pytest.mark.slow
 def test_the_report_says_so(results: StudyResults) -> None:
     from viscofric.report.texts.checks import all_checks
 

@@ -67,6 +67,7 @@ def test_planted_shift_factors_come_back_within_their_errors(results: StudyResul
     assert law["wlf_C1"] == pytest.approx(17.44 * 51.6 / 99.6, abs=3.0 * law["wlf_C1_error"])
 
 
+@pytest.mark.slow
 def test_planted_modulus_comes_back_within_the_noise(results: StudyResults) -> None:
     curve = results.tree["master_curve"]
     planted = vf.synthetic_fluoroelastomer().complex_modulus(curve["angular_frequency"].values)
@@ -78,6 +79,7 @@ def test_planted_modulus_comes_back_within_the_noise(results: StudyResults) -> N
     assert results.tree["spectrum"].attrs["E0"] == pytest.approx(3e6, rel=0.005)
 
 
+@pytest.mark.slow
 def test_planted_coulomb_friction_comes_back(results: StudyResults) -> None:
     measured = results.tree["measurement"]
     z = (measured["coulomb"].values - 0.045) / measured["coulomb_error"].values
@@ -86,6 +88,7 @@ def test_planted_coulomb_friction_comes_back(results: StudyResults) -> None:
     assert abs(z.mean()) < 3.0 * math.sqrt(1.4 / len(z))  # variance of t with seven degrees of freedom
 
 
+@pytest.mark.slow
 def test_planted_viscoelastic_friction_is_measured(results: StudyResults) -> None:
     measured = results.tree["measurement"]
     planted = np.loadtxt(ROOT / "tests" / "data" / "planted_paper_friction.csv", delimiter=",", skiprows=3)[:, 2]
@@ -95,6 +98,7 @@ def test_planted_viscoelastic_friction_is_measured(results: StudyResults) -> Non
     assert abs(z.mean()) < 3.0 * math.sqrt(1.4 / len(z))
 
 
+@pytest.mark.slow
 def test_planted_viscoelastic_friction_is_predicted_from_the_sweeps(results: StudyResults) -> None:
     """From noisy sweeps alone: through shift factors, master curve, spectrum and contact."""
     predicted = results.tree["measurement"]["predicted"].values
@@ -107,6 +111,7 @@ def test_planted_viscoelastic_friction_is_predicted_from_the_sweeps(results: Stu
     assert abs(results.tree["agreement"].attrs["bias"]) < 0.01
 
 
+@pytest.mark.slow
 def test_bands_hold_the_planted_friction(results: StudyResults) -> None:
     measured = results.tree["measurement"]
     planted = np.loadtxt(ROOT / "tests" / "data" / "planted_paper_friction.csv", delimiter=",", skiprows=3)[:, 2]
@@ -119,6 +124,7 @@ def test_bands_hold_the_planted_friction(results: StudyResults) -> None:
     assert np.all((upper - lower) / planted < 0.1)
 
 
+@pytest.mark.slow
 def test_temperatures_fall_on_one_friction_master_curve(results: StudyResults) -> None:
     measured = results.tree["measurement"]
     master = results.tree["prediction_master"]
@@ -128,6 +134,7 @@ def test_temperatures_fall_on_one_friction_master_curve(results: StudyResults) -
     assert np.sqrt(np.mean(error**2)) < 0.02
 
 
+@pytest.mark.slow
 def test_one_load_is_one_load_in_every_table(results: StudyResults) -> None:
     for name in ("prediction", "prediction_master"):
         assert set(results.tree[name]["load"].values.ravel().tolist()) == {25.0}
@@ -153,6 +160,7 @@ def test_results_are_labelled_with_units_and_provenance(results: StudyResults) -
                 assert np.all(np.isfinite(variable.values.astype(float)))
 
 
+@pytest.mark.slow
 def test_left_out_isotherms_and_small_strain_are_reported(results: StudyResults) -> None:
     assert "left out" in results.tree.attrs["notes"]
     assert any("small strain" in warning for warning in results.warnings)
@@ -225,6 +233,7 @@ def test_contacts_wider_than_the_ball_are_reported_and_the_others_kept(real_data
     assert all("wider than the ball" in failure for failure in results.failures)
 
 
+@pytest.mark.slow
 def test_a_study_of_which_no_case_can_be_solved_is_an_error(real_data: Path, tmp_path: Path) -> None:
     path = _real_study(real_data, tmp_path, "25 N", 2, "1 um/s", "2 um/s")
     with refused("nothing-solved", vf.StudyError):
@@ -296,6 +305,7 @@ def test_moduli_measured_in_shear_become_tensile_with_the_given_poisson_ratio(tm
     assert results.tree["spectrum"].attrs["E0"] == pytest.approx(2.6 * in_tension, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_file_that_states_neither_tension_nor_shear_needs_it_stated(tmp_path: Path) -> None:
     path = _small_study(tmp_path, deformation="")
     check_study(load_study(path), path)  # its header says E'
@@ -315,6 +325,7 @@ def test_contacts_beyond_the_measured_frequencies_are_reported(tmp_path: Path) -
     assert "beyond-measured" in {warning.code for warning in results.warnings}
 
 
+@pytest.mark.slow
 def test_temperatures_without_shift_factor_are_reported_before_anything_is_solved(tmp_path: Path) -> None:
     with refused("outside-measured"):
         run_study(_small_study(tmp_path, temperature='temperature = ["90 degC", "400 degC"]'))

@@ -43,6 +43,7 @@ def test_what_is_stored_is_what_is_read(tmp_path: Path) -> None:
     assert list(found.materials["NBR"].children) == ["spectrum"]
 
 
+@pytest.mark.slow
 def test_the_data_set_carries_its_provenance(tmp_path: Path) -> None:
     made_results(tmp_path)
     found = vf.open_results(tmp_path).dataset
@@ -50,6 +51,7 @@ def test_the_data_set_carries_its_provenance(tmp_path: Path) -> None:
     assert found.sel(speed=0.1)["friction_coefficient"].dims == ("load_radius", "temperature")
 
 
+@pytest.mark.slow
 def test_results_of_a_rubber_alone_have_no_data_set(tmp_path: Path) -> None:
     made = made_results(tmp_path)
     del made.tree["prediction"]
@@ -79,6 +81,7 @@ def test_a_netcdf_file_of_others_is_reported(tmp_path: Path) -> None:
         vf.open_results(tmp_path / "other.nc")
 
 
+@pytest.mark.slow
 def test_exported_cases_and_the_folder_above_are_not_taken_for_results(tmp_path: Path) -> None:
     folder = tmp_path / "größe.results"
     made = made_results(folder)
@@ -164,6 +167,7 @@ def test_pages_that_a_power_cut_left_empty_are_never_taken_for_numbers(
     assert caught.value.code in ("damaged", "not-results")
 
 
+@pytest.mark.slow
 def test_a_changed_number_is_noticed(whole: bytes, tmp_path: Path) -> None:
     number = np.float64(vf.synthetic_fluoroelastomer().poisson_ratio)
     friction = made_results(tmp_path).dataset["friction_coefficient"].values.ravel()[7]

@@ -54,6 +54,7 @@ def test_given_factors_are_used_as_they_are(sweeps: Path, tmp_path: Path) -> Non
     assert made.fit.quality.joint < 0.01
 
 
+@pytest.mark.slow
 def test_headings_and_sheet_are_keys_of_the_run_file(sweeps: Path, tmp_path: Path) -> None:
     strange = tmp_path / "strange.csv"
     strange.write_text(sweeps.read_text(encoding="utf-8").replace("frequency", "v1"), encoding="utf-8")
@@ -105,6 +106,7 @@ def test_a_material_is_made_of_ramps(ramps: Path) -> None:
             rubber(ramps=str(ramps), **{name: value}, **REFERENCE)
 
 
+@pytest.mark.slow
 def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
     made = rubber(dma=str(sweeps), shift_by="storage", **REFERENCE)
     assert "shifted-by" in codes(made.notes)
@@ -121,6 +123,7 @@ def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
             rubber(dma=str(sweeps), **wrong, **REFERENCE)
 
 
+@pytest.mark.slow
 def test_a_held_factor_is_held(sweeps: Path) -> None:
     made = rubber(dma=str(sweeps), fixed_shift_factors={"0 degC": 2.5}, **REFERENCE)
     assert made.shift_origin == "held"
@@ -188,6 +191,7 @@ def test_two_names_of_one_temperature_are_reported() -> None:
     assert (caught.value.field, caught.value.code) == ("fixed_shift_factors", "value")
 
 
+@pytest.mark.slow
 def test_failed_superposition_goes_with_the_rubber(real_data: Path, tmp_path: Path) -> None:
     eva = real_data / "dma" / "eva_shear.csv"
     made = rubber(dma=str(eva), deformation="shear", reference_temperature="25 degC")
@@ -215,6 +219,7 @@ def melt(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_shift_factors_and_master_curve_of_a_liquid_are_kept(melt: Path, tmp_path: Path) -> None:
     """It has no spectrum that a contact could use, but all that sweeps say before one."""
     wanted = material_of({"dma": str(melt), "deformation": "tension", **REFERENCE})

@@ -65,6 +65,7 @@ def surfaces() -> list[vf.Topography]:
     return [vf.self_affine(0.8, shape=(32, 32), spacing="10 um", seed=seed, **made) for seed in (1, 2)]
 
 
+@pytest.mark.slow
 def test_every_number_is_that_of_the_contact_solved_by_itself(results: StudyResults) -> None:
     found = vf.predict_rough_friction(
         RUBBER,
@@ -95,6 +96,7 @@ def test_every_number_is_that_of_the_contact_solved_by_itself(results: StudyResu
     assert last["lateral_friction_coefficient"].item() == alone.lateral_friction_coefficient
 
 
+@pytest.mark.slow
 def test_results_show_of_the_surface(results: StudyResults) -> None:
     attributes = results.tree.attrs
     assert attributes["indenter"].startswith("self-affine rough surface (32 × 32 points, period 0.32 mm, rms height ")
@@ -180,6 +182,7 @@ def test_interpolated_contacts_lie_within_their_claims() -> None:
         assert one.max_pressure == pytest.approx(other.max_pressure, rel=0.03)
 
 
+@pytest.mark.slow
 def test_with_a_vertical_shift_the_pressure_counts_as_p_over_b() -> None:
     b = vf.VerticalShiftFactors([283.15, 303.15, 343.15], [-0.05, 0.0, 0.08], reference=303.15)
     rubber = vf.Material(RUBBER.spectrum, shift=RUBBER.shift, vertical_shift=b)

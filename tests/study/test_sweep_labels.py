@@ -107,6 +107,7 @@ def test_a_line_contact_has_a_load_per_length_and_no_half_width() -> None:
 
 
 @pytest.mark.parametrize("together", [True, False])
+@pytest.mark.slow
 def test_all_numbers_have_units_and_survive_a_file(tmp_path: object, together: bool) -> None:
     sweep = made_sweep(materials=("NBR", "EPDM"), together=together)
     found = prediction(sweep, made_outcomes(sweep, failed=[0]))

@@ -118,6 +118,7 @@ def test_a_spectrum_that_ends_near_the_lowest_frequency_is_met_within_its_errors
     assert np.abs(away / drawn.std(axis=0, ddof=1)).max() < 1.8
 
 
+@pytest.mark.slow
 def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
     text = str(found)
     assert "5 %" in text
@@ -127,6 +128,7 @@ def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
     assert np.all(found.friction.viscoelastic_lower < found.friction.viscoelastic_upper)
 
 
+@pytest.mark.slow
 def test_data_sets_hold_modulus_friction_and_shift_factors(found: vf.IdentifiedMaterial) -> None:
     omega = np.geomspace(*found.frequency_range, 5)
     modulus = found.to_dataset(omega)
@@ -310,6 +312,7 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
         vf.ModulusAnchor(3e6, 1.0, 300.0, part="modulus")
 
 
+@pytest.mark.slow
 def test_an_interrupt_ends_it() -> None:
     def interrupt(step: int, done: int, total: int) -> None:
         assert (step, done) == (1, 1)

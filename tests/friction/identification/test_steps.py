@@ -66,6 +66,7 @@ def known_to_a_hundredth() -> vf.FrictionCurves:
 
 
 @pytest.mark.parametrize("failing", [0, 2])
+@pytest.mark.slow
 def test_steps_that_promise_too_much_are_tried_nearer_by(monkeypatch: pytest.MonkeyPatch, failing: int) -> None:
     bent = Bent(monkeypatch, failing)
     found = vf.identify_material(known_to_a_hundredth(), **SETTINGS)

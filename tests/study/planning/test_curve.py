@@ -78,6 +78,7 @@ def test_accuracy_is_kept_and_no_case_is_lost(modes: list[tuple[float, float]], 
 
 
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-3])
+@pytest.mark.slow
 def test_errors_that_are_reported_are_within_the_accuracy(accuracy: float) -> None:
     """Those of the nodes are nearly as large as they may be, and interpolating adds to them."""
     random = np.random.default_rng(0)

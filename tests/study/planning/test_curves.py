@@ -38,6 +38,7 @@ def alone(case: IndenterCase) -> Task:
 
 
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-3, 1e-4])
+@pytest.mark.slow
 def test_cases_on_one_curve_are_interpolated_within_the_accuracy(accuracy: float) -> None:
     plan = plan_cases(CASES, [SLS], accuracy=accuracy)
     tasks = sum(map(len, carry_out(plan)))
@@ -66,6 +67,7 @@ def test_progress_goes_from_none_to_all_and_never_back() -> None:
     assert plan.done == plan.total
 
 
+@pytest.mark.slow
 def test_more_accuracy_takes_more_contacts() -> None:
     counts = []
     for accuracy in (1e-2, 1e-3, 1e-4):
@@ -74,6 +76,7 @@ def test_more_accuracy_takes_more_contacts() -> None:
     assert counts[0] <= counts[1] < counts[2]
 
 
+@pytest.mark.slow
 def test_scatter_of_the_contacts_does_not_refine_without_end() -> None:
     def scattered(task: Task) -> Record:
         record = made_up(task)
