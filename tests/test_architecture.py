@@ -53,6 +53,7 @@ ROOMS = {
     "readers": ("readers",),
     "rheology": ("rheology",),
     "contact": ("contact",),
+    "motion": ("motion",),
     "roughness": ("roughness",),
     "friction": ("friction",),
     "verification": ("verification",),

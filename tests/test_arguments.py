@@ -320,6 +320,16 @@ CALLS: dict[str, Any] = {
         "temperature": None, "accuracy": 3e-2, "tolerance": 1e-7, "finest": 2048, "window": None, "grid": None,
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "layer": None, "backend": "scipy", "direction": (1.0,
         0.0), "derivatives": False},
+    "History": lambda: {"time": np.array([0.0, 0.1, 0.2]), "load": np.array([0.0, 1.0, 0.5]), "indentation": None,
+        "pressure": None, "gap": None, "position": np.zeros(3), "speed": None, "temperature": 300.0, "before":
+        "untouched", "direction": (1.0, 0.0)},
+    "History.schedule": lambda: (vf.History([0.0, 0.1], load=1.0, temperature=[300.0, 310.0]), {"material": shifted(),
+        "kind": "point"}),
+    "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "history": vf.History([0.0, 0.1],
+        load=[0.0, 1.0], temperature=300.0), "times": np.array([0.05, 0.1]), "accuracy": 1e-2, "layer": None,
+        "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None},
+    "TransientSolution.pressure_at": lambda: (vf.solve_transient(rubber(), vf.Ball(1e-2), vf.History([0.0, 0.1],
+        load=1.0), times=[0.1]), {"time": 0.1}),
     "Isotherm": lambda: {"temperature": 300.0, "angular_frequency": np.array([1.0, 10.0]), "storage_modulus":
         np.array([3e6, 4e6]), "loss_modulus": np.array([3e5, 4e5]), "strain_amplitude": np.array([1e-3, 1e-3])},
     "IsothermalSweeps": lambda: {"isotherms": sweeps().isotherms, "deformation": "tension", "source": "", "notes": (),

@@ -101,6 +101,8 @@ RETURNED = {
     "Superposition",
     "SuperpositionCheck",
     "TractionStep",
+    "TransientErrors",
+    "TransientSolution",
 }
 #: What other names need that no example can have: a class to be derived from, a workbook of an instrument.
 WITHOUT_EXAMPLE = {"ShiftLaw", "VerticalShift", "read_vendor_law"}

@@ -66,6 +66,10 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
     from viscofric.literature.citations import Citations as Citations
     from viscofric.literature.citations import citations as citations
+    from viscofric.motion.history import History as History
+    from viscofric.motion.solution import TransientErrors as TransientErrors
+    from viscofric.motion.solution import TransientSolution as TransientSolution
+    from viscofric.motion.solve import solve_transient as solve_transient
     from viscofric.ramps import TemperatureRamp as TemperatureRamp
     from viscofric.ramps import TemperatureRamps as TemperatureRamps
     from viscofric.readers import read_dma as read_dma
@@ -181,6 +185,10 @@ _HOME = {
     "ContactSolution": "viscofric.contact.solution",
     "Diagnostics": "viscofric.contact.solution",
     "solve_steady": "viscofric.contact.steady",
+    "History": "viscofric.motion.history",
+    "TransientErrors": "viscofric.motion.solution",
+    "TransientSolution": "viscofric.motion.solution",
+    "solve_transient": "viscofric.motion.solve",
     "Isotherm": "viscofric.data",
     "IsothermalSweeps": "viscofric.data",
     "MasterCurve": "viscofric.data",

@@ -1,0 +1,1 @@
+"""Contacts in motion: histories of load, depth, path and temperature, and what they do to the material."""

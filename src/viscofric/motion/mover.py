@@ -1,0 +1,115 @@
+"""What the march knows of a contact: how to begin, take a step, and observe (the protocol of all movers)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from viscofric.arrays import Array
+    from viscofric.motion.schedule import Instant
+
+State = TypeVar("State")
+
+
+class Observation(NamedTuple):
+    """What is seen of a contact at one time.
+
+    Forces and energies are per length in a line contact, and per area in a periodic one.
+
+    Attributes
+    ----------
+    load : float
+        N (N/m; mean pressure, Pa).
+    depth : float
+        Indentation, m.
+    friction_force : (float, float)
+        Force of the indenter on the material along x and y.
+    area : float
+        Of contact, m² (m; a fraction).
+    stored, dissipated : float
+        Energy in the material, and what it has dissipated since the start, J (J/m; J/m²), computed from the modes and
+        not from the work of load and friction, which the march adds up itself.
+    extents : mapping
+        ``contact_radius``, or ``front``, ``rear`` and ``half_width``, m.
+    """
+
+    load: float
+    depth: float
+    friction_force: tuple[float, float]
+    area: float
+    stored: float
+    dissipated: float
+    extents: Mapping[str, float]
+
+
+class Scales(NamedTuple):
+    """Sizes below which errors of a contact are not resolved: accuracies are relative to these, or to larger values.
+
+    Attributes
+    ----------
+    load, depth, friction, energy : float
+        Above zero; of the stiffest response for a depth, of the softest one for a load.
+    """
+
+    load: float
+    depth: float
+    friction: float
+    energy: float
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """A pressure on its own coordinates (m), relative to the indenter's axis.
+
+    Attributes
+    ----------
+    axes : mapping
+        Name of each dimension (``r``; ``x`` and ``y``) → its points.
+    pressure : array
+        Pa, along these dimensions.
+    """
+
+    axes: Mapping[str, Array]
+    pressure: Array = field(repr=False)
+
+
+class Mover(Protocol[State]):
+    """A contact that can be moved through a schedule by steps.
+
+    States are immutable: a step makes a new one, so that any may be stored and continued from.
+    """
+
+    @property
+    def scales(self) -> Scales:
+        """Sizes that errors are compared with."""
+        ...
+
+    def begin(self) -> State:
+        """Return the state just before the start: nothing has happened, or what `Schedule.before` says."""
+        ...
+
+    def step(self, state: State, start: Instant, end: Instant) -> State:
+        """Return the state at the end of a step; the memory is exact for a pressure that is linear in between.
+
+        A jump is a step with ``end.clock == start.clock``.
+        """
+        ...
+
+    def accept(self, state: State, instant: Instant) -> None:
+        """Raise a `ViscofricError` where the method does not hold for a state that the march has accepted."""
+        ...
+
+    def observe(self, state: State) -> Observation:
+        """Return what is seen of a state."""
+        ...
+
+    def pressure(self, state: State) -> Field:
+        """Return the pressure of a state."""
+        ...
+
+    def ticks(self, start: Instant, end: Instant) -> Array | None:
+        """Return the times after the start at which steps may end, the last of them the end; None: any."""
+        ...

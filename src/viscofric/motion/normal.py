@@ -1,0 +1,241 @@
+"""Normal motion of a body of revolution: a row of springs with the memory of the material.
+
+Each spring at s carries the force f per length; its end moves by
+
+    u = c∞ f + Σ c_k y_k,    ẏ_k = (f − y_k)/τ_k,    c∞ = (1−ν²)/E∞ + (1−ν_i²)/E_i,  c_k = (1−ν²) C_k
+
+and by the indenter u ≥ δ − g(s) with f ≥ 0, where one of the two is an equality.  Within a step f is linear and the
+memory exact, so that a spring at the end of the step has the force (δ − g − known)/c, or none.  Load F = 2∫f ds.
+
+This solves the contact of the body exactly while the contact is one disc, for which it is enough that f does not rise
+outwards: the pressure p(r) = −(1/π) ∫ᵣᵃ f'(s) ds/√(s² − r²) is then nowhere below zero, and the gap nowhere either,
+since it is a mean of those of the springs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.errors import ConvergenceError
+from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.springs import elastic_radius, profile
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.motion.problem import Problem
+    from viscofric.motion.schedule import Instant, Schedule
+
+#: Springs from the axis to the largest edge; the load's error is 0.4/N² of the largest.
+SPRINGS = 400
+#: Beyond the elastic contact at E0, for what moves a little further.
+_MARGIN = 1.05
+_FAR, _FARTHEST = 60, 4.0
+#: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
+_RISE = 1e-3
+#: Where series replace φ functions that would cancel.
+_SERIES = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class SpringState:
+    """Forces and memory of the springs, and the energy dissipated so far."""
+
+    depth: float
+    load: float
+    force: Array  # (n,) N/m
+    memory: Array  # (n, modes) N/m
+    dissipated: float
+    threshold: Array = field(repr=False)  # (n,) depth at which each spring is touched: g + known, m
+
+
+@dataclass(frozen=True, eq=False)
+class NormalMotion:
+    """Mover of a body of revolution that moves along its axis; see the module."""
+
+    indenter: Indenter
+    schedule: Schedule
+    glassy: float  # c∞, 1/Pa
+    compliances: Array  # c_k, (modes,)
+    tau: Array
+    radius: float  # largest edge, m
+    s: Array
+    g: Array
+    weights: Array  # of ∫ over both sides
+
+    @classmethod
+    def of(cls, problem: Problem) -> NormalMotion:
+        """Return the mover of a checked problem."""
+        indenter, schedule = problem.indenter, problem.schedule
+        assert isinstance(indenter, Indenter)
+        spectrum = schedule.spectrum
+        plane_strain = 1.0 - problem.material.poisson_ratio**2
+        glassy = plane_strain / spectrum.E_inf + problem.counterface
+        keep = spectrum.C > 0.0
+        compliances = plane_strain * spectrum.C[keep]
+        soft = 1.0 / (glassy + float(compliances.sum()))
+        largest = schedule.largest
+        if largest <= 0.0:
+            radius = 1.0
+        elif schedule.control == "load":
+            radius = elastic_radius(indenter, None, largest, soft)
+        else:
+            radius = elastic_radius(indenter, largest, None, soft)
+        edge = _MARGIN * radius if not indenter.has_walls else radius
+        return cls(indenter, schedule, glassy, compliances, spectrum.tau[keep], radius, *_row(indenter, edge))
+
+    @property
+    def scales(self) -> Scales:
+        """Load at E0 of the largest depth, depth at E∞ of the largest load."""
+        largest = self.schedule.largest
+        if largest <= 0.0:
+            return Scales(1.0, 1.0, 1.0, 1.0)
+        soft = self.glassy + float(self.compliances.sum())
+        if self.schedule.control == "load":
+            depth, load = self._depth(self.g, self.glassy, largest), largest
+        else:
+            depth, load = largest, self._load(self._force(self.g, soft, largest))
+        return Scales(load, depth, load, load * depth)
+
+    def begin(self) -> SpringState:
+        """Return springs that nothing has touched, or that have rested under the first load or depth for ever."""
+        still = np.zeros(len(self.s))
+        untouched = SpringState(0.0, 0.0, still, np.zeros((len(self.s), len(self.tau))), 0.0, self.g)
+        if self.schedule.before == "untouched":
+            return untouched
+        first = self.schedule.at(self.schedule.start, after=False)
+        soft = self.glassy + float(self.compliances.sum())
+        depth, force = self._pressed(self.g, soft, first)
+        memory = np.repeat(force[:, None], len(self.tau), axis=1)
+        return SpringState(depth, self._load(force), force, memory, 0.0, self.g)
+
+    def step(self, state: SpringState, start: Instant, end: Instant) -> SpringState:
+        """Return the springs after a step in which their forces are linear."""
+        decay, alpha, beta, lost = _coefficients((end.clock - start.clock) / self.tau)
+        known = state.memory @ (self.compliances * decay) + state.force * float(self.compliances @ alpha)
+        compliance = self.glassy + float(self.compliances @ beta)
+        threshold = self.g + known
+        depth, force = self._pressed(threshold, compliance, end)
+        memory = state.memory * decay + state.force[:, None] * alpha + force[:, None] * beta
+        away, change = state.force[:, None] - state.memory, force - state.force
+        own, mixed, new = lost
+        dissipated = float(
+            self.weights @ (np.square(away) @ (self.compliances * own))
+            + 2.0 * (self.weights * change) @ (away @ (self.compliances * mixed))
+            + float(self.compliances @ new) * (self.weights @ np.square(change))
+        )
+        return SpringState(depth, self._load(force), force, memory, state.dissipated + dissipated, threshold)
+
+    def observe(self, state: SpringState) -> Observation:
+        """Return load, depth, radius and energies."""
+        stored = (
+            0.5 * self.weights @ (self.glassy * np.square(state.force) + np.square(state.memory) @ self.compliances)
+        )
+        radius = self._edge(state)
+        extents = {"contact_radius": radius, "dent": float(state.memory[0] @ self.compliances)}
+        if state.force[0] > 0.0:
+            extents["dent"] = float(state.depth)
+        return Observation(
+            state.load, state.depth, (0.0, 0.0), np.pi * radius**2, float(stored), state.dissipated, extents
+        )
+
+    def pressure(self, state: SpringState) -> Field:
+        """Return p(r) between the springs."""
+        r, transform = self._transform
+        return Field({"r": r}, transform @ np.diff(state.force, append=0.0))
+
+    def ticks(self, start: Instant, end: Instant) -> Array | None:
+        """Any step may end anywhere."""
+        return None
+
+    def accept(self, state: SpringState, instant: Instant) -> None:
+        """Raise `ConvergenceError` where the contact is no longer one disc."""
+        force, time = state.force, instant.time
+        most = float(force.max())
+        if most <= 0.0:
+            return
+        if np.max(np.diff(force)) > _RISE * most:
+            raise ConvergenceError(
+                f"at time {time:.4g} s the pressure is no longer that of one disc, for which alone the row of springs "
+                "is exact.",
+                code="not-one-disc",
+            )
+        if force[-1] > 0.0 and not self.indenter.has_walls:
+            raise ConvergenceError(
+                f"at time {time:.4g} s the contact is wider than the row of springs.", code="beyond-springs"
+            )
+
+    @cached_property
+    def _transform(self) -> tuple[Array, Array]:
+        """Return points r and the matrix from differences of f to p(r): f' is constant between springs."""
+        edges = np.append(self.s, self.s[-1] + (self.s[-1] - self.s[-2]))
+        r = 0.5 * (edges[:-1] + edges[1:])
+        length = np.diff(edges)
+        angle = np.arccosh(np.maximum(edges[None, :] / r[:, None], 1.0))
+        return r, -np.diff(angle, axis=1) / (np.pi * length)
+
+    def _pressed(self, threshold: Array, compliance: float, instant: Instant) -> tuple[float, Array]:
+        """Return the depth, and the forces of springs that give way by so much."""
+        if instant.depth is not None:
+            return instant.depth, self._force(threshold, compliance, instant.depth)
+        depth = self._depth(threshold, compliance, float(instant.load))  # type: ignore[arg-type]
+        return depth, self._force(threshold, compliance, depth)
+
+    @staticmethod
+    def _force(threshold: Array, compliance: float, depth: float) -> Array:
+        return np.maximum(depth - threshold, 0.0) / compliance
+
+    def _load(self, force: Array) -> float:
+        return float(self.weights @ force)
+
+    def _depth(self, threshold: Array, compliance: float, load: float) -> float:
+        """Return the depth at which springs touched one after the other carry the load, or the first is touched."""
+        order = np.argsort(threshold, kind="stable")
+        sorted_threshold, weights = threshold[order], self.weights[order]
+        if load == 0.0:
+            return float(sorted_threshold[0])
+        depths = (load * compliance + np.cumsum(weights * sorted_threshold)) / np.cumsum(weights)
+        enough = depths <= np.append(sorted_threshold[1:], np.inf)
+        return float(depths[int(np.argmax(enough))])
+
+    def _edge(self, state: SpringState) -> float:
+        """Return the contact radius, within a spacing by the thresholds."""
+        touching = np.flatnonzero(state.force > 0.0)
+        if not len(touching):
+            return 0.0
+        last = int(touching[-1])
+        if last + 1 == len(self.s):
+            return float(self.s[-1])
+        inside, outside = state.depth - state.threshold[last], state.threshold[last + 1] - state.depth
+        return float(self.s[last] + (self.s[last + 1] - self.s[last]) * inside / (inside + outside))
+
+
+def _row(indenter: Indenter, edge: float) -> tuple[Array, Array, Array]:
+    """Return places, profile and weights of the springs: even up to the edge, wider beyond it."""
+    s = np.linspace(0.0, edge, SPRINGS + 1)
+    if not indenter.has_walls:
+        s = np.append(s, edge * np.geomspace(1.0, _FARTHEST, _FAR + 1)[1:])
+    weights = np.zeros(len(s))
+    weights[:-1] += np.diff(s)
+    weights[1:] += np.diff(s)
+    return s, profile(indenter, s), weights
+
+
+def _coefficients(x: Array) -> tuple[Array, Array, Array, tuple[Array, Array, Array]]:
+    """Return e^{−x}, α and β of a step Δt = xτ, and the parts of the energy that it dissipates.
+
+    y₁ = e^{−x} y₀ + α f₀ + β f₁; the energy is c times (f₀−y₀)² own + 2 (f₀−y₀)(f₁−f₀) mixed + (f₁−f₀)² new.
+    """
+    small = x < _SERIES
+    safe = np.where(small, 1.0, x)
+    gone = -np.expm1(-x)  # 1 − e^{−x}
+    beta = np.where(small, x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x / 720)))), 1.0 - gone / safe)
+    own = -0.5 * np.expm1(-2.0 * x)
+    mixed = np.where(small, 0.5 * x * np.square(1.0 - beta), 0.5 * np.square(gone) / safe)
+    series = x * (1 / 3 - x * (1 / 4 - x * (7 / 60 - x * (1 / 24 - x * (31 / 2520 - x / 320)))))
+    new = np.where(small, series, (x - 2.0 * gone + own) / np.square(safe))
+    return np.exp(-x), gone - beta, beta, (own, mixed, new)

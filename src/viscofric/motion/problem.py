@@ -1,0 +1,38 @@
+"""A contact in motion, checked: what every mover is made from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from viscofric.contact.bodies import Layer
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.motion.schedule import Schedule
+    from viscofric.rheology.material import Material
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A contact in motion.
+
+    Attributes
+    ----------
+    material : Material
+        Its Poisson ratio; the modes are those of the schedule.
+    indenter : Indenter or PeriodicSurface
+    schedule : Schedule
+    accuracy : float
+        Relative, of friction, depth, load and energy.
+    layer : Layer or None
+    counterface : float
+        (1 − ν_i²)/E_i of an elastic indenter, 1/Pa.
+    """
+
+    material: Material
+    indenter: Indenter | PeriodicSurface
+    schedule: Schedule
+    accuracy: float
+    layer: Layer | None
+    counterface: float

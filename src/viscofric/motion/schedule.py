@@ -1,0 +1,252 @@
+"""A history for one material: SI values at any time, and the material's clock, exact for linear temperatures.
+
+At the temperature T every retardation time is α(T) τ (E(ω, T) = E(α(T) ω), T₀)).  A body whose temperature changes
+follows the clock
+
+    dξ/dt = α(T₁)/α(T(t))
+
+with the modes that it has at T₁, the first temperature.  Between two given times T is linear; the integral is taken by
+Gauss's rule on parts that are halved until it no longer changes.
+
+References
+----------
+L. W. Morland, E. H. Lee, Trans. Soc. Rheol. 4 (1960) 233, doi:10.1122/1.548856.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+#: Relative error of a part of the clock.
+_EXACT = 1e-12
+#: A kink of the law (of Tg, of a table) is enclosed by this many halvings.
+_HALVINGS = 40
+_NODES, _WEIGHTS = (0.5 * column for column in np.polynomial.legendre.leggauss(12))
+
+
+class Instant(NamedTuple):
+    """What is prescribed at one time, or on one side of a jump; SI.
+
+    Attributes
+    ----------
+    time : float
+        s.
+    clock : float
+        The material's time ξ since the start, s.
+    position : (2,) array
+        m.
+    load, depth, pressure, gap : float or None
+        The one that is prescribed.
+    """
+
+    time: float
+    clock: float
+    position: Array
+    load: float | None = None
+    depth: float | None = None
+    pressure: float | None = None
+    gap: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Schedule:
+    """A history in SI units for one material.
+
+    Attributes
+    ----------
+    spectrum : RetardationSpectrum
+        Modes that go with the clock: those at the temperature, or at the first one if it changes.
+    control : str
+        "load", "indentation", "pressure" or "gap".
+    before : str
+        "untouched", "at rest" or "sliding".
+    kinks : (m,) array
+        Times at which any rate changes or a value jumps, with the first and the last time; s.
+    """
+
+    spectrum: RetardationSpectrum
+    control: str
+    before: str
+    kinks: Array
+    _time: Array = field(repr=False)
+    _value: Array = field(repr=False)
+    _position: Array = field(repr=False)
+    _speed: Array | None = field(repr=False)
+    _temperature: Array | None = field(repr=False)
+    _clocks: tuple[_Clock, ...] = field(repr=False)
+
+    @property
+    def start(self) -> float:
+        """First time, s."""
+        return float(self.kinks[0])
+
+    @property
+    def end(self) -> float:
+        """Last time, s."""
+        return float(self.kinks[-1])
+
+    @property
+    def duration(self) -> float:
+        """The whole history by the material's clock, s."""
+        return self.at(self.end).clock
+
+    @property
+    def largest(self) -> float:
+        """Largest value of what is prescribed (load, depth, pressure or gap)."""
+        return float(self._value.max())
+
+    def jumps_at(self, time: float) -> bool:
+        """Return whether two points have this time, a kink."""
+        return int(np.count_nonzero(self._time == time)) == 2
+
+    def at(self, time: float, *, after: bool = True) -> Instant:
+        """Return what is prescribed at a time, after its jump or before it."""
+        place = int(np.searchsorted(self._time, time))
+        if place < len(self._time) and self._time[place] == time:
+            node = place + 1 if after and self.jumps_at(time) else place
+            value, position = float(self._value[node]), self._position[node]
+        else:
+            place -= 1
+            share = (time - self._time[place]) / (self._time[place + 1] - self._time[place])
+            value = float((1.0 - share) * self._value[place] + share * self._value[place + 1])
+            position = self._between(place, time)
+        named = {"depth" if self.control == "indentation" else self.control: value}
+        clock = self._clocks[min(place, len(self._clocks) - 1)].at(time)
+        return Instant(float(time), clock, position, **named)
+
+    def velocity(self, time: float, *, after: bool = True) -> Array:
+        """Return the velocity (2,) at a time, on one side of a kink, m/s."""
+        place = self._interval(time, after=after)
+        start, end = self._time[place], self._time[place + 1]
+        if self._speed is None:
+            return np.asarray((self._position[place + 1] - self._position[place]) / (end - start))
+        share = (time - start) / (end - start)
+        return np.asarray((1.0 - share) * self._speed[place] + share * self._speed[place + 1])
+
+    def temperature(self, time: float, *, after: bool = True) -> float | None:
+        """Return the temperature at a time, K."""
+        if self._temperature is None:
+            return None
+        place = self._interval(time, after=after)
+        share = (time - self._time[place]) / (self._time[place + 1] - self._time[place])
+        return float((1.0 - share) * self._temperature[place] + share * self._temperature[place + 1])
+
+    def _interval(self, time: float, *, after: bool) -> int:
+        """Return the interval of positive length that holds a time."""
+        place = int(np.searchsorted(self._time, time, side="right" if after else "left")) - 1
+        place = min(max(place, 0), len(self._time) - 2)
+        step = 1 if after else -1
+        while self._time[place + 1] == self._time[place]:
+            if not 0 <= place + step < len(self._time) - 1:
+                step = -step
+            place += step
+        return place
+
+    def _between(self, place: int, time: float) -> Array:
+        """Return the position at a time within an interval."""
+        start, end = self._time[place], self._time[place + 1]
+        share = (time - start) / (end - start)
+        if self._speed is None:
+            return np.asarray((1.0 - share) * self._position[place] + share * self._position[place + 1])
+        mean = self._speed[place] + 0.5 * share * (self._speed[place + 1] - self._speed[place])
+        return np.asarray(self._position[place] + (time - start) * mean)
+
+
+def make_schedule(
+    material: Material,
+    time: Array,
+    control: str,
+    value: Array,
+    position: Array,
+    speed: Array | None,
+    temperature: Array | None,
+    before: str,
+) -> Schedule:
+    """Return the schedule of checked columns; see `viscofric.motion.history.History`."""
+    changes = temperature is not None and bool(np.any(temperature != temperature[0]))
+    first = None if temperature is None else float(temperature[0])
+    spectrum = material.modes_at(first)
+    law = material.shift if changes else None
+    if changes and material.vertical_shift is not None:
+        raise InputError(
+            "temperature: changes in a material with a vertical shift, whose effect on stresses of the past is not "
+            "known; give one temperature, or a Material without vertical_shift.",
+            code="vertical-shift",
+        )
+    clocks, begun = [], 0.0
+    for place in range(len(time) - 1):
+        ends = None if temperature is None else (float(temperature[place]), float(temperature[place + 1]))
+        clocks.append(_clock(float(time[place]), float(time[place + 1]), ends, law, first, begun))
+        begun = clocks[-1].end
+    return Schedule(
+        spectrum, control, before, np.unique(time), time, value, position, speed, temperature, tuple(clocks)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Clock:
+    """ξ(t) between two given times: at the ends of parts, and by Gauss's rule within them."""
+
+    time: Array  # ends of the parts, s
+    value: Array  # ξ there, s
+    ends: tuple[float, float] | None  # temperatures
+    law: ShiftLaw | None
+    first: float | None
+
+    @property
+    def end(self) -> float:
+        return float(self.value[-1])
+
+    def at(self, time: float) -> float:
+        place = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))
+        if self.law is None or len(self.time) < 2:
+            return float(self.value[place] + (time - self.time[place]))
+        if time == self.time[place + 1]:
+            return float(self.value[place + 1])
+        return float(self.value[place] + self._part(self.time[place], time))
+
+    def _rate(self, time: Array) -> Array:
+        """α(T₁)/α(T)."""
+        low, high = self.ends  # type: ignore[misc]
+        share = (time - self.time[0]) / (self.time[-1] - self.time[0])
+        decades = self.law.log10(low + share * (high - low))  # type: ignore[union-attr]
+        return np.asarray(10.0 ** (self.law.log10(self.first) - decades))  # type: ignore[union-attr, arg-type]
+
+    def _part(self, start: float, end: float) -> float:
+        return float((end - start) * (_WEIGHTS @ self._rate(start + (end - start) * (0.5 + _NODES))))
+
+
+def _clock(
+    start: float, end: float, ends: tuple[float, float] | None, law: ShiftLaw | None, first: float | None, begun: float
+) -> _Clock:
+    both = np.array([start, end])
+    if law is None or ends is None or start == end:
+        return _Clock(both, np.array([begun, begun + (end - start)]), ends, None, first)
+    whole = _Clock(both, both, ends, law, first)
+    low, high = ends
+    law.log10([low, high])  # refuses temperatures where it has no meaning
+    parts: list[tuple[float, float]] = []
+    waiting = [(start, end, whole._part(start, end), 0)]
+    while waiting:
+        left, right, value, depth = waiting.pop()
+        middle = 0.5 * (left + right)
+        halves = whole._part(left, middle), whole._part(middle, right)
+        settled = abs(sum(halves) - value) <= _EXACT * abs(value)
+        if settled or depth == _HALVINGS or not left < middle < right:
+            parts += [(middle, halves[0]), (right, halves[1])]
+        else:
+            waiting += [(middle, right, halves[1], depth + 1), (left, middle, halves[0], depth + 1)]
+    times = np.array([start, *(time for time, _ in parts)])
+    values = begun + np.concatenate([[0.0], np.cumsum([value for _, value in parts])])
+    return _Clock(times, values, ends, law, first)

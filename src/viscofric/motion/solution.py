@@ -1,0 +1,195 @@
+"""What a contact has done over time: forces, depth, extents, energies and their errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.datasets import dataset
+from viscofric.errors import InputError
+from viscofric.units import to_si
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.arrays import Array
+    from viscofric.motion.mover import Field
+    from viscofric.units import Quantity
+
+
+#: Geometry -> units of forces, energies and areas.
+_UNITS = {"point": ("N", "J", "m2"), "line": ("N/m", "J/m", "m"), "periodic": ("Pa", "J/m2", "1")}
+
+
+@dataclass(frozen=True, eq=False)
+class TransientErrors:
+    """Estimated errors of a transient contact in time, absolute, each (n,) along its times.
+
+    Attributes
+    ----------
+    load : array
+        N, or as the solution's load.
+    indentation : array
+        m.
+    friction_force : array
+        As the load.
+    energy : array
+        Of the dissipated energy, J.
+    balance : array
+        Work less stored and dissipated energy, J.
+    """
+
+    load: Array
+    indentation: Array
+    friction_force: Array
+    energy: Array
+    balance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class TransientSolution:
+    """Contact over time.
+
+    All in SI units and along the times, (n,).  Forces, areas and energies are per length in a line contact, and per
+    area (loads are mean pressures, areas fractions) in a periodic one.
+
+    Attributes
+    ----------
+    time : array
+        s; at a jump twice, before and after it.
+    load : array
+        N.
+    indentation : array
+        m.
+    position : (n, 2) array
+        m.
+    temperature : array or None
+        K.
+    friction_force, lateral_force : array
+        Force of the indenter on the material along the history's direction, and to the left of it, N: positive where
+        friction opposes a motion towards the direction.
+    contact_area : array
+        m².
+    contact_radius : array or None
+        Of a contact that stays a disc, m.
+    front, rear, half_width : array or None
+        Of another contact, as those of a steady one, m.
+    work, stored, dissipated : array
+        Since the start, J: work of load and friction on the material, energy stored in it, and dissipated by it; each
+        computed on its own.
+    errors : TransientErrors
+    steps, rejected_steps : int
+        Steps in time.
+    interrupted : bool
+        Whether the computation was interrupted; what was found until then is here.
+    method : str
+        How it was solved: "springs", "grid" or "waves".
+    geometry : str
+        "point", "line" or "periodic".
+    warnings : tuple of str
+        One note for each assumption that is doubtful.
+    """
+
+    time: Array
+    load: Array
+    indentation: Array
+    position: Array
+    temperature: Array | None
+    friction_force: Array
+    lateral_force: Array
+    contact_area: Array
+    contact_radius: Array | None
+    front: Array | None
+    rear: Array | None
+    half_width: Array | None
+    work: Array
+    stored: Array
+    dissipated: Array
+    errors: TransientErrors
+    steps: int
+    rejected_steps: int
+    interrupted: bool
+    method: str
+    geometry: str
+    warnings: tuple[str, ...] = ()
+    _fields: tuple[Field | None, ...] = field(default=(), repr=False)
+
+    @property
+    def friction_coefficient(self) -> Array:
+        """Friction force over load; zero where there is no load."""
+        loaded = self.load > 0.0
+        return np.where(loaded, self.friction_force / np.where(loaded, self.load, 1.0), 0.0)
+
+    @property
+    def energy_imbalance(self) -> float:
+        """Largest difference of work from stored and dissipated energy, over the largest of the three."""
+        largest = max(float(np.abs(one).max()) for one in (self.work, self.stored, self.dissipated))
+        return float(np.abs(self.errors.balance).max()) / largest if largest > 0.0 else 0.0
+
+    def pressure_at(self, time: Quantity) -> xarray.DataArray:
+        """Return the pressure at one of the times.
+
+        Parameters
+        ----------
+        time : float, str or pint.Quantity
+            One of `time`, s; at a jump, the pressure after it.
+
+        Returns
+        -------
+        xarray.DataArray
+            Pa, along ``r``, or along ``x`` and ``y``, from the indenter's axis (m).
+
+        Raises
+        ------
+        InputError
+            If the pressure of that time was not kept; it is for every time asked for.
+        """
+        import xarray
+
+        seconds = to_si(time, "s", "time")
+        near = np.flatnonzero(np.isclose(self.time, seconds, rtol=1e-9, atol=1e-12 * float(np.ptp(self.time))))
+        held = self._fields[int(near[-1])] if len(near) and self._fields else None
+        if held is None:
+            raise InputError(
+                f"time = {seconds:g} s: the pressure was not kept there; ask for this time by times=[…] of "
+                "solve_transient.",
+                code="unknown-time",
+            )
+        axes = {name: (name, values, {"units": "m"}) for name, values in held.axes.items()}
+        attributes = {"units": "Pa", "long_name": "contact pressure", "time": float(self.time[near[-1]])}
+        return xarray.DataArray(held.pressure, coords=axes, dims=tuple(held.axes), attrs=attributes)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return forces, depth, extents, energies and errors along ``time`` (s)."""
+        force, energy, area = _UNITS[self.geometry]
+        columns: dict[str, Any] = {
+            "load": (self.load, force, "normal load"),
+            "indentation": (self.indentation, "m", "indentation"),
+            "position_x": (self.position[:, 0], "m", "position along x"),
+            "position_y": (self.position[:, 1], "m", "position along y"),
+            "temperature": None if self.temperature is None else (self.temperature, "K", "temperature"),
+            "friction_force": (self.friction_force, force, "friction force"),
+            "lateral_force": (self.lateral_force, force, "lateral force"),
+            "friction_coefficient": (self.friction_coefficient, "1", "friction coefficient"),
+            "contact_area": (self.contact_area, area, "contact area"),
+        }
+        for name in ("contact_radius", "front", "rear", "half_width"):
+            values = getattr(self, name)
+            columns[name] = None if values is None else (values, "m", name.replace("_", " "))
+        columns |= {
+            "work": (self.work, energy, "work on the material"),
+            "stored": (self.stored, energy, "stored energy"),
+            "dissipated": (self.dissipated, energy, "dissipated energy"),
+            "load_error": (self.errors.load, force, "estimated error of the load"),
+            "indentation_error": (self.errors.indentation, "m", "estimated error of the indentation"),
+            "friction_force_error": (self.errors.friction_force, force, "estimated error of the friction force"),
+            "energy_error": (self.errors.energy, energy, "estimated error of the dissipated energy"),
+        }
+        return dataset(
+            "time",
+            columns,
+            coordinates={"time": (self.time, "s", "time")},
+            attributes={"method": self.method, "energy_imbalance": self.energy_imbalance},
+        )

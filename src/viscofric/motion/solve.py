@@ -1,0 +1,218 @@
+"""Solve a contact through a history of load or depth, path and temperature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.arguments import insist_on_function, number
+from viscofric.contact.bodies import Layer, indenter_compliance
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.errors import InputError, brief
+from viscofric.motion.history import History
+from viscofric.motion.march import march
+from viscofric.motion.problem import Problem
+from viscofric.motion.solution import TransientErrors, TransientSolution
+from viscofric.rheology.material import Material, insist_on_material
+from viscofric.threads import one_blas_thread
+from viscofric.units import Quantity, to_si_array
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.arrays import Array
+    from viscofric.motion.march import Moment, Track
+    from viscofric.motion.mover import Mover
+    from viscofric.motion.schedule import Schedule
+    from viscofric.units import Quantities
+
+TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
+
+
+@one_blas_thread
+def solve_transient(
+    material: Material,
+    indenter: Indenter | PeriodicSurface,
+    history: History,
+    *,
+    times: Quantities | None = None,
+    accuracy: float = 1e-3,
+    layer: Layer | None = None,
+    indenter_modulus: Quantity | None = None,
+    indenter_poisson_ratio: float = 0.3,
+    progress: Callable[[float, float], object] | None = None,
+) -> TransientSolution:
+    """Solve a contact through a history of load or depth, path and temperature.
+
+    Parameters
+    ----------
+    material : Material
+        A table of moduli is described by modes fitted to it.
+    indenter : Indenter or PeriodicSurface
+    history : History
+    times : (m,) array of float, str or pint.Quantity, optional
+        To return, ascending, within the history, s; they are met exactly.  All steps taken, without.
+    accuracy : float
+        Largest error of load, indentation, friction force and energy in time, relative to their largest values so far.
+    layer : Layer, optional
+        Thickness and base of the material; a half-space without.
+    indenter_modulus : float, str or pint.Quantity, optional
+        Young's modulus of an elastic indenter, Pa; rigid without it.
+    indenter_poisson_ratio : float
+        Of an elastic indenter.
+    progress : callable, optional
+        Called with the time reached and the last time, s.
+
+    Returns
+    -------
+    TransientSolution
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the contact would be wider than the indenter.
+    ConvergenceError
+        If the accuracy is not reached.
+
+    Notes
+    -----
+    The normal motion of a body of revolution is solved by the method of dimensionality reduction [1]_, a row of
+    springs with the memory of the material, which is exact as long as the contact is one disc: the force of the
+    springs must fall outwards.
+
+    References
+    ----------
+    .. [1] V. L. Popov, M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction, Springer 2015.
+
+    Examples
+    --------
+    Creep under a load put on at once, a³ = (3/4)(1 − ν²) R F J(t) (E. H. Lee, J. R. M. Radok, 1960):
+
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+    >>> step = vf.History(time=[0.0, 0.1], load="1 N")
+    >>> run = vf.solve_transient(rubber, vf.Ball("10 mm"), step, times=["1 ms", "10 ms", "100 ms"])
+    >>> (1e3 * run.contact_radius).round(3).tolist()
+    [1.015, 1.555, 1.778]
+    """
+    insist_on_material(material)
+    if not isinstance(indenter, (Indenter, PeriodicSurface)):
+        raise InputError(
+            f"indenter = {brief(indenter)}: must be an indenter, such as Ball(radius='10 mm'), or a PeriodicSurface.",
+            code="wrong-type",
+        )
+    if not isinstance(history, History):
+        raise InputError(
+            f"history = {brief(history)}: must be a History, such as History(time=[0, 1], load='1 N').",
+            code="wrong-type",
+        )
+    if not TIGHTEST <= number(accuracy, "accuracy") <= LOOSEST:
+        raise InputError(
+            f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-3.",
+            code="out-of-range",
+        )
+    if not (layer is None or isinstance(layer, Layer)):
+        raise InputError(
+            f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
+        )
+    insist_on_function(progress, "progress")
+    kind = "periodic" if isinstance(indenter, PeriodicSurface) else ("line", "point")[indenter.geometry.dimension - 1]
+    schedule = history.schedule(material, kind)
+    asked = _checked_times(times, schedule)
+    counterface = indenter_compliance(indenter_modulus, indenter_poisson_ratio)
+    problem = Problem(material, indenter, schedule, accuracy, layer, counterface)
+    mover, method = _mover(problem, history)
+    track = march(mover, schedule, accuracy=accuracy, times=asked, progress=progress)
+    return _assemble(track, schedule, history, kind, method, material)
+
+
+def _mover(problem: Problem, history: History) -> tuple[Mover[Any], str]:
+    """Return what solves this contact, and the name of the method."""
+    indenter = problem.indenter
+    if isinstance(indenter, Indenter) and not history.moves and problem.layer is None:
+        from viscofric.motion.normal import NormalMotion
+        from viscofric.motion.springs import is_body_of_revolution
+
+        if is_body_of_revolution(indenter):
+            return NormalMotion.of(problem), "springs"
+    noun = indenter.noun if isinstance(indenter, Indenter) else "periodic surface"
+    moving = "in sliding motion" if history.moves else "in normal motion"
+    where = "a layer" if problem.layer is not None else "a half-space"
+    raise InputError(
+        f"indenter: the transient contact of a {noun} {moving} on {where} is not available; "
+        "available: a ball, a cone or another body of revolution in normal motion on a half-space.",
+        code="not-available",
+    )
+
+
+def _checked_times(times: Quantities | None, schedule: Schedule) -> list[float] | None:
+    if times is None:
+        return None
+    seconds = to_si_array(times, "s", "times")
+    if not len(seconds) or np.any(np.diff(seconds) < 0.0):
+        raise InputError(f"times = {brief(times)}: must be one or more times in ascending order.", code="not-sorted")
+    if seconds[0] < schedule.start or seconds[-1] > schedule.end:
+        outside = seconds[0] if seconds[0] < schedule.start else seconds[-1]
+        raise InputError(
+            f"times: {outside:g} s lies outside the history, {schedule.start:g} to {schedule.end:g} s.",
+            code="out-of-range",
+        )
+    return [float(one) for one in seconds]
+
+
+def _assemble(
+    track: Track[Any], schedule: Schedule, history: History, kind: str, method: str, material: Material
+) -> TransientSolution:
+    moments = track.moments
+
+    def column(value: Callable[[Moment[Any]], float]) -> Array:
+        return np.array([value(one) for one in moments], dtype=float)
+
+    def extent(name: str) -> Array | None:
+        if not moments or name not in moments[0].seen.extents:
+            return None
+        return column(lambda one: one.seen.extents[name])
+
+    x, y = history.direction
+    stored, dissipated = column(lambda one: one.seen.stored), column(lambda one: one.seen.dissipated)
+    first = float(moments[0].seen.stored) if moments and schedule.before != "untouched" else 0.0
+    work = column(lambda one: one.work)
+    errors = TransientErrors(
+        load=column(lambda one: one.errors.load),
+        indentation=column(lambda one: one.errors.depth),
+        friction_force=column(lambda one: one.errors.friction),
+        energy=column(lambda one: one.errors.energy),
+        balance=work - (stored - first) - dissipated,
+    )
+    times = column(lambda one: one.instant.time)
+    kelvin = None
+    if history.temperature is not None:
+        kelvin = np.array([schedule.temperature(time) for time in times], dtype=float)
+    forces = np.array([one.seen.friction_force for one in moments], dtype=float).reshape(-1, 2)
+    return TransientSolution(
+        time=times,
+        load=column(lambda one: one.seen.load),
+        indentation=column(lambda one: one.seen.depth),
+        position=np.array([one.instant.position for one in moments], dtype=float).reshape(-1, 2),
+        temperature=kelvin,
+        friction_force=forces @ np.array([x, y]),
+        lateral_force=forces @ np.array([-y, x]),
+        contact_area=column(lambda one: one.seen.area),
+        contact_radius=extent("contact_radius"),
+        front=extent("front"),
+        rear=extent("rear"),
+        half_width=extent("half_width"),
+        work=work,
+        stored=stored,
+        dissipated=dissipated,
+        errors=errors,
+        steps=track.steps,
+        rejected_steps=track.rejected,
+        interrupted=track.interrupted,
+        method=method,
+        geometry=kind,
+        warnings=tuple(material.notes_on_modes),
+        _fields=tuple(one.field for one in moments),
+    )

@@ -1,0 +1,84 @@
+"""One-dimensional profile of a body of revolution, for the method of dimensionality reduction.
+
+A body of revolution f(r) in contact over one disc is as deep, and carries as much, as the profile
+
+    g(s) = s ∫₀^{π/2} f'(s sin θ) dθ
+
+on a row of independent springs of stiffness E* per length (V. L. Popov, M. Heß, Method of Dimensionality Reduction in
+Contact Mechanics and Friction, Springer 2015, chapter 3): F = 2E* ∫₀ᵃ (δ − g) ds, with g(a) = δ.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.arrays import Array
+    from viscofric.contact.indenters.indenter import Indenter
+
+_NODES, _PARTS = np.polynomial.legendre.leggauss(40)
+_ANGLES, _ANGLE_WEIGHTS = 0.25 * math.pi * (_NODES + 1.0), 0.25 * math.pi * _PARTS
+_DIRECTIONS = np.array([0.3, 0.9, 1.5707963267948966, 2.2, 3.141592653589793, 4.4])
+#: Rounding of heights that should be the same in all directions.
+_ROUND = 1e-9
+_BISECTIONS = 200
+
+
+def is_body_of_revolution(indenter: Indenter) -> bool:
+    """Return whether heights are the same in all directions, near the axis and far from it, and grow outwards."""
+    if indenter.geometry.dimension != 2:
+        return False
+    reach = indenter.reach if math.isfinite(indenter.reach) else 1e-2
+    radii = reach * np.array([1e-4, 1e-2, 0.1, 0.5])[:, None]
+    try:
+        along = np.asarray(indenter.height(radii, 0.0 * radii))
+        around = np.asarray(indenter.height(radii * np.cos(_DIRECTIONS), radii * np.sin(_DIRECTIONS)))
+    except InputError:  # a height map ends somewhere
+        return False
+    if indenter.has_walls:
+        return bool(np.array_equal(around, np.broadcast_to(along, around.shape)))
+    return bool(np.all(np.abs(around - along) <= _ROUND * np.abs(along)) and np.all(np.diff(along[:, 0]) > 0.0))
+
+
+def profile(indenter: Indenter, s: Array) -> Array:
+    """Return g(s), m; infinite beyond the edge of a punch."""
+    s = np.asarray(s, dtype=float)
+    if indenter.has_walls:
+        return np.asarray(indenter.height(s, np.zeros_like(s)))
+    r = s[..., None] * np.sin(_ANGLES)
+    return np.asarray(s * (indenter.slope(r, np.zeros_like(r)) @ _ANGLE_WEIGHTS))
+
+
+def elastic_radius(indenter: Indenter, depth: float | None, load: float | None, modulus: float) -> float:
+    """Return the contact radius on an elastic half-space of the plane-strain modulus E*, for a depth or a load, m."""
+    if indenter.has_walls:
+        return float(getattr(indenter, "radius"))  # noqa: B009  the only walls that exist are those of a FlatPunch
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    share, part = 0.5 * (nodes + 1.0), 0.5 * weights
+
+    def excess(radius: float) -> float:
+        edge = float(profile(indenter, np.array(radius)))
+        if depth is not None:
+            return edge - depth
+        inner = float(part @ profile(indenter, radius * share))
+        return 2.0 * modulus * radius * (edge - inner) - float(load or 0.0)
+
+    return _root(excess)
+
+
+def _root(excess: Callable[[float], float]) -> float:
+    """Return where a growing function of a length is zero, by bisection of its logarithm."""
+    low, high = -60.0, 20.0  # ln m
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(math.exp(middle)) < 0.0 else (low, middle)
+        if high - low < 1e-12:
+            break
+    return math.exp(0.5 * (low + high))

@@ -1,0 +1,110 @@
+"""Histories: what is refused, values between the given times, jumps, and the clock of the material."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import viscofric as vf
+from refusals import refused
+
+RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+LAW = vf.WLF(C1=8.0, C2=100.0, reference="30 degC")
+WARM = vf.Material(RUBBER.spectrum, shift=LAW)
+TIME = [0.0, 0.1, 0.3]
+
+
+@pytest.mark.parametrize(
+    ("code", "given"),
+    [
+        ("time-goes-back", {"time": [0.0, 0.2, 0.1], "load": 1.0}),
+        ("repeated-time", {"time": [0.0, 0.1, 0.1, 0.1, 0.2], "load": 1.0}),
+        ("too-few-points", {"time": [0.0], "load": 1.0}),
+        ("too-few-points", {"time": [0.1, 0.1], "load": 1.0}),
+        ("give-one", {"time": TIME}),
+        ("give-one", {"time": TIME, "load": 1.0, "indentation": 1e-4}),
+        ("give-one", {"time": TIME, "load": 1.0, "pressure": 1e4}),
+        ("negative-load", {"time": TIME, "load": [0.0, -1.0, 1.0]}),
+        ("negative-load", {"time": TIME, "pressure": [0.0, -1.0, 1.0]}),
+        ("wrong-length", {"time": TIME, "load": [0.0, 1.0]}),
+        ("wrong-length", {"time": TIME, "load": 1.0, "position": [0.0, 1.0]}),
+        ("wrong-length", {"time": TIME, "load": 1.0, "speed": np.zeros((3, 3))}),
+        ("wrong-length", {"time": TIME, "load": 1.0, "temperature": [300.0, 310.0]}),
+        ("give-one", {"time": TIME, "load": 1.0, "position": TIME, "speed": 1.0}),
+        ("position-jump", {"time": [0.0, 0.1, 0.1, 0.2], "load": 1.0, "position": [0.0, 0.0, 1e-3, 1e-3]}),
+        ("not-sliding", {"time": [0.0, 0.1, 0.1, 0.2], "load": 1.0, "speed": [0, 0, 1, 1], "before": "sliding"}),
+        ("wrong-choice", {"time": TIME, "load": 1.0, "before": "asleep"}),
+        ("not-positive", {"time": TIME, "load": 1.0, "temperature": [300.0, -1.0, 300.0]}),
+        ("wrong-unit", {"time": TIME, "load": "1 m"}),
+    ],
+)  # fmt: skip
+def test_what_contradicts_itself_is_refused(code, given):
+    with refused(code):
+        vf.History(**given)
+
+
+def test_what_the_material_or_the_contact_cannot_have_is_refused():
+    with refused("no-shift"):
+        vf.History(TIME, load=1.0, temperature=300.0).schedule(RUBBER, "point")
+    with refused("temperature"):  # below the pole of the law
+        vf.History(TIME, load=1.0, temperature=[300.0, 300.0, 180.0]).schedule(WARM, "point")
+    with refused("wrong-control"):
+        vf.History(TIME, pressure=1.0).schedule(RUBBER, "point")
+    with refused("wrong-unit"):
+        vf.History(TIME, load="1 kN/m").schedule(RUBBER, "point")
+    shifted = vf.Material(RUBBER.spectrum, shift=LAW, vertical_shift=vf.DensityShift("30 degC"))
+    with refused("vertical-shift"):
+        vf.History(TIME, load=1.0, temperature=[300.0, 300.0, 310.0]).schedule(shifted, "point")
+
+
+def test_values_are_linear_between_times_and_jump_where_one_is_repeated():
+    history = vf.History(
+        ["0 s", "100 ms", "100 ms", "300 ms"], load=["0 N", "2 N", "5 N", "1 N"], position=[0, 0, 0, 0.02]
+    )
+    schedule = history.schedule(RUBBER, "point")
+    assert schedule.kinks.tolist() == [0.0, 0.1, 0.3]
+    assert schedule.at(0.05).load == pytest.approx(1.0)
+    assert (schedule.at(0.1, after=False).load, schedule.at(0.1).load) == (2.0, 5.0)
+    assert schedule.at(0.2).load == pytest.approx(3.0)
+    assert schedule.at(0.2).position == pytest.approx([0.01, 0.0])
+    assert schedule.at(0.3).load == 1.0
+    assert schedule.velocity(0.1) == pytest.approx([0.1, 0.0])
+    assert schedule.velocity(0.1, after=False) == pytest.approx([0.0, 0.0])
+
+
+def test_jumps_at_both_ends_keep_both_values():
+    schedule = vf.History([0.0, 0.0, 1.0, 1.0], indentation=[-1e-4, 0.0, 1e-4, 2e-4]).schedule(RUBBER, "point")
+    ends = [schedule.at(time, after=after).depth for time in (0.0, 1.0) for after in (False, True)]
+    assert ends == [-1e-4, 0.0, 1e-4, 2e-4]
+
+
+def test_a_linear_speed_integrates_to_a_parabola():
+    schedule = vf.History([0.0, 1.0, 2.0], load=1.0, speed=[0.0, 1.0, 1.0], direction=(0.0, 2.0)).schedule(
+        RUBBER, "point"
+    )
+    assert schedule.at(0.5).position == pytest.approx([0.0, 0.125])
+    assert schedule.at(2.0).position == pytest.approx([0.0, 1.5])
+    assert schedule.velocity(0.5) == pytest.approx([0.0, 0.5])
+
+
+def test_at_a_constant_temperature_the_modes_are_shifted_and_the_clock_is_time():
+    schedule = vf.History(TIME, load=1.0, temperature="60 degC").schedule(WARM, "point")
+    assert schedule.spectrum.tau == pytest.approx(WARM.at("60 degC").tau)
+    assert schedule.at(0.3).clock == pytest.approx(0.3, rel=1e-15)
+
+
+@pytest.mark.parametrize("law", [LAW, vf.Arrhenius(1e5, "30 degC"), vf.WLFArrhenius(17.44, 51.6, 300.0, 310.0)])
+def test_the_clock_is_the_integral_of_the_inverse_shift_factor(law):
+    """dξ = α(T₁)/α(T) dt with α(T₀)τ the times at T; to 1e-10, also across the kink of a joined law."""
+    rubber = vf.Material(RUBBER.spectrum, shift=law)
+    time, kelvin = np.array([0.0, 2.0, 5.0]), np.array([290.0, 330.0, 320.0])
+    schedule = vf.History(time, load=1.0, temperature=kelvin).schedule(rubber, "point")
+    kinks = [2.0] if not isinstance(law, vf.WLFArrhenius) else [0.5, 2.0]
+    for end in (0.3, 2.0, 4.2):
+        wanted, _ = quad(
+            lambda t: float(law(290.0) / law(float(np.interp(t, time, kelvin)))), 0.0, end,
+            points=[one for one in kinks if one < end] or None, epsabs=0.0, epsrel=1e-13, limit=500,
+        )  # fmt: skip
+        assert schedule.at(end).clock == pytest.approx(wanted, rel=1e-10)
+    assert schedule.temperature(1.0) == pytest.approx(310.0)
