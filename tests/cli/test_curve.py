@@ -83,6 +83,30 @@ def test_a_rubber_of_sweeps_has_bands_about_its_friction() -> None:
     assert float(friction) == pytest.approx(known.friction_coefficient, rel=0.03)
 
 
+@pytest.mark.slow
+def test_columns_of_sweeps_are_named(tmp_path: Path) -> None:
+    rubber, rows = vf.synthetic_fluoroelastomer(), []
+    for celsius in (30, 40, 50):
+        for hertz in (0.1, 0.3, 1, 3, 10, 30, 100):
+            E = rubber.complex_modulus(2.0 * np.pi * hertz, celsius + 273.15)
+            rows.append(f"{celsius},{hertz},{E.real / 1e6},{E.imag / 1e6}")
+    strange = tmp_path / "strange.csv"
+    strange.write_text("\n".join(["Ofen,v1,Es,El", *rows]), encoding="utf-8")
+    names = {"temperature": "Ofen (degC)", "frequency": "v1 (Hz)", "storage_modulus": "Es", "loss_modulus": "#4"}
+    words = [word for one in names.items() for word in ("--column", "=".join(one))] + ["--modulus-unit", "MPa"]
+    words += ["--dma", str(strange), "--reference", "40 degC", "--deformation", "tension"]
+    contact = ("--load", "1 N", "--ball", "10 mm", "--accuracy", "0.1", "--speed", "1 m/s", "--temperature", "40 degC")
+    done = CliRunner().invoke(main, ["solve", *words, *contact, "--json"])
+    assert done.exit_code == 0, done.output
+    known = vf.solve_steady(
+        rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", temperature="40 degC", accuracy=0.1
+    ).friction_coefficient
+    found = json.loads(done.stdout)["results"]["friction_coefficient"]
+    assert found == pytest.approx(known, rel=0.03)  # moduli of three decades
+    refused = CliRunner().invoke(main, ["solve", *RUBBER, "--column", "frequency=v1 (Hz)", *contact])
+    assert refused.exit_code == 2
+
+
 def test_curves_go_into_a_pipe_without_the_table() -> None:
     done = call(*SINGLE, "--ball", "10 mm", "--load", "1 N", "--speed", "1 m/s", "--accuracy", "0.1", "--out", "-")
     assert done.exit_code == 0, done.output

@@ -69,6 +69,8 @@ def test_the_command_of_a_fit_repeats_its_columns() -> None:
 
     said = _command((Path("a.csv"),), {"columns": {"frequency": "v1 (Hz)"}, "sheet": "run 1"})
     assert said == "viscofric material fit a.csv --column 'frequency=v1 (Hz)' --sheet 'run 1'"
+    said = _command((Path("a.csv"),), {"shift_factor_columns": {"log10_shift_factor": "lg"}})
+    assert said == "viscofric material fit a.csv --shift-factor-column log10_shift_factor=lg"
 
 
 @pytest.mark.slow

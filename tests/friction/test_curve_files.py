@@ -14,8 +14,10 @@ from hypothesis.extra.numpy import arrays
 import viscofric as vf
 from friction.made_runs import FOUR, traction_runs
 from friction.synthetic_curves import planted_law, synthetic_curves
+from readers.samples import workbook
 from refusals import refused
 from viscofric.errors import DataFileError
+from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import codes
 
@@ -218,3 +220,36 @@ def test_columns_that_are_not_read_are_named(tmp_path: Path) -> None:
     notes = vf.read_friction_curves(path).notes
     (note,) = [note for note in notes if "unused-columns" in codes([note])]
     assert "'viscoelastic friction std dev'" in note
+
+
+NAMED = {"speed": "v1 (mm/s)", "temperature": "ofen (degC)", "viscoelastic_friction": "#4 (%)"}
+
+
+def test_columns_of_curves_are_named(tmp_path: Path) -> None:
+    text = FOREIGN.replace("speed (mm/s)", "v1").replace("temperature (degC)", "Ofen (degC)")
+    strange = tmp_path / "strange.csv"
+    strange.write_text("Rig 3\n" + text.replace("viscoelastic friction (%)", "mu_v"), encoding="utf-8")
+    (tmp_path / "plain.csv").write_text(FOREIGN, encoding="utf-8")
+    assert not holds_friction_curves(strange)
+    assert holds_friction_curves(strange, NAMED)
+    found, plain = vf.read_friction_curves(strange, columns=NAMED), vf.read_friction_curves(tmp_path / "plain.csv")
+    same(replace(found, source="", notes=()), replace(plain, source="", notes=()))
+    with refused("missing-columns", DataFileError) as caught:
+        vf.read_friction_curves(strange, columns={"speed": "v1 (mm/s)"})
+    assert caught.value.note.values["missing"] == ["temperature", "viscoelastic friction"]
+    with refused("no-column", DataFileError):
+        vf.read_friction_curves(strange, columns=NAMED | {"load": "Kraft"})
+    with refused("unknown-quantity"):
+        vf.read_friction_curves(strange, columns={"colour": "red"})
+
+
+def test_curves_of_a_workbook_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "rig.xlsx"
+    rows = [["speed (mm/s)", "T (degC)", "load (N)", "friction coefficient"], [20.0, 30.0, 25.0, 0.031]]
+    workbook.write(path, {"about": [["Rig 3"]], "run 1": rows, "run 2": rows})
+    assert holds_friction_curves(path)
+    with refused("several-tables", DataFileError):
+        vf.read_friction_curves(path)
+    assert vf.read_friction_curves(path, sheet="run 2").viscoelastic == pytest.approx([0.031], rel=1e-12)
+    with refused("no-sheet", DataFileError):
+        vf.read_friction_curves(path, sheet="run 3")

@@ -223,7 +223,7 @@ def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str)
             "mu",
             (
                 ": there is no column 'viscoelastic friction'; there are 'speed (mm/s)', 'temperature (degC)', "
-                "'load (N)', 'mu'."
+                "'load (N)', 'mu'; name them, e.g. columns={'viscoelastic_friction': 'heading'}."
             ),
         ),
         (

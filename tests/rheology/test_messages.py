@@ -329,7 +329,7 @@ SAID = [
         "missing-columns",
         (
             "a.csv: a table of shift factors has one column of temperatures, such as 'T_C', and one of 'log10 aT' or "
-            "'aT'; this one has 'T_C', 'E'."
+            "'aT'; this one has 'T_C', 'E'; name them, e.g. columns={'log10_shift_factor': 'heading'}."
         ),
     ),
     (

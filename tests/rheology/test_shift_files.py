@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from readers.samples import eplexor
+from readers.samples import eplexor, workbook
 from refusals import refused
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
@@ -236,3 +236,24 @@ def test_genuine_tables_are_read(real_data, name, rows, reference, coldest):
     assert found.temperatures.size == rows
     assert found.reference == pytest.approx(reference + 273.15, abs=1e-9)
     assert found.log10_values[0] == pytest.approx(coldest, abs=1e-12)
+
+
+@pytest.mark.parametrize(("name", "values"), [("log10_shift_factor", LOG10), ("shift_factor", 10.0**LOG10)])
+def test_columns_of_factors_are_named(tmp_path, name, values):
+    path = written(tmp_path, "fit of\n" + table("Ofen;v2", values, mark=";"))
+    with refused("missing-columns", DataFileError) as caught:
+        read_shift_factors(written(tmp_path, table("Ofen;v2", values, mark=";"), "plain.csv"))
+    assert caught.value.field == "material.shift_factor_columns"
+    found = read_shift_factors(path, columns={"temperature": "ofen (degC)", name: "#2"})
+    assert np.allclose(found.log10_values, LOG10, rtol=0.0, atol=1e-13)
+    assert found.temperatures.tolist() == (CELSIUS + 273.15).tolist()
+    with refused("unknown-quantity"):
+        read_shift_factors(path, columns={"colour": "red"})
+
+
+def test_factors_of_a_workbook_have_standard_errors(tmp_path):
+    rows = [["T (degC)", "log10 aT", "standard error"], *([T, one, 0.1] for T, one in zip(CELSIUS, LOG10, strict=True))]
+    path = workbook.write(tmp_path / "factors.xlsx", {"Notes": [["synthetic"]], "aT": rows})
+    for found in (read_shift_factors(path), read_shift_factors(path, sheet="aT")):
+        assert found.log10_values.tolist() == LOG10.tolist()
+        assert np.allclose(found.covariance, 0.01 * np.eye(4), rtol=1e-14, atol=0.0)

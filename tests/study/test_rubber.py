@@ -117,6 +117,7 @@ def test_factors_are_found_from_the_moduli_that_are_named(sweeps: Path) -> None:
         ({"shift_by": "loss", "shift_weights": [1.0, 1.0]}, "contradiction"),
         ({"shift_by": "loss-tangent", "vertical_shift": "free"}, "contradiction"),
         ({"shift_by": "loss", "shift_factors": "alpha.csv"}, "contradiction"),
+        ({"shift_factor_columns": {"temperature": "T (degC)"}}, "contradiction"),
         ({"shift_weights": [1.0, 0.0]}, "greater-than"),
     ):
         with refused(code, naming=tuple(set(wrong) & {"shift_by", "shift_weights"})):

@@ -59,7 +59,8 @@ def indenter_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 def option(name: str) -> str:
     """Return an option as it is typed."""
-    return "--" + {"rubber_modulus": "E0", "glass_modulus": "E-inf"}.get(name, name.replace("_", "-"))
+    typed = {"rubber_modulus": "E0", "glass_modulus": "E-inf", "columns": "column"}
+    return "--" + typed.get(name, name.replace("_", "-"))
 
 
 class NamedIndenter(NamedTuple):

@@ -16,13 +16,18 @@ if TYPE_CHECKING:
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
 
 
+#: Settings that tables of friction curves take too.
+_OF_TABLES = ("columns", "sheet")
+
+
 def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
     """Return the friction curves of files: tables of curves, or runs that are separated here."""
     from viscofric.cli.separation_options import refuse_settings
     from viscofric.errors import DataFileError, InputError
     from viscofric.friction.curve_files import holds_friction_curves, read_friction_curves
 
-    tables = [path for path in paths if holds_friction_curves(path)]
+    headings, sheet = settings.get("columns"), settings.get("sheet")
+    tables = [path for path in paths if holds_friction_curves(path, headings)]
     if not tables:
         try:
             return separated(paths, settings)
@@ -39,8 +44,8 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
             "a tribometer.",
             code="mixed-inputs",
         )
-    refuse_settings(settings, tables[0])
-    return joined([_plain(read_friction_curves(path)) for path in tables])
+    refuse_settings({name: value for name, value in settings.items() if name not in _OF_TABLES}, tables[0])
+    return joined([_plain(read_friction_curves(path, columns=headings, sheet=sheet)) for path in tables])
 
 
 def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
@@ -92,13 +97,15 @@ def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
     )
 
 
-def shifts(name: str) -> tuple[ShiftLaw, VerticalShift | None]:
+def shifts(
+    name: str, columns: dict[str, str] | None = None, sheet: str | None = None
+) -> tuple[ShiftLaw, VerticalShift | None]:
     """Return the shift factors of a table, or those of a rubber, and its vertical shift where it has one."""
     from viscofric.errors import InputError
     from viscofric.rheology.shifts.shift_files import read_shift_factors
 
     if Path(name).suffix.lower() in _TABLES:
-        return read_shift_factors(name), None
+        return read_shift_factors(name, columns=columns, sheet=sheet), None
     from viscofric.cli.rubber_options import find_rubber
 
     rubber = find_rubber(name)

@@ -12,6 +12,7 @@ import click
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
+from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 from viscofric.notes import listed
 
@@ -119,6 +120,7 @@ Example:
     metavar="FILE|NAME",
     help="Shift factors: a table (CSV), a material file or a catalogue name [default: found from friction].",
 )
+@shift_factor_options
 @click.option("--reference", metavar="T", help="Reference temperature of the identified material, e.g. '30 degC'.")
 @anchor_options
 @click.option("--prior", metavar="FILE|NAME", help="Material known over a part of the frequencies.")
@@ -181,7 +183,9 @@ def command(
         if anchor is not None:
             options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
         if parameters["shift"] is not None:
-            options["shift"], _ = shifts(parameters["shift"])
+            options["shift"], _ = shifts(
+                parameters["shift"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"]
+            )
         curves = friction_curves(sources, settings)
         with contact_bar("Shift factors", quiet=as_json) as bar:
 

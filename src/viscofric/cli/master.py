@@ -11,6 +11,7 @@ import click
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, PICTURES, Source, check_ending, plainly, refusal, refuse_to_overwrite
+from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ Example:
     metavar="FILE|NAME",
     help="Shift factors of the modulus for comparison: a table (CSV), a material file or a catalogue name.",
 )
+@shift_factor_options
 @click.option(
     "--reference",
     metavar="T",
@@ -81,7 +83,11 @@ def command(
         from viscofric.report.texts.inverse import shift_record
 
         curves = friction_curves(sources, settings)
-        known, vertical = (None, None) if parameters["known"] is None else shifts(parameters["known"])
+        known, vertical = (
+            (None, None)
+            if parameters["known"] is None
+            else shifts(parameters["known"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"])
+        )
         master = _shifted(curves, known, vertical, parameters)
         law, why, refused = chosen_law(master, parameters["law"])
         print_notes([] if refused is None else [refused])

@@ -24,6 +24,41 @@ def _piped(ctx: click.Context, param: click.Parameter, value: str | None) -> str
     return str(Source().convert(value, param, ctx)) if value == str(DASH) else value
 
 
+def _headings(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> dict[str, str]:
+    """Return the headings of `--column NAME=HEADING` by name."""
+    found: dict[str, str] = {}
+    for one in value:
+        name, equals, said = one.partition("=")
+        if not equals or not name.strip() or not said.strip():
+            raise click.BadParameter(f"{one!r}: must be NAME=HEADING, such as 'frequency=f in Hz'.")
+        found[name.strip()] = said.strip()
+    return found
+
+
+def column_options(
+    example: str, of: str = "", condition: str = ""
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return a decorator that adds the options of a table whose header is not understood.
+
+    `of` begins their names where a command reads several tables, `condition` their help.
+    """
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        sheet = f"{condition}The only sheet of a workbook to read."
+        function = click.option(f"--{of}sheet", metavar="NAME", help=sheet)(function)
+        return click.option(
+            f"--{of}column",
+            f"{of.replace('-', '_')}columns",
+            metavar="NAME=HEADING",
+            multiple=True,
+            callback=_headings,
+            help=f"{condition}Heading of a column whose header is not understood, e.g. {example}; repeatable. "
+            "A unit may follow in brackets; '#2 (Hz)' is the second column.",
+        )(function)
+
+    return add
+
+
 _MATERIAL = (
     click.option(
         "--material",
@@ -46,6 +81,8 @@ _MATERIAL = (
         type=click.Choice(["tension", "compression", "bending", "shear"]),
         help="With --dma: deformation of the test, if no file states it.",
     ),
+    click.option("--modulus-unit", metavar="UNIT", help="With --dma: unit of the moduli if the file gives none."),
+    column_options("'frequency=f in Hz'", condition="With --dma: "),
     click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, not measured."),
     click.option(
         "--E0", "rubber_modulus", metavar="E", help="Alternative: standard linear solid; relaxed modulus, e.g. '1 MPa'."
@@ -58,6 +95,8 @@ _MATERIAL = (
 )
 
 
+#: What DMA files may not say themselves.
+_OF_FILES = ("deformation", "modulus_unit", "columns", "sheet")
 _SINGLE = ("rubber_modulus", "glass_modulus", "tau")
 
 
@@ -101,7 +140,7 @@ def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
         )
     if given == ["material"] and parameters["poisson_ratio"] is not None:
         raise click.UsageError("--material and --poisson-ratio are both given; the rubber comes from one of them.")
-    for name in ("reference", "deformation", "synthetic"):
+    for name in ("reference", "synthetic", *_OF_FILES):
         if parameters[name] and given != ["dma"]:
             raise click.UsageError(f"{option(name)} is for --dma only.")
     if given == ["material"]:
@@ -126,7 +165,9 @@ def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
     if parameters["reference"] is None:
         raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
     wanted = {"dma": [str(path) for path in parameters["dma"]], "reference_temperature": parameters["reference"]}
-    wanted |= {name: parameters[name] for name in ("deformation", "poisson_ratio") if parameters[name] is not None}
+    wanted |= {name: parameters[name] for name in _OF_FILES if parameters[name]}
+    if parameters["poisson_ratio"] is not None:
+        wanted["poisson_ratio"] = parameters["poisson_ratio"]
     made = make_rubber(material_of(wanted))
     print_notes(made.notes)
     first, *more = parameters["dma"]
@@ -175,33 +216,9 @@ def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
     return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
 
 
-def _headings(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> dict[str, str]:
-    """Return the headings of `--column NAME=HEADING` by name."""
-    found: dict[str, str] = {}
-    for one in value:
-        name, equals, said = one.partition("=")
-        if not equals or not name.strip() or not said.strip():
-            raise click.BadParameter(f"{one!r}: must be NAME=HEADING, such as 'frequency=f in Hz'.")
-        found[name.strip()] = said.strip()
-    return found
-
-
-def column_options(example: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return a decorator that adds the options of a table whose header is not understood."""
-
-    def add(function: Callable[..., Any]) -> Callable[..., Any]:
-        function = click.option("--sheet", metavar="NAME", help="The only sheet of a workbook to read.")(function)
-        return click.option(
-            "--column",
-            "columns",
-            metavar="NAME=HEADING",
-            multiple=True,
-            callback=_headings,
-            help=f"Heading of a column whose header is not understood, e.g. {example}; repeatable. "
-            "A unit may follow in brackets; '#2 (Hz)' is the second column.",
-        )(function)
-
-    return add
+def shift_factor_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a table of shift factors whose header is not understood."""
+    return column_options("'log10_shift_factor=lg'", "shift-factor-", "Of the shift factors: ")(function)
 
 
 def reading_options(function: Callable[..., Any]) -> Callable[..., Any]:

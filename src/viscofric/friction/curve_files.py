@@ -11,52 +11,29 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError, short_notes
 from viscofric.files import file_path, read_text, write_atomically
+from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note
-from viscofric.readers.table import Table, read_table
+from viscofric.readers.given_files import bytes_of
+from viscofric.readers.headings import quantity_of
+from viscofric.readers.one_table import table_of
+from viscofric.readers.source import Source
+from viscofric.readers.tables import find_tables, name_columns
+from viscofric.readers.workbook import is_workbook
 from viscofric.traction import notes_on_friction
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from os import PathLike
 
     from viscofric.arrays import Array
+    from viscofric.readers.table import Table
 
 
 _TITLE = "viscofric friction curves"
 _REMARKS = ("source", "assumption", "note")
 
-#: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
-COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
-    "speed": ("m/s", "speed", ("v", "sliding speed", "disc speed", "disk speed")),
-    "temperature": ("K", "temperature", ("T", "temp", "temp.")),
-    "load": ("N", "load", ("normal load", "normal force")),
-    "viscoelastic": (
-        "",
-        "viscoelastic friction",
-        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic", "friction coefficient"),
-    ),
-    "viscoelastic_error": ("", "viscoelastic friction standard error", ("viscoelastic error", "friction error")),
-    "viscoelastic_scatter": ("", "viscoelastic friction scatter", ("viscoelastic scatter",)),
-    "viscoelastic_freedom": ("", "viscoelastic friction degrees of freedom", ("viscoelastic freedom",)),
-    "replicates": ("", "replicates", ("repetitions", "repeats")),
-    "coulomb": ("", "Coulomb friction", ("coulomb", "coulomb friction", "coulomb friction coefficient", "mu coulomb")),
-    "coulomb_error": ("", "Coulomb friction standard error", ("coulomb friction standard error", "coulomb error")),
-    "coulomb_scatter": ("", "Coulomb friction scatter", ("coulomb friction scatter", "coulomb scatter")),
-    "coulomb_freedom": (
-        "",
-        "Coulomb friction degrees of freedom",
-        ("coulomb friction degrees of freedom", "coulomb freedom"),
-    ),
-    "consistency": ("", "consistency", ()),
-    "consistency_error": ("", "consistency standard error", ("consistency error",)),
-    "slip": ("m/s", "slip", ("sliding velocity",)),
-    "offset": ("N", "offset", ("zero",)),
-    "material_error": ("", "material standard error", ("material error", "friction material error")),
-    "viscoelastic_lower": ("", "viscoelastic friction lower limit", ("viscoelastic lower", "friction lower")),
-    "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper", "friction upper")),
-}
-_NEEDED = ("speed", "temperature", "load", "viscoelastic")
 #: Fields that are infinite where not known, an empty cell in the file.
 _OPEN = ("_error", "_scatter", "_freedom")
 _MOST_REPLICATES = 1e9
@@ -122,17 +99,24 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
     write_atomically(target, text.getvalue().encode("utf-8"))
 
 
-def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
+def read_friction_curves(
+    path: str | PathLike[str], *, columns: Mapping[str, str] | None = None, sheet: str | None = None
+) -> FrictionCurves:
     """Read a table of friction coefficients, one row per speed and temperature.
 
     Parameters
     ----------
     path : str or path
-        What `write_friction_curves` or `viscofric export` wrote; or a text table with the columns ``speed``,
-        ``temperature``, ``load`` and ``viscoelastic friction``, and optionally ``viscoelastic friction standard
-        error``, ``… scatter``, ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard error,
-        scatter and degrees of freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``;
+        What `write_friction_curves` or `viscofric export` wrote; or a table, text or workbook, with the columns
+        ``speed``, ``temperature``, ``load`` and ``viscoelastic friction``, and optionally ``viscoelastic friction
+        standard error``, ``… scatter``, ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard
+        error, scatter and degrees of freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``;
         coefficients have none, or are in ``%``.  The load of a line contact is in N/m.
+    columns : mapping, optional
+        Headings that are not understood, by quantity: ``{"viscoelastic_friction": "mu_v", "speed": "v1 (mm/s)"}``.  A
+        unit in brackets counts instead of that of the file; ``"#3 (N)"`` is the third column.
+    sheet : str, optional
+        The only sheet of a workbook to read.
 
     Returns
     -------
@@ -165,21 +149,19 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
     >>> again.viscoelastic
     array([0.025, 0.02 , 0.016])
     """
-    table = read_table(path)
+    table = table_of(path, CURVES, columns, sheet)
     places = _places(table)
-    columns: dict[str, Array] = {}
     unit = _load_unit(table, places["load"])
-    for name, place in places.items():
-        columns[name] = _read_column(table, name, place, unit)
+    found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
     notes = list(remarks["note"])
     unused = ", ".join(repr(column.heading) for column in table.unused(places.values()))
     if unused:
         notes.append(Note("unused-columns", f"Columns of the file of friction curves that are not read: {unused}."))
-    replicates = columns.pop("replicates", np.ones(len(table.rows)))
+    replicates = found.pop("replicates", np.ones(len(table.rows)))
     for kind in ("viscoelastic", "coulomb"):
-        _complete(columns, kind, replicates, notes)
-    doubts = notes_on_friction([columns[name] for name in ("viscoelastic", "coulomb") if name in columns])
+        _complete(found, kind, replicates, notes)
+    doubts = notes_on_friction([found[name] for name in ("viscoelastic", "coulomb") if name in found])
     try:
         return FrictionCurves(
             replicates=replicates.astype(np.int64),
@@ -187,19 +169,31 @@ def read_friction_curves(path: str | PathLike[str]) -> FrictionCurves:
             assumption=(remarks["assumption"] or [""])[0],
             notes=(*short_notes(note for note in notes if note not in doubts), *doubts),
             load_unit=unit,
-            **columns,
+            **found,
         )
     except InputError as error:
         raise DataFileError(path, f"contains no friction curves: {error}", code="not-friction-curves") from None
 
 
-def holds_friction_curves(path: str | PathLike[str]) -> bool:
-    """Return whether a file has the headings of friction curves, not of a tribometer's runs; False if unreadable."""
+def holds_friction_curves(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> bool:
+    """Return whether a file has the headings of friction curves, not of a tribometer's runs; False if unreadable.
+
+    So has one of which `columns` names the viscoelastic friction.
+    """
+    if any(quantity_of(name) == "viscoelastic friction" for name in columns or {}):
+        return True
     try:
+        if is_workbook(source := Source(str(path), bytes_of(str(path)))):
+            return _holds_curves(source)
         lines = [line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#")]
     except DataFileError:
         return False
     return any(mark in line for line in lines for mark in _MARKS)
+
+
+def _holds_curves(workbook: Source) -> bool:
+    tables = find_tables(workbook, CURVES).values()
+    return any(not CURVES.missing(column.quantity for column in table.columns) for table in tables)
 
 
 def _cell(value: float) -> str:
@@ -212,18 +206,15 @@ def _exact_in_celsius(kelvin: Array) -> bool:
 
 def _places(table: Table) -> dict[str, int]:
     """Return the index of each column; raise an error if a required one is missing."""
-    places = {}
-    for name, (_, heading, others) in COLUMNS.items():
-        place = table.find(frozenset({heading, heading.lower(), *others}), heading)
-        if place is not None:
-            places[name] = place
-    missing = [COLUMNS[name] for name in _NEEDED if name not in places]
+    found = {name: table.place(heading.lower()) for name, (_, heading, _) in COLUMNS.items()}
+    places = {name: place for name, place in found.items() if place is not None}
+    missing = CURVES.missing(column.quantity for column in table.columns)
     if missing:
-        unit, heading, _ = missing[0]
+        unit, heading = next((unit, heading) for unit, heading, _ in COLUMNS.values() if heading == missing[0])
         example = {"m/s": "mm/s", "K": "degC"}.get(unit, unit)
         right = f"{heading} ({example})" if unit else heading
-        problem = f"there is no column {right!r}; there are {table.headings()}."
-        raise DataFileError(table.path, problem, code="missing-columns")
+        problem = f"there is no column {right!r}; there are {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(CURVES.key, missing), missing)
     return places
 
 
@@ -292,6 +283,8 @@ def _complete(columns: dict[str, Array], kind: str, replicates: Array, notes: li
 def _remarks(path: str) -> dict[str, list[str]]:
     """Return the remarks of a file that viscofric saved."""
     found: dict[str, list[str]] = {name: [] for name in _REMARKS}
+    if is_workbook(Source(path, bytes_of(path))):
+        return found
     lines = [line[1:].strip() for line in read_text(path).splitlines() if line.startswith("#")]
     if not lines or lines[0] != _TITLE:
         return found

@@ -113,7 +113,7 @@ class Vocabulary:
             )
         given = columns or {}
         for key, said in given.items():
-            what = " ".join(re.split(r"[\s_-]+", str(key).strip().lower()))
+            what = quantity_of(key)
             if what not in self.quantities:
                 known = ", ".join(one.replace(" ", "_") for one in self.quantities)
                 problem = f"columns: {brief(key)} is not a quantity of {self.kind}; known are {known}."
@@ -159,6 +159,11 @@ class Vocabulary:
 
 #: The vocabulary of a table whose columns are found by names alone.
 NO_WORDS = Vocabulary("a table", {}, (), key="")
+
+
+def quantity_of(key: object) -> str:
+    """Return a quantity as vocabularies have it: ``"storage modulus"`` of ``storage_modulus``."""
+    return " ".join(re.split(r"[\s_-]+", str(key).strip().lower()))
 
 
 def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:

@@ -144,10 +144,11 @@ def listed_headings(headings: Sequence[str]) -> str:
 def name_columns(key: str, missing: Sequence[str]) -> Remedy:
     """Return the end of a sentence: the user may name the columns, for each reader."""
     name = (missing[0] if missing else "frequency").replace(" ", "_")
+    table, _, own = key.partition(".")
     return Remedy(
         f"; name them, e.g. columns={{'{name}': 'heading'}}.",
-        f"; name them, e.g. --column {name}=HEADING.",
-        f'; name them, e.g. columns = {{ {name} = "heading" }} under [{key.partition(".")[0]}].',
+        f"; name them, e.g. --{own.removesuffix('s').replace('_', '-')} {name}=HEADING.",
+        f'; name them, e.g. {own} = {{ {name} = "heading" }} under [{table}].',
         "; choose the columns in the form.",
         key,
     )

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 def read_measurement(table: MeasurementTable) -> FrictionCurves:
     """Return the friction curves of [measurement]: those of a table, or separated from tribometer runs."""
     if table.curves is not None:
-        return read_friction_curves(table.curves)
+        return read_friction_curves(table.curves, columns=table.columns, sheet=table.sheet)
     runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
     if table.except_steps:
         runs = runs.select(except_steps=table.except_steps)

@@ -295,7 +295,7 @@ def _from_master_curve(table: MaterialTable, liquids: bool) -> Rubber:
     )
     shift: ShiftLaw | None = None
     if table.shift_factors is not None:
-        factors = read_shift_factors(table.shift_factors, reference)
+        factors = _given_factors(table, table.shift_factors, reference)
         shift, laws, used = _law_or_table(table.shift, factors)
     else:
         laws, used = None, ""
@@ -344,7 +344,7 @@ def _superposed(table: MaterialTable, tests: IsothermalSweeps | StepTests) -> Su
     reference = table.reference_temperature
     if reference is None:
         raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
-    given = None if table.shift_factors is None else read_shift_factors(table.shift_factors)
+    given = None if table.shift_factors is None else _given_factors(table, table.shift_factors)
     common: Any = {
         "poisson_ratio": table.poisson_ratio,
         "vertical": None if table.vertical_shift == "none" else table.vertical_shift,
@@ -354,6 +354,10 @@ def _superposed(table: MaterialTable, tests: IsothermalSweeps | StepTests) -> Su
     if isinstance(tests, IsothermalSweeps):
         return superpose(tests, reference, by=table.shift_by, weights=table.shift_weights, **common)
     return superpose(tests, reference, **common)
+
+
+def _given_factors(table: MaterialTable, path: Path, reference: float | None = None) -> ShiftFactors:
+    return read_shift_factors(path, reference, columns=table.shift_factor_columns, sheet=table.shift_factor_sheet)
 
 
 def _law_or_table(choice: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:

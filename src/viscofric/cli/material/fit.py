@@ -11,7 +11,7 @@ import click
 
 from viscofric.cli.errors import print_doubtful_checks, print_notes, reported_errors
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
-from viscofric.cli.rubber_options import reading_options
+from viscofric.cli.rubber_options import reading_options, shift_factor_options
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
@@ -67,6 +67,7 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
     type=click.Path(path_type=Path, dir_okay=False),
     help="Use the shift factors of this file instead of fitting them.",
 )
+@shift_factor_options
 @click.option("--fix", metavar="T=LOG10", multiple=True, help="Fix one factor, e.g. '-20 degC=4.2'.")
 @click.option(
     "--spectrum",
@@ -204,8 +205,9 @@ def _command(files: tuple[Path, ...], parameters: dict[str, Any]) -> str:
         if value is True:
             words.append(option)
             continue
-        if name == "columns":
-            words += [word for what, said in value.items() for word in ("--column", f"{what}={said}")]
+        if isinstance(value, dict):
+            option = option.removesuffix("s")
+            words += [word for what, said in value.items() for word in (option, f"{what}={said}")]
             continue
         if name in options and options[name].nargs > 1:
             words += [option, *map(str, value)]

@@ -14,14 +14,18 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftList, shift_list
-from viscofric.readers.source import Source
+from viscofric.readers.headings import heading
+from viscofric.readers.shift_columns import SHIFT_FACTORS, shift_columns
+from viscofric.readers.source import Source, checked_sheet
+from viscofric.readers.tables import name_columns
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.shift_table import ShiftTable, read_shift_table
+from viscofric.rheology.shifts.shift_table import ShiftTable, logarithms, read_shift_table
 from viscofric.units import positive, shown_celsius
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from os import PathLike
 
     from viscofric.arrays import Array
@@ -29,7 +33,12 @@ if TYPE_CHECKING:
 
 
 def read_shift_factors(
-    path: str | PathLike[str], reference: Quantity | None = None, *, inverse: bool = False
+    path: str | PathLike[str],
+    reference: Quantity | None = None,
+    *,
+    inverse: bool = False,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
 ) -> ShiftFactors:
     """Read a table of shift factors.
 
@@ -37,13 +46,18 @@ def read_shift_factors(
     ----------
     path : str or path
         What `ShiftFactors.save` wrote; or a text table with a column of temperatures and one of ``log10 aT``,
-        ``ln aT`` or ``aT``, units in the headings (``T_C``, ``T [K]``) or in a row of their own; or a Netzsch
-        Eplexor workbook with a shift list.  Rows stand in any order.
+        ``ln aT`` or ``aT``, units in the headings (``T_C``, ``T [K]``) or in a row of their own; or a workbook with
+        such a table, or a Netzsch Eplexor one with a shift list.  Rows stand in any order.
     reference : float or quantity, optional
         Temperature where α shall be 1.  If not given, it is the one that a saved file states; else the temperature
         of the row whose log10 α is zero, or where the table, interpolated as `ShiftFactors` does, passes zero.
     inverse : bool
         The table holds 1/α, or its logarithm, and rises with temperature.
+    columns : mapping, optional
+        Headings that are not understood, by quantity: ``{"temperature": "Temp. / °C", "log10_shift_factor": "lg"}``;
+        ``shift_factor``, ``ln_shift_factor`` and ``standard_error`` (of log10 α) are the others.
+    sheet : str, optional
+        The only sheet of a workbook to read.
 
     Returns
     -------
@@ -66,8 +80,12 @@ def read_shift_factors(
     >>> vf.read_shift_factors("alpha.csv").log10_values.round(3) + 0.0
     array([ 0. , -1.5])
     """
-    source = Source(str(path), read_bytes(path))
-    found = _from_workbook(source) if is_workbook(source) else _from_text(source)
+    given = SHIFT_FACTORS.checked(columns)
+    source = Source(str(path), read_bytes(path), columns=given, sheet=checked_sheet(sheet))
+    if given or source.sheet:
+        found = _from_columns(source)
+    else:
+        found = _from_workbook(source) if is_workbook(source) else _from_text(source)
     order = np.argsort(found.temperatures)
     kelvin, values = found.temperatures[order], found.log10_values[order]
     spread = None if found.covariance is None else found.covariance[np.ix_(order, order)]
@@ -139,8 +157,15 @@ def _eplexor_list(source: Source) -> ShiftList | None:
 def _from_workbook(source: Source) -> ShiftTable:
     found = _eplexor_list(source)
     if found is None:
-        problem = f"is a workbook without a sheet {SHIFT_LIST!r}; save its table of shift factors as CSV."
-        raise DataFileError(source.path, problem, code="no-shift-list")
+        try:
+            return _from_columns(source)
+        except DataFileError as error:
+            if error.code != "missing-columns":
+                raise
+            problem = f"is a workbook without a sheet {SHIFT_LIST!r}, and no sheet has a table of shift factors"
+            remedy = name_columns(SHIFT_FACTORS.key, ("temperature",))
+            note = Note("no-shift-list", problem, remedy=remedy, values=error.note.values)
+            raise DataFileError(source.path, note) from None
     # The stated reference is the programmed temperature; α is 1 at the measured one.
     measured = found.measured_reference
     return ShiftTable(found.temperatures, found.log10_shifts, found.reference if measured is None else measured)
@@ -151,7 +176,23 @@ def _from_text(source: Source) -> ShiftTable:
         raise DataFileError(
             source.path, "is a binary file; a table of shift factors is text, or an Eplexor workbook.", code="binary"
         )
-    return read_shift_table(source.text, source.path)
+    try:
+        return read_shift_table(source.text, source.path)
+    except DataFileError as error:
+        found = error.note
+        if not found.values:
+            raise
+        missing = found.values["missing"]
+        values = SHIFT_FACTORS.header_values([heading(one) for one in found.values["headings"]], missing)
+        note = Note(found.code, found.text, "", name_columns(SHIFT_FACTORS.key, missing), values)
+        raise DataFileError(source.path, note) from None
+
+
+def _from_columns(source: Source) -> ShiftTable:
+    found = shift_columns(source)
+    log10 = logarithms(source.path, found.values, found.scale, found.lines)
+    covariance = None if found.standard_error is None else np.diag(found.standard_error**2)
+    return ShiftTable(found.temperatures, log10, None, covariance)
 
 
 def _falling(path: str, kelvin: Array, values: Array, inverse: bool) -> Array:

@@ -13,9 +13,11 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import file_path, write_atomically
+from viscofric.notes import Note
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from os import PathLike
 
     from viscofric.arrays import Array
@@ -72,28 +74,31 @@ def read_shift_table(text: str, path: str) -> ShiftTable:
     at = [place for place, name in enumerate(names) if name in _TEMPERATURES]
     of = [place for place, name in enumerate(names) if name in _SHIFTS]
     if len(at) != 1 or len(of) != 1:
-        raise DataFileError(
-            path,
-            "a table of shift factors has one column of temperatures, such as 'T_C', and one of 'log10 aT' or 'aT'; "
-            f"this one has {', '.join(repr(heading) for heading in lines.headings)}.",
-            code="missing-columns",
-        )
+        problem = "a table of shift factors has one column of temperatures, such as 'T_C', and one of 'log10 aT' or "
+        problem += f"'aT'; this one has {', '.join(repr(heading) for heading in lines.headings)}"
+        missing = [what for what, places in (("temperature", at), ("log10 shift factor", of)) if len(places) != 1]
+        headings = {"headings": lines.headings, "missing": missing}
+        raise DataFileError(path, Note("missing-columns", problem, values=headings))
     cells = _Cells(path, lines)
     factor, offset = _temperature_unit(path, units[at[0]])
-    values = cells.column(of[0])
-    scale = _SHIFTS[names[of[0]]]
+    values = logarithms(path, cells.column(of[0]), _SHIFTS[names[of[0]]], [line for line, _ in lines.rows])
+    kelvin = factor * cells.column(at[0]) + offset
+    return ShiftTable(kelvin, values, lines.reference, _covariance(names, cells), tuple(lines.notes))
+
+
+def logarithms(path: str, values: Array, scale: float | None, rows: Sequence[int]) -> Array:
+    """Return log10 α (n,) of a column: `scale` for one of its units, None where it holds α itself."""
     if scale is None:
         if np.any(values <= 0.0):
             problem = "a shift factor aT must be above zero; name the column 'log10 aT' if it holds logarithms."
-            raise DataFileError(path, problem, lines.rows[int(np.argmax(values <= 0.0))][0], code="not-positive")
+            raise DataFileError(path, problem, rows[int(np.argmax(values <= 0.0))], code="not-positive")
         values, scale = np.log10(values), 1.0
     if np.any(np.abs(values) > _LARGEST_LOGARITHM):
-        row = lines.rows[int(np.argmax(np.abs(values) > _LARGEST_LOGARITHM))][0]
+        row = rows[int(np.argmax(np.abs(values) > _LARGEST_LOGARITHM))]
         raise DataFileError(
             path, "a logarithm of a shift factor beyond 300 is none of a material.", row, code="out-of-range"
         )
-    kelvin = factor * cells.column(at[0]) + offset
-    return ShiftTable(kelvin, scale * values, lines.reference, _covariance(names, cells), tuple(lines.notes))
+    return np.asarray(scale * values)
 
 
 def _lines(text: str, path: str) -> _Lines:

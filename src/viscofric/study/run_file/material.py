@@ -51,6 +51,8 @@ _HOW = (
     "shift_weights",
     "shift",
     "shift_factors",
+    "shift_factor_columns",
+    "shift_factor_sheet",
     "fixed_shift_factors",
     "spectrum",
     "modes",
@@ -152,6 +154,10 @@ class MaterialTable(Table):
         "'WLF 17.44, 51.6 K, -30 degC' (C1, C2, their reference), or 'universal'.",
     )
     shift_factors: FileName | None = Field(None, description="File of shift factors to use instead of finding them.")
+    shift_factor_columns: Headings = Field(
+        {}, description="Headings in that file that are not understood: { log10_shift_factor = 'lg' }."
+    )
+    shift_factor_sheet: Words | None = Field(None, description="Name of the sheet with shift factors in a workbook.")
     fixed_shift_factors: Annotated[
         dict[float, Number],
         BeforeValidator(_by_kelvin),
@@ -221,6 +227,9 @@ class MaterialTable(Table):
             yield "assumed_shift is for temperature ramps (ramps) only"
         if self.shift_factors is not None and self.fixed_shift_factors:
             yield "shift_factors and fixed_shift_factors are both given; the first one contains all"
+        for name in ("shift_factor_columns", "shift_factor_sheet"):
+            if name in self.model_fields_set and self.shift_factors is None:
+                yield f"{name} is for a file of shift_factors, which is not given"
         found_by = [name for name in ("shift_by", "shift_weights") if name in self.model_fields_set]
         if self.shift_factors is not None and found_by:
             yield f"{' and '.join(found_by)} cannot be chosen with shift_factors, which leave no factor to be found"

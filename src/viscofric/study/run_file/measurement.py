@@ -46,10 +46,8 @@ class MeasurementTable(Table):
 
     mtm: FileNames = Field((), description="Traction runs: a file, a list, or a pattern such as 'run*.txt'.")
     curves: FileName | None = Field(None, description="Instead: separated friction curves.")
-    columns: Headings = Field(
-        {}, description="Headings of traction tables that are not understood: { disc_speed = 'V1 (mm/s)' }."
-    )
-    sheet: Words | None = Field(None, description="Name of the sheet of a workbook of traction runs.")
+    columns: Headings = Field({}, description="Headings that are not understood: { disc_speed = 'V1 (mm/s)' }.")
+    sheet: Words | None = Field(None, description="Name of the sheet of a workbook.")
     zero: SignedForce | None = Field(None, description="Reading of the force cell without traction, if known.")
     zero_error: Force | None = Field(None, description="Standard error of zero.")
     coulomb: Annotated[
@@ -79,7 +77,7 @@ class MeasurementTable(Table):
             yield 'has no data; give mtm = "runs.txt" (or friction curves, curves = "curves.csv")'
         if self.mtm and self.curves is not None:
             yield "mtm and curves are both given; give one of them"
-        useless = sorted(self.model_fields_set - {"mtm", "curves"})
+        useless = sorted(self.model_fields_set - {"mtm", "curves", "columns", "sheet"})
         if self.curves is not None and useless:
             yield f"{' and '.join(useless)} cannot be chosen for friction curves, which are already separated"
         if self.zero_error is not None and self.zero is None:

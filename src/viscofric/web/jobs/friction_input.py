@@ -93,15 +93,15 @@ def friction_curves(study: Mapping[str, Any], folders: Folders) -> FrictionCurve
 
 def _measured(table: MeasurementTable, folders: Folders) -> Measured:
     try:
-        return _of_curves(table.curves, folders) if table.curves is not None else _of_runs(table, folders)
+        return _of_curves(table, table.curves, folders) if table.curves is not None else _of_runs(table, folders)
     except DataFileError as error:
         raise named_without_folder(error, folders) from None
 
 
-def _of_curves(path: Path, folders: Folders) -> Measured:
+def _of_curves(table: MeasurementTable, path: Path, folders: Folders) -> Measured:
     from viscofric.friction.curve_files import read_friction_curves
 
-    curves = _named(read_friction_curves(path), folders)
+    curves = _named(read_friction_curves(path, columns=table.columns, sheet=table.sheet), folders)
     lines = [("file", path.name), ("recognised as", "a table of friction curves, separated already")]
     return Measured(False, lines, [], _is_made_up(path), curves, _NOTHING, tuple(map(note_of, curves.notes)))
 

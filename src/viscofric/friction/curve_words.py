@@ -1,0 +1,55 @@
+"""The words of tables of friction curves: fields, their units and headings."""
+
+from __future__ import annotations
+
+from viscofric.readers.headings import Vocabulary
+
+#: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
+COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
+    "speed": ("m/s", "speed", ("v", "sliding speed", "disc speed", "disk speed")),
+    "temperature": ("K", "temperature", ("T", "temp", "temp.")),
+    "load": ("N", "load", ("normal load", "normal force")),
+    "viscoelastic": (
+        "",
+        "viscoelastic friction",
+        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic", "friction coefficient"),
+    ),
+    "viscoelastic_error": ("", "viscoelastic friction standard error", ("viscoelastic error", "friction error")),
+    "viscoelastic_scatter": ("", "viscoelastic friction scatter", ("viscoelastic scatter",)),
+    "viscoelastic_freedom": ("", "viscoelastic friction degrees of freedom", ("viscoelastic freedom",)),
+    "replicates": ("", "replicates", ("repetitions", "repeats")),
+    "coulomb": ("", "Coulomb friction", ("coulomb", "coulomb friction", "coulomb friction coefficient", "mu coulomb")),
+    "coulomb_error": ("", "Coulomb friction standard error", ("coulomb friction standard error", "coulomb error")),
+    "coulomb_scatter": ("", "Coulomb friction scatter", ("coulomb friction scatter", "coulomb scatter")),
+    "coulomb_freedom": (
+        "",
+        "Coulomb friction degrees of freedom",
+        ("coulomb friction degrees of freedom", "coulomb freedom"),
+    ),
+    "consistency": ("", "consistency", ()),
+    "consistency_error": ("", "consistency standard error", ("consistency error",)),
+    "slip": ("m/s", "slip", ("sliding velocity",)),
+    "offset": ("N", "offset", ("zero",)),
+    "material_error": ("", "material standard error", ("material error", "friction material error")),
+    "viscoelastic_lower": ("", "viscoelastic friction lower limit", ("viscoelastic lower", "friction lower")),
+    "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper", "friction upper")),
+}
+#: Without these there are no friction curves.
+_NEEDED = ("speed", "temperature", "load", "viscoelastic")
+
+#: The words of tables of friction curves.
+CURVES = Vocabulary(
+    "a table of friction curves",
+    {heading.lower(): frozenset({heading, heading.lower(), *others}) for _, heading, others in COLUMNS.values()},
+    needed=tuple((COLUMNS[name][1],) for name in _NEEDED),
+    example="friction curves have 'speed (mm/s)', 'temperature (degC)', 'load (N)' and 'viscoelastic friction'",
+    key="measurement.columns",
+    offered=(
+        ("speed", "mm/s"),
+        ("temperature", "degC"),
+        ("load", "N"),
+        ("viscoelastic friction", ""),
+        ("viscoelastic friction standard error", ""),
+        ("coulomb friction", ""),
+    ),
+)
