@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from viscofric.notes import note_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from typing import Self
 
     from viscofric.notes import Reader
@@ -29,6 +30,10 @@ class Check:
         The check in words, with its numbers.
     value, limit : float or None
         The number that was compared and the largest that passes, where there are such numbers.
+    code : str
+        Of the sentence; empty if it has none.
+    values : mapping
+        All numbers of the sentence by name, in SI units.
     """
 
     name: str
@@ -48,6 +53,16 @@ class Check:
     def holds(self) -> bool | None:
         """Whether it passed; None where it cannot be judged."""
         return None if self.verdict == "noted" else self.verdict == "passed"
+
+    @property
+    def code(self) -> str:
+        """Code of the sentence."""
+        return note_of(self.sentence).code
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Numbers of the sentence by name."""
+        return note_of(self.sentence).values
 
     def record(self, reader: Reader) -> dict[str, Any]:
         """Return the check as JSON, its sentence in the words of a reader."""

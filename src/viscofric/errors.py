@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from viscofric.notes import Note, codes, note_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
-    from typing import Self
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from typing import Any, Self
 
     from viscofric.notes import Reader, Remedy
 
@@ -103,6 +103,8 @@ class ViscofricError(Exception):
         Ends the sentence, in the words of each reader, where the message is no note.
     field : str, optional
         Path of the run file's key that the error is about; by default that of the remedy.
+    values : mapping, optional
+        For programs, where the message is no note; see `viscofric.notes.Note`.
 
     Attributes
     ----------
@@ -111,9 +113,15 @@ class ViscofricError(Exception):
     """
 
     def __init__(
-        self, message: str | Note = "", *, code: str = "", remedy: Remedy | None = None, field: str | None = None
+        self,
+        message: str | Note = "",
+        *,
+        code: str = "",
+        remedy: Remedy | None = None,
+        field: str | None = None,
+        values: Mapping[str, Any] | None = None,
     ) -> None:
-        note = message if isinstance(message, Note) else Note(code, str(message), remedy=remedy)
+        note = message if isinstance(message, Note) else Note(code, str(message), remedy=remedy, values=values)
         self.note, self._field = note.reworded(shortened), field
         super().__init__(self.words("python"))
 
@@ -170,7 +178,7 @@ class DataFileError(InputError):
         The problem and the remedy, without the file's name.
     row : int, optional
         Line of the file, counted from 1.
-    code, remedy : optional
+    code, remedy, values : optional
         As for `ViscofricError`.
     """
 
@@ -182,9 +190,10 @@ class DataFileError(InputError):
         *,
         code: str = "",
         remedy: Remedy | None = None,
+        values: Mapping[str, Any] | None = None,
     ) -> None:
         self.path, self.row = str(path), row
-        note = problem if isinstance(problem, Note) else Note(code, problem, remedy=remedy)
+        note = problem if isinstance(problem, Note) else Note(code, problem, remedy=remedy, values=values)
         super().__init__(note.at(self.path if row is None else f"{self.path}, line {row}"))
 
     @property

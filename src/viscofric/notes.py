@@ -157,6 +157,10 @@ class Note(str):
         """Return the note with another code."""
         return Note(code, self.text, self.where, self.remedy, self.values)
 
+    def valued(self, **values: Any) -> Note:
+        """Return the note with more values."""
+        return Note(self.code, self.text, self.where, self.remedy, {**self.values, **values})
+
     def reworded(self, change: Callable[[str], str]) -> Note:
         """Return the note with its words changed, such as with the user's own file names."""
         remedy = None if self.remedy is None else self.remedy.reworded(change)

@@ -85,8 +85,7 @@ def test_the_materials_own_error_counts_as_one_error_of_all_points() -> None:
     alone = compare(measured, predicted)
     assert (alone.share_within_error, alone.material_counted) == (0.0, False)
     assert alone.bias_error == pytest.approx(0.01 / 3.0)
-    assert "4.0 %" in str(alone)
-    assert "±0.3 %" in str(alone)
+    assert alone.bias == pytest.approx(0.04)
     counted = compare(measured, replace(predicted, material_error=np.full(9, 4e-4)))
     # 2 √(2² + 4²) 1e-4 = 8.9e-4, above the difference of 8e-4
     assert (counted.share_within_error, counted.material_counted) == (1.0, True)
@@ -127,7 +126,6 @@ def test_the_scatter_of_replicates_is_reported_where_there_are_any() -> None:
     agreement = compare(repeated, predicted)
     assert (agreement.share_within_scatter, agreement.repeated) == (pytest.approx(2 / 3), 3)
     np.testing.assert_array_equal(agreement.share_within_scatter_at, [0.5, 1.0])
-    assert "67 % of the 3" in str(agreement)
     half = compare(replace(repeated, replicates=np.array([8, 8, 1, 1])), predicted)
     np.testing.assert_array_equal(half.share_within_scatter_at, [0.5, np.nan])
 
@@ -155,10 +153,6 @@ def test_a_wrong_alpha_shows_between_the_curves_but_not_between_the_master_curve
     np.testing.assert_allclose(along.relative_difference, 0.02, atol=2e-3)
     assert along.bias == pytest.approx(0.02, abs=1e-3)
     assert along.not_covered == len(measured) - along.points > 0  # the wrong α reaches less far
-    assert str(along).startswith(
-        f"On the master curve, over {along.points} points the predicted friction is on average 2.0 %"
-    )
-    assert f"{along.not_covered} more points lie outside the predicted master curve" in str(along)
 
 
 def test_the_materials_error_is_read_along_the_master_curve() -> None:
@@ -214,8 +208,7 @@ def test_errors_that_are_not_known_show_no_share() -> None:
     assert np.all(np.isnan(none.share_within_error_at))
     assert none.bias_error == np.inf
     some = compare(replace(measured, viscoelastic_error=np.array([np.inf, 1e-2, 1e-3, np.inf])), predicted)
-    assert some.share_within_error == 0.5
-    assert "50 % of the 2" in str(some)
+    assert (some.share_within_error, some.with_error) == (0.5, 2)
     scattered = replace(measured, replicates=np.full(4, 3), viscoelastic_scatter=np.full(4, np.inf))
     assert compare(scattered, predicted).share_within_scatter is None
 

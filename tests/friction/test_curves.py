@@ -14,6 +14,7 @@ from refusals import refused
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.prediction import predict_friction
+from viscofric.notes import codes
 
 ACCURACY = 1e-2
 BALL = vf.Ball(radius="10 mm")
@@ -170,7 +171,8 @@ def test_solutions_moving_either_way_give_the_same_curve(rubber: vf.Material) ->
     np.testing.assert_array_equal(curves.speed, [0.1, 0.1])
     assert forth.warnings
     assert len(curves.notes) == 1
-    assert "2 of 2 contacts" in curves.notes[0]
+    assert curves.notes[0].values["contacts"] == curves.notes[0].values["of"] == 2
+    assert curves.notes[0].code == forth.warnings[0].code
     with refused("no-temperature"):
         FrictionCurves.from_solutions([replace(forth, temperature=None)])
     with refused("no-speed"):
@@ -184,7 +186,7 @@ def test_one_temperature_is_picked_in_ascending_speed() -> None:
     np.testing.assert_array_equal(warm.viscoelastic, [1.0, 2.0])
     with refused("no-such-temperature") as caught:
         curves.at_temperature("40 degC")
-    assert "30.1, 60.1 °C" in str(caught.value)
+    assert caught.value.note.values["known"] == [303.2, 333.2]
     with refused("no-such-load"):
         curves.at_load(10.0)
 
@@ -202,7 +204,8 @@ def test_data_set_is_labelled() -> None:
     np.testing.assert_array_equal(data["coulomb"], curves.coulomb)  # type: ignore[arg-type]
     np.testing.assert_array_equal(data["speed"], curves.speed)
     assert data["load"].attrs == {"units": "N", "long_name": "normal load"}
-    assert "negative" in data.attrs["notes"]
+    assert data.attrs["notes"] == "\n".join(curves.notes)
+    assert "negative-friction" in codes(curves.notes)
 
 
 def test_columns_are_checked_and_frozen() -> None:

@@ -52,7 +52,8 @@ def test_a_coulomb_coefficient_from_elsewhere_is_taken_off(
     off = separate(runs, zero=0.3, coulomb=coulomb + 0.01).viscoelastic - curves.viscoelastic
     np.testing.assert_allclose(off, -0.01 * configuration[0] * configuration[1], atol=ROUNDING)
     assert curves.assumption in curves.notes
-    assert f"a Coulomb friction coefficient of {coulomb:g}" in curves.assumption
+    assert curves.assumption.code == "coulomb-assumed"
+    assert (curves.assumption.values["coulomb"], curves.assumption.values["error"]) == (coulomb, error)
 
 
 @pytest.mark.parametrize("configuration", FOUR)
@@ -62,7 +63,7 @@ def test_constant_coulomb_friction_leaves_what_varies_with_speed(configuration: 
     sense = configuration[0] * configuration[1]
     np.testing.assert_allclose(curves.viscoelastic, 0.05 * (curves.speed - 0.02), atol=ROUNDING)
     np.testing.assert_allclose(curves.coulomb, 0.05 + sense * 0.031, atol=ROUNDING)  # type: ignore[arg-type]
-    assert "a lower limit" in curves.assumption
+    assert curves.assumption.code == "coulomb-constant"
     assert curves.assumption in curves.notes
 
 
@@ -88,7 +89,7 @@ def test_what_the_signs_show_is_not_assumed() -> None:
     four = curves.temperature > 350.0
     np.testing.assert_allclose(curves.coulomb[four], 0.08, atol=ROUNDING)
     np.testing.assert_allclose(curves.coulomb[~four], 0.05, atol=ROUNDING)
-    assert "At 6 of 9 conditions" in curves.assumption
+    assert (curves.assumption.values["conditions"], curves.assumption.values["of"]) == (6, 9)
     assert separate(whole, coulomb=0.05).assumption == ""
 
 

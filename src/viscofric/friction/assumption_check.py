@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from viscofric.checks import Check
 from viscofric.contact.free.scale import Scale
@@ -40,14 +40,15 @@ class AssumptionCheck(Check):
         Whether it holds; None where that is unknown.
     sentence : str
         The check in words, with lengths in mm and temperatures in °C.
+    code : str
+        Of the sentence.
+    values : mapping
+        Numbers of the sentence by name, in SI units, with the temperature, speed and load where it is worst.
     """
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the check as a labelled data set along ``assumption``; see `assumptions_dataset`."""
         return assumptions_dataset((self,))
-
-    def __str__(self) -> str:
-        return str(self.sentence)
 
 
 def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "python") -> xarray.Dataset:
@@ -96,6 +97,29 @@ def verdict(low: float, high: float, limit: float) -> bool | None:
     return False if low > limit else None
 
 
+class Place(NamedTuple):
+    """Temperature (K), speed (m/s) and load of a point of friction curves."""
+
+    temperature: float
+    speed: float
+    load: float
+    load_unit: str
+
+    @classmethod
+    def of(cls, curves: FrictionCurves, row: int) -> Place:
+        """Return those of a row."""
+        return cls(float(curves.temperature[row]), float(curves.speed[row]), float(curves.load[row]), curves.load_unit)
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The numbers by name."""
+        return {"temperature": self.temperature, "speed": self.speed, "load": self.load}
+
+    def __str__(self) -> str:
+        load = f"{plain(self.load, 3)} {self.load_unit}"
+        return f"at {shown_celsius(self.temperature, 'z.0f')} °C, {shown_speed(self.speed, 3)} and {load}"
+
+
 @dataclass(frozen=True)
 class ContactSize:
     """Size of one contact, as solved or between two of Hertz's."""
@@ -104,7 +128,7 @@ class ContactSize:
     largest: float  # m
     relaxed: float  # m, Hertz's radius at the relaxed modulus E0, of a round contact: none is larger
     curvature: float  # 1/m, of the equivalent paraboloid
-    where: str  # temperature, speed and load, in words
+    where: Place
 
     @classmethod
     def of(
@@ -114,7 +138,7 @@ class ContactSize:
         spectrum = material.modes_at(float(curves.temperature[row]))
         plane_strain = 1.0 - material.poisson_ratio**2
         scale = Scale.for_load(indenter, spectrum.E0 / plane_strain, float(curves.load[row]))
-        curvature, where = scale.slope / scale.length, place_of(curves, row)
+        curvature, where = scale.slope / scale.length, Place.of(curves, row)
         if solved is not None:
             return cls(solved, solved, scale.length, curvature, where)
         # Hertz: a³ ~ F R/E of a ball, a² ~ F R/E of a cylinder.
@@ -127,6 +151,11 @@ class ContactSize:
                 break
         return cls(radius, scale.length, scale.length, curvature, where)
 
+    @property
+    def values(self) -> dict[str, float]:
+        """Limits of the radius, m, and the place."""
+        return {"smallest_radius": self.smallest, "largest_radius": self.largest, **self.where.values}
+
     def __str__(self) -> str:
         if self.smallest == self.largest:
             return f"The contact radius is {1e3 * self.largest:.2g} mm ({self.where})"
@@ -134,10 +163,3 @@ class ContactSize:
             f"The contact radius is about {1e3 * self.smallest:.2g} and at most {1e3 * self.largest:.2g} mm "
             f"(Hertz's at |E(v/a)| and at the relaxed modulus, {self.where})"
         )
-
-
-def place_of(curves: FrictionCurves, row: int) -> str:
-    """Return temperature, speed and load of a point of friction curves, in words."""
-    load = f"{plain(float(curves.load[row]), 3)} {curves.load_unit}"
-    celsius, speed = shown_celsius(float(curves.temperature[row]), "z.0f"), shown_speed(float(curves.speed[row]), 3)
-    return f"at {celsius} °C, {speed} and {load}"

@@ -8,11 +8,12 @@ import numpy as np
 
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
-from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, verdict
+from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, Place, verdict
 from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.finite_thickness import check_half_space
 from viscofric.friction.warming import Warming
+from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties
 from viscofric.units import Quantity, plain, positive, to_si_array
@@ -129,8 +130,8 @@ def check_assumptions(
         warming = Warming.of(material, indenter, curves, [size.smallest for size in sizes], rubber, counterbody)
         isothermal = _one_temperature(curves, [size.where for size in sizes], warming, rubber, counterbody)
     except InputError as error:  # the shift factors end where their slope is needed
-        sentence = f"The effect of warming on friction is unknown: {error}"
-        isothermal = AssumptionCheck.of("one temperature", None, sentence, None, CHANGE)
+        unknown = Note("warming-unknown", f"The effect of warming on friction is unknown: {error}")
+        isothermal = AssumptionCheck.of("one temperature", None, unknown, None, CHANGE)
     coupled = check_coupling(curves, material.poisson_ratio, thick, sizes)
     return (
         check_half_space(material, curves, sizes, thick, CHANGE),
@@ -156,8 +157,10 @@ def _small_contact(size: ContactSize, noun: str) -> AssumptionCheck:
     holds = verdict(low, high, SMALL_STRAIN)
     ratio = f"{high:.2f}" if low == high else f"{low:.2f} to {high:.2f}"
     rest = {True: ".", None: f"; {_SOLVE}.", False: "; reduce the load, or use a larger one."}[holds]
-    sentence = (
-        f"{size}, {ratio} of the {noun} radius; half-space and parabolic {noun} are valid up to {SMALL_STRAIN:g}{rest}"
+    sentence = Note(
+        "small-contact",
+        f"{size}, {ratio} of the {noun} radius; half-space and parabolic {noun} are valid up to {SMALL_STRAIN:g}{rest}",
+        values={"lowest": low, "highest": high, **size.values},
     )
     return AssumptionCheck.of("small contact", holds, sentence, high, SMALL_STRAIN)
 
@@ -168,16 +171,18 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
     holds = verdict(low, high, limit)
     strain = f"{100 * high:.2g} %" if low == high else f"{100 * low:.2g} to {100 * high:.2g} %"
     compared = {True: "within", None: "about", False: "beyond"}[holds]
-    sentence = (
+    sentence = Note(
+        "linearity",
         f"The strain of the rubber is {strain} (0.2 a/R, {size.where}), {compared} the limit of linear contact theory, "
-        f"{100 * limit:.2g} %; filled rubber may soften above 0.1 % (Payne effect), which only a strain sweep shows."
+        f"{100 * limit:.2g} %; filled rubber may soften above 0.1 % (Payne effect), which only a strain sweep shows.",
+        values={"lowest": low, "highest": high, **size.where.values},
     )
     return AssumptionCheck.of("linearity", holds, sentence, high, limit)
 
 
 def _one_temperature(
     curves: FrictionCurves,
-    places: list[str],
+    places: list[Place],
     warming: Warming,
     rubber: ThermalProperties,
     counterbody: ThermalProperties,
@@ -185,13 +190,24 @@ def _one_temperature(
     worst = int(np.argmax(warming.change))
     surface, bulk, decades, change = (float(column[worst]) for column in warming)
     warmed = f"Coulomb heat warms the surface by {surface:.2g} K and the viscoelastic loss"
-    if curves.coulomb is None or curves.slip is None:
+    counted = curves.coulomb is not None and curves.slip is not None
+    if not counted:
         warmed = "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms"
     holds = change <= CHANGE
     limit = f"(good if ≤ {100 * CHANGE:.0f} %)" + ("." if holds else "; reduce the slip or the speed.")
-    sentence = (
+    sentence = Note(
+        "warming",
         f"{warmed} the rubber by {bulk:.2g} K at most ({places[worst]}; typical handbook values of {rubber.name} "
         f"and {counterbody.name} are assumed). This shifts the speed by {decades:.2g} decades and changes friction by "
-        f"{plain(100 * change, 2)} % {limit}"
+        f"{plain(100 * change, 2)} % {limit}",
+        values={
+            "surface": surface if counted else None,
+            "bulk": bulk,
+            "decades": decades,
+            "change": change,
+            "rubber": rubber.name,
+            "counterbody": counterbody.name,
+            **places[worst].values,
+        },
     )
     return AssumptionCheck.of("one temperature", holds, sentence, change, CHANGE)

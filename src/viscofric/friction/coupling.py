@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.bodies import Layer
-from viscofric.friction.assumption_check import AssumptionCheck, place_of, verdict
+from viscofric.friction.assumption_check import AssumptionCheck, Place, verdict
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
@@ -77,11 +77,12 @@ def check_coupling(
         row = max(each, key=lambda one: max(each[one]))
         low, high = sorted(float(one) for one in each[row])
     holds = verdict(low, high, LARGEST)
+    place = Place.of(curves, row)
     size = f"{high:.2g}" if f"{low:.2g}" == f"{high:.2g}" else f"{low:.2g} to {high:.2g}"
     on = "a half-space" if thickness is None else f"a bonded layer of {1e3 * thickness:.3g} mm"
     said = (
         f"Coulomb friction of {rubbed[row]:.2g} also displaces the surface of {on} (ν = {poisson_ratio:g}) in the "
-        f"normal direction, by about {size} of the displacement due to the pressure ({place_of(curves, row)}). "
+        f"normal direction, by about {size} of the displacement due to the pressure ({place}). "
         f"Contacts are solved without this effect, "
     )
     said += {
@@ -91,4 +92,5 @@ def check_coupling(
         False: f"which is doubtful above {LARGEST:g}: viscoelastic friction may change by a fraction of that order, "
         "and with the direction of slip; reduce slip or Coulomb friction (PTFE, lubricant), or use thicker rubber.",
     }[holds]
-    return AssumptionCheck.of("uncoupled", holds, Note("tangential-coupling", said), high, LARGEST)
+    values = {"coulomb": float(rubbed[row]), "lowest": low, "highest": high, **place.values}
+    return AssumptionCheck.of("uncoupled", holds, Note("tangential-coupling", said, values=values), high, LARGEST)

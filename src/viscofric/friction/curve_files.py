@@ -155,9 +155,10 @@ def read_friction_curves(
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
     notes = list(remarks["note"])
-    unused = ", ".join(repr(column.heading) for column in table.unused(places.values()))
+    unused = [column.heading for column in table.unused(places.values())]
     if unused:
-        notes.append(Note("unused-columns", f"Columns of the file of friction curves that are not read: {unused}."))
+        said = f"Columns of the file of friction curves that are not read: {', '.join(map(repr, unused))}."
+        notes.append(Note("unused-columns", said, values={"headings": unused}))
     replicates = found.pop("replicates", np.ones(len(table.rows)))
     for kind in ("viscoelastic", "coulomb"):
         _complete(found, kind, replicates, notes)

@@ -13,6 +13,7 @@ from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, check_choice
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
+from viscofric.notes import note_of
 from viscofric.units import Quantity, positive, share, shown_celsius
 
 if TYPE_CHECKING:
@@ -333,6 +334,7 @@ class FrictionCurves:
                 f"temperature = {shown_celsius(wanted)} °C: there is no friction curve within "
                 f"{SAME_TEMPERATURE:g} K of it; known temperatures: {known} °C.",
                 code="no-such-temperature",
+                values={"known": there.tolist()},
             )
         nearest = there[np.argmin(np.abs(there - wanted))]
         rows = np.flatnonzero(self.temperature == nearest)
@@ -376,7 +378,7 @@ class FrictionCurves:
             "point",
             {name: column for name, column in columns.items() if name not in _COORDINATES},
             coordinates={name: columns[name] for name in _COORDINATES if name in columns},
-            attributes={"source": self.source, "notes": "\n".join(self.notes), "assumption": self.assumption},
+            attributes={"source": self.source, "notes": "\n".join(self.notes), "assumption": str(self.assumption)},
         )
 
 
@@ -407,11 +409,14 @@ def _warnings(solutions: tuple[ContactSolution, ...]) -> tuple[str, ...]:
     warned = [solution for solution in solutions if solution.warnings]
     if not warned:
         return ()
+    counted = {"contacts": len(warned), "of": len(solutions)}
     different = {warning for solution in warned for warning in solution.warnings}
     if len(different) <= 1:
-        return (f"In {len(warned)} of {len(solutions)} contacts: {warned[0].warnings[0]}",)
+        return (note_of(warned[0].warnings[0]).at(f"In {len(warned)} of {len(solutions)} contacts").valued(**counted),)
     worst = max(warned, key=lambda solution: solution.half_width)
     return tuple(
-        f"In {len(warned)} of {len(solutions)} contacts there are warnings; that of the widest one: {warning}"
+        note_of(warning)
+        .at(f"In {len(warned)} of {len(solutions)} contacts there are warnings; that of the widest one")
+        .valued(**counted)
         for warning in worst.warnings
     )

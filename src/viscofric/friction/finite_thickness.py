@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
-    from viscofric.friction.assumption_check import ContactSize
+    from viscofric.friction.assumption_check import ContactSize, Place
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -190,10 +190,10 @@ _SMALLEST = 1e-3
 
 @dataclass(frozen=True)
 class _OnLayers:
-    """A contact of friction curves on layers, and its conditions in words."""
+    """A contact of friction curves on layers, and its conditions."""
 
     contact: ContactOnLayers
-    where: str
+    where: Place
 
     @classmethod
     def of(cls, material: Material, curves: FrictionCurves, row: int, size: ContactSize) -> _OnLayers:
@@ -231,22 +231,43 @@ def check_half_space(
     worst, effect = max(((one, one.contact.on(layer)) for one in contacts), key=lambda pair: abs(pair[1].friction))
     enough = worst.contact.thickness_for(passes)
     limit = min(1.0 / THICK, widest.largest / enough)
-    there = "" if worst.where == widest.where else f" ({worst.where})"
+    there = "" if str(worst.where) == str(widest.where) else f" ({worst.where})"
     radii, percent = f"{THICK:.0f} contact radii ({1e3 * THICK * widest.largest:.2g} mm)", f"{100.0 * passes:.0f} %"
+    # lengths in m, changes from the half-space to a bonded layer as parts of the values there
+    values: dict[str, float | None] = {
+        **widest.values,
+        "radii": THICK,
+        "least_thickness": THICK * widest.largest,
+        "thickness_for_friction": enough,
+        "thickness": given,
+    }
     if given is None:
-        said = (
+        said = Note(
+            "thickness-not-given",
             f"{widest}. The half-space assumption needs a thickness of at least {radii}, and about {_mm(enough)} "
-            f"for friction on a bonded layer to agree within {percent}{there}; no thickness was given."
+            f"for friction on a bonded layer to agree within {percent}{there}; no thickness was given.",
+            values=values,
         )
         return AssumptionCheck.of("half-space", None, said, None, limit)
     holds = verdict(widest.smallest / given, widest.largest / given, 1.0 / THICK)
+    if given >= THINNEST * worst.contact.radius:
+        values["friction"] = effect.friction
+        values["indentation"] = None if worst.contact.line else effect.indentation
     compared = {True: f", although at least {radii},", None: "", False: f", less than {radii},"}[holds]
     rubber, felt = f"{_mm(given)} of rubber", f"{_effect(effect, given, worst)}{there}"
     if abs(effect.friction) <= passes and holds is not False:
         said = {
-            True: f"{widest}. {rubber}, at least {radii}, can be taken as a half-space: {felt}.",
-            None: f"{widest}. Whether {rubber} can be taken as a half-space depends on the radius: solve the contact "
-            f"and give contact_radius. With the estimate, {felt}.",
+            True: Note(
+                "half-space",
+                f"{widest}. {rubber}, at least {radii}, can be taken as a half-space: {felt}.",
+                values=values,
+            ),
+            None: Note(
+                "radius-not-known",
+                f"{widest}. Whether {rubber} can be taken as a half-space depends on the radius: solve the contact "
+                f"and give contact_radius. With the estimate, {felt}.",
+                values=values,
+            ),
         }[holds]
     else:
         rubber += compared
@@ -257,6 +278,7 @@ def check_half_space(
             f"{widest}. {rubber} cannot be taken as a half-space{why} {felt}. Solve the contact on a layer (",
             remedy=called
             + f") or use thicker rubber: at least {radii}, and about {_mm(enough)} for friction within {percent}.",
+            values=values,
         )
         holds = False
     return AssumptionCheck.of("half-space", holds, said, widest.largest / given, limit)

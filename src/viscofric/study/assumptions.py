@@ -106,10 +106,12 @@ def _surface_checks(study: Study, cases: Sequence[SurfaceCase]) -> list[Assumpti
     longest = cases[0].surface.wavelengths[1] if isinstance(cases[0].surface, MadeSurface) else period
     value = longest / thickness
     holds = value <= _THICKEST_WAVE
-    sentence = (
+    sentence = Note(
+        "longest-wave",
         f"The longest wave of the surface, {1e3 * longest:.3g} mm, is {value:.2g} times as long as the rubber is "
         "thick; "
-        + ("the rubber is a half-space for it." if holds else "give the rubber's thickness as a [layer] instead.")
+        + ("the rubber is a half-space for it." if holds else "give the rubber's thickness as a [layer] instead."),
+        values={"wavelength": longest, "thickness": thickness},
     )
     return [AssumptionCheck.of("half-space", holds, sentence, value, _THICKEST_WAVE)]
 

@@ -212,8 +212,9 @@ def test_points_that_cannot_be_used_are_reported() -> None:
     speed = np.geomspace(0.02, 0.2, 8)
     curves = curves_of(speed, np.full(8, 300.0), np.full(8, 0.01), 1e-4)
     negative = replace(curves, viscoelastic=np.where(speed == speed[2], -1e-3, 0.01))
-    with refused("friction-not-positive", naming=("-0.001", "0.0386 m/s", "26.9 °C")):
+    with refused("friction-not-positive") as caught:
         usable_points(negative, BALL, None, 1e-4)
+    assert caught.value.note.values == {"viscoelastic": -1e-3, "speed": speed[2], "temperature": 300.0}
     with refused("too-few-points"):
         usable_points(curves.select(np.arange(3)), BALL, None, 1e-4)
     with refused("load-unit"):
@@ -221,7 +222,8 @@ def test_points_that_cannot_be_used_are_reported() -> None:
     unknown = replace(curves, viscoelastic_error=np.where(speed == speed[2], np.inf, 1e-4))
     points = usable_points(unknown, BALL, None, 1e-4)
     assert len(points) == 7
-    assert "1 of 8 points" in points.notes[0]
+    assert points.notes[0].code == "points-without-error"
+    assert points.notes[0].values == {"points": 1, "of": 8}
 
 
 def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:
@@ -233,7 +235,8 @@ def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:
     assert len(points) == 90
     assert points.error[0] == pytest.approx(0.02, rel=0.3)  # three and a half times those 9 %
     np.testing.assert_allclose(points.error, points.error[0])
-    assert "have no standard errors; " in points.notes[0]
+    assert points.notes[0].code == "errors-from-scatter"
+    assert points.notes[0].values == {"relative_error": pytest.approx(points.error[0], rel=1e-3)}
     with refused("no-errors"):
         usable_points(bare.select(np.arange(0, 90, 5)), BALL, None, 1e-4)
 

@@ -49,7 +49,11 @@ def with_origin(found: IdentifiedMaterial, source: str) -> Material:
     # Known nowhere: everything but the middle is extrapolated.
     ends = (band.low, band.high) if band.high > band.low else (found.middle, found.middle)
     behind = f" ({source})" if source else ""
-    origin = f"The rubber was identified from friction{behind}, no modulus of it was measured."
+    origin = Note(
+        "identified-from-friction",
+        f"The material was identified from friction{behind}; none of its moduli was measured.",
+        values={"source": source},
+    )
     fit = SpectrumFit(
         None,
         None,
@@ -225,6 +229,7 @@ def _anchor_notes(best: Weighed, drawn: MaterialSamples, middle: float, limit: f
                 "level-not-fixed",
                 "The anchor or prior does not fix the level of the modulus at the frequencies of the friction: the "
                 f"standard error of |E| at {middle:.2g} rad/s is {100.0 * spread:.2g} %; give an anchor near there.",
+                values={"frequency": middle, "standard_error": spread},
             )
         )
     points = len(best.problem.observations.points)
@@ -235,6 +240,7 @@ def _anchor_notes(best: Weighed, drawn: MaterialSamples, middle: float, limit: f
                 "anchor-contradicted",
                 f"The anchor or prior differs from the fit by {away:.2g} of its standard errors: it contradicts the "
                 "friction or itself.",
+                values={"standard_errors": away},
             )
         )
     return tuple(notes)

@@ -13,7 +13,7 @@ from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note, Remedy
-from viscofric.units import positive, shown_celsius
+from viscofric.units import positive, shown_celsius, shown_number, shown_speed
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers, Mask
@@ -89,7 +89,12 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
     rows = np.flatnonzero(np.isfinite(curves.viscoelastic_error))
     if len(rows) < len(curves):
         notes.append(
-            f"{len(curves) - len(rows)} of {len(curves)} points have no standard error that is known and were left out."
+            Note(
+                "points-without-error",
+                f"{len(curves) - len(rows)} of {len(curves)} points have no standard error that is known and were left "
+                "out.",
+                values={"points": len(curves) - len(rows), "of": len(curves)},
+            )
         )
     if len(rows) < FEWEST_POINTS:
         raise InputError(
@@ -101,10 +106,16 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
     if not np.all(friction > 0.0):
         worst = rows[int(np.argmin(friction))]
         raise InputError(
-            f"viscoelastic friction is {curves.viscoelastic[worst]:.3g} at {curves.speed[worst]:.3g} m/s and "
+            f"viscoelastic friction is {shown_number(float(curves.viscoelastic[worst]), '.3g')} at "
+            f"{shown_speed(float(curves.speed[worst]))} and "
             f"{shown_celsius(float(curves.temperature[worst]))} °C: must be above zero; leave the point out",
             code="friction-not-positive",
             remedy=Remedy(" with curves.select()", "", page="") + ", or check the signs of the measurement.",
+            values={
+                "viscoelastic": float(curves.viscoelastic[worst]),
+                "speed": float(curves.speed[worst]),
+                "temperature": float(curves.temperature[worst]),
+            },
         )
     forces = curves.load[rows] if load is None else np.full(len(rows), positive(load, unit, "load"))
     middle = float(np.exp(np.mean(np.log(forces))))
@@ -162,6 +173,7 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
         "errors-from-scatter",
         f"The friction curves have no standard errors; {100.0 * error:.2g} % is assumed, the scatter of the points of "
         "each temperature about a parabola.",
+        values={"relative_error": error},
     )
     return replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic)), note
 

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.errors import InputError, brief
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.nominal import SAME_LOAD
+from viscofric.notes import Note
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
@@ -98,19 +99,24 @@ class Assumed:
         return entries, places
 
     def sentence(self, some: list[Condition], total: int) -> str:
-        """Return the assumption at some conditions in a sentence; empty without any."""
+        """Return a note on the assumption at some conditions; empty without any."""
         if not some:
             return ""
+        counted = {"conditions": len(some), "of": total}
         if self.constant:
-            return (
+            return Note(
+                "coulomb-constant",
                 f"{where(some, total)} one direction of slip was measured and Coulomb friction is assumed to be the "
                 "same at all speeds of a temperature, as large as the measured friction allows: viscoelastic friction "
-                "is the part that varies with speed, a lower limit."
+                "is the part that varies with speed, a lower limit.",
+                values=counted,
             )
         size = f"{self.value:g} ± {self.error:g}" if self.error else f"{self.value:g}"
-        return (
+        return Note(
+            "coulomb-assumed",
             f"{where(some, total)} one direction of slip was measured and a Coulomb friction coefficient of {size} is "
-            "assumed; its error is in viscoelastic friction in full."
+            "assumed; its error is in viscoelastic friction in full.",
+            values={**counted, "coulomb": self.value, "error": self.error},
         )
 
 

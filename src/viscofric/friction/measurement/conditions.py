@@ -17,7 +17,7 @@ from viscofric.units import shown_celsius
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.arrays import Array, Integers
+    from viscofric.arrays import Array, Integers, Mask
     from viscofric.friction.measurement.course import Course
     from viscofric.traction import TractionRuns
 
@@ -43,40 +43,53 @@ class Gapless:
 
     def __call__(self, low: float, high: float) -> Note:
         """Return a note on values without a gap from `low` to `high`, with a remedy."""
-        values = {"of": self.expression, "low": float(low), "high": float(high)}
+        inside = (self.values >= low) & (self.values <= high)
+        allowed = self.gap * (high if self.relative else 1.0)
+        moving, middle = self._unsteady(inside, allowed), float(np.median(self.values[inside]))
+        values = {
+            "of": self.expression,
+            "low": float(low),
+            "high": float(high),
+            "unsteady_steps": moving,
+            "middle": middle,
+            "within": float(allowed),
+        }
+        selection = self._selection(moving, f"{middle:.4g}", f"{allowed:.2g}")
         words = f"{self.shown(low, high)} has no gaps and cannot be grouped into nominal values"
         if not self.option:
             words += f" (a gap is {100 * self.gap:g} %); "
-            return Note("no-gap", words, remedy=self._selection(low, high) + ".", values=values)
+            return Note("no-gap", words, remedy=selection + ".", values=values)
         wide = (math.log(high / low) if self.relative else high - low) / LONGEST_CHAIN
         # Rounded up to two digits.
         wide = float(f"{1.05 * wide:.1e}")
         one = setting(*self.option, f"{wide:g}{self.unit}")
         several = f"; if there are several, one below {self.gap:g}{self.unit}; or "
-        remedy = ": if there is one nominal value, give " + one + several + self._selection(low, high) + "."
-        return Note("no-gap", words, remedy=remedy, values=values)
+        remedy = ": if there is one nominal value, give " + one + several + selection + "."
+        return Note("no-gap", words, remedy=remedy, values={**values, "tolerance": wide})
 
-    def _selection(self, low: float, high: float) -> Remedy:
+    def _unsteady(self, inside: Mask, allowed: float) -> list[int]:
+        """Return the steps whose values change by more than is allowed, if these are some and few."""
+        if self.runs.step is None:
+            return []
+        steps = np.unique(self.runs.step[inside]).tolist()
+        spans = [np.ptp(self.values[inside & (self.runs.step == step)]) for step in steps]
+        moving = [step for step, span in zip(steps, spans, strict=True) if span > allowed]
+        return moving if len(moving) <= _NAMED and len(moving) < np.unique(self.runs.step).size else []
+
+    def _selection(self, moving: list[int], middle: str, allowed: str) -> Remedy:
         """Return the selection to make: all steps except unsteady ones, or values near the median."""
-        inside = (self.values >= low) & (self.values <= high)
-        allowed = self.gap * (high if self.relative else 1.0)
-        if self.runs.step is not None:
-            steps = np.unique(self.runs.step[inside]).tolist()
-            spans = [np.ptp(self.values[inside & (self.runs.step == step)]) for step in steps]
-            moving = [step for step, span in zip(steps, spans, strict=True) if span > allowed]
-            if moving and len(moving) <= _NAMED and len(moving) < np.unique(self.runs.step).size:
-                words = f"step {moving[0]} is" if len(moving) == 1 else f"steps {', '.join(map(str, moving))} are"
-                listed = ",".join(map(str, moving))
-                return f"{words} not steady; leave such steps out, by " + Remedy(
-                    f"runs.select(except_steps={moving})",
-                    f"--except-steps {listed}",
-                    f"except_steps = {moving} under [measurement]",
-                    f"“Steps to leave out”: {listed.replace(',', ', ')}",
-                    "measurement.except_steps",
-                )
-        middle = float(np.median(self.values[inside]))
+        if moving:
+            words = f"step {moving[0]} is" if len(moving) == 1 else f"steps {', '.join(map(str, moving))} are"
+            listed = ",".join(map(str, moving))
+            return f"{words} not steady; leave such steps out, by " + Remedy(
+                f"runs.select(except_steps={moving})",
+                f"--except-steps {listed}",
+                f"except_steps = {moving} under [measurement]",
+                f"“Steps to leave out”: {listed.replace(',', ', ')}",
+                "measurement.except_steps",
+            )
         return "leave out unsteady readings" + Remedy(
-            f", such as by runs.select(abs({self.expression} - {middle:.4g}) < {allowed:.2g})",
+            f", such as by runs.select(abs({self.expression} - {middle}) < {allowed})",
             " (--except-steps)",
             " (except_steps under [measurement])",
             " by “Steps to leave out”",

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -133,7 +134,14 @@ def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[N
     note = Note(
         "another-zero",
         f"{where([groups[one] for one in found], len(groups))} the zero of the force cell from the configurations, "
-        f"{_shown(entries[first], 0)} N, differs from the recorded one, {recorded[first]:.2g} N; the former is used.",
+        f"{_shown(entries[first], 0)} N, differs from the recorded one, {shown_number(float(recorded[first]), '.2g')} "
+        "N; the former is used.",
+        values={
+            "conditions": len(found),
+            "of": len(groups),
+            "fitted": float(entries[first].value[0]),
+            "recorded": float(recorded[first]),
+        },
     )
     return [note]
 
@@ -153,7 +161,7 @@ def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[Note]:
                 f"{where([group for group, _ in rolled], total)} slip is zero (pure rolling) in {readings} "
                 f"reading{'s' if readings > 1 else ''}, so that not every replicate has all configurations and all "
                 "readings are fitted together.",
-                values={"readings": int(readings)},
+                values={"readings": int(readings), "conditions": len(rolled), "of": total},
             )
         )
     missing = [group for group, readings in zip(together, beside, strict=True) if not readings]
@@ -196,7 +204,7 @@ def _significant(
 
 
 def _shown(entry: Entry, number: int) -> str:
-    return f"{entry.value[number]:.2g} ± {entry.error[number]:.2g}"
+    return f"{shown_number(float(entry.value[number]), '.2g')} ± {entry.error[number]:.2g}"
 
 
 def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]:
@@ -244,9 +252,15 @@ def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], li
             notes.append(
                 Note(
                     "unnoticed-slip",
-                    f"At {group} viscoelastic friction without slip, {entry.value[1]:.2g} ± {entry.error[1]:.2g}, "
-                    f"differs from that with slip, {other.value[1]:.2g} ± {other.error[1]:.2g}: ball and disc probably "
-                    "slip by less than can be measured, so that it includes Coulomb friction; it is left out.",
+                    f"At {group} viscoelastic friction without slip, {_shown(entry, 1)}, differs from that with slip, "
+                    f"{_shown(other, 1)}: ball and disc probably slip by less than can be measured, so that it "
+                    "includes Coulomb friction; it is left out.",
+                    values={
+                        "temperature": group.temperature,
+                        "speed": group.speed,
+                        "without_slip": float(entry.value[1]),
+                        "with_slip": float(other.value[1]),
+                    },
                 )
             )
     return found, notes
@@ -283,7 +297,8 @@ def outlier_notes(runs: TractionRuns, found: list[tuple[Condition, int]], *, lef
         return []
     one = len(found) == 1
     named = [
-        f"row {row + 1} (replicate {runs.replicate[row]}, {group}, {runs.traction_force[row]:.4g} N)"
+        f"row {row + 1} (replicate {runs.replicate[row]}, {group}, "
+        f"{shown_number(float(runs.traction_force[row]), '.4g')} N)"
         for group, row in found[:_NAMED]
     ]
     more = f" and {len(found) - _NAMED} more" if len(found) > _NAMED else ""

@@ -11,6 +11,7 @@ from viscofric.friction.measurement.doubts import CHANCE, ROUNDING, threshold
 from viscofric.friction.measurement.fit import DRIFT, FORCE, ZERO_CHANGES, Fit
 from viscofric.friction.measurement.zeros import Zeros, wanders
 from viscofric.notes import Note
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
@@ -102,10 +103,16 @@ class Drift:
             notes.append(
                 Note(
                     "zero-drifts",
-                    f"The zero of the force cell drifts by {_PER_HOUR * self.rate:.2g} ± "
+                    f"The zero of the force cell drifts by {shown_number(_PER_HOUR * self.rate, '.2g')} ± "
                     f"{_PER_HOUR * self.error:.1g} N/h, "
                     f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
                     f"(viscoelastic) and {size[1]:.2g} (Coulomb).",
+                    values={  # rate and its error in N/s
+                        "rate": self.rate,
+                        "error": self.error,
+                        "viscoelastic": float(size[0]),
+                        "coulomb": float(size[1]),
+                    },
                 )
             )
         if self.wandering:
@@ -118,6 +125,7 @@ class Drift:
                     f"The zero of the force cell moves {how}in the course of the test, with a standard deviation of "
                     f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; "
                     f"{advice}.",
+                    values={"standard_deviation": self.wandering, "of_load": self.wandering / load},
                 )
             )
         return notes

@@ -156,8 +156,8 @@ def _readings(groups: list[Condition]) -> int:
     return sum(group.rows.size for group in groups)
 
 
-def _at_other_speeds(one: Condition, others: list[Condition]) -> Remedy:
-    """Return at which speed near that of a condition its missing signs were measured; empty without any."""
+def _other_speed(one: Condition, others: list[Condition]) -> float | None:
+    """Return the speed (m/s) near that of a condition at which its missing signs were measured; None without any."""
     near = [
         other.speed
         for other in others
@@ -166,9 +166,12 @@ def _at_other_speeds(one: Condition, others: list[Condition]) -> Remedy:
         and abs(other.load - one.load) <= SAME_LOAD * one.load
         and abs(other.speed - one.speed) <= _NEAR * one.speed
     ]
-    if not near:
+    return min(near, key=lambda speed: abs(speed - one.speed), default=None)
+
+
+def _at_other_speed(speed: float | None) -> Remedy:
+    if speed is None:
         return Remedy("")
-    speed = min(near, key=lambda speed: abs(speed - one.speed))
     noted = f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger "
     return noted + setting(*SPEED_TOLERANCE) + " joins them)"
 
@@ -178,12 +181,13 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
     first = poor[0]
     missing = [words for signs, words in _WORDS.items() if signs not in first.signs]
     rolls = not np.any(first.slip_sign)
+    other = None if rolls else _other_speed(first, poor)
     known = zeros.covers(first)
     advice = Remedy(f"; measure also {' or '.join(missing)}")
     if rolls:
         advice = Remedy("; measure also with the velocities of disc and ball reversed")
     else:
-        advice += _at_other_speeds(first, poor)
+        advice += _at_other_speed(other)
     unknowns = ["the force cell's zero"] * (not known) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
     separated = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if not known:
@@ -200,5 +204,11 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
         f"{where(poor, total)} {because}{unclear}{leaving}",
         remedy=advice + ".",
         # signs of u_disc and of u_disc − u_ball
-        values={"missing": [list(signs) for signs in _WORDS if signs not in first.signs], "pure_rolling": rolls},
+        values={
+            "missing": [list(signs) for signs in _WORDS if signs not in first.signs],
+            "pure_rolling": rolls,
+            "other_speed": other,
+            "conditions": len(poor),
+            "of": total,
+        },
     )

@@ -92,6 +92,12 @@ class Uneven:
                     "speed-differs",
                     f"{place} the disc's speed differs by up to {largest:.2g} % between directions of slip; the "
                     f"change of viscoelastic friction between them {what}.",
+                    values={
+                        "conditions": len(found),
+                        "of": len(groups),
+                        "difference": 0.01 * largest,
+                        "removed": taken,
+                    },
                 )
             )
         return notes

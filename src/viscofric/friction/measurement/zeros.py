@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.units import Quantity, to_si
+from viscofric.units import Quantity, shown_number, to_si
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Integers
@@ -126,12 +126,19 @@ class Zeros:
                 Note(
                     "recorded-zero",
                     f"{where}, of one recording, whose error is not in the standard errors of viscoelastic friction.",
+                    values={"conditions": len(used), "of": len(groups), "recordings": self.recordings.size},
                 )
             ]
         note = Note(
             "recorded-zero",
             f"{where}, whose {self.recordings.size} recordings scatter by {self.error:.2g} N "
             f"({self.error / load:.2g} of the load); this is in the standard errors of viscoelastic friction.",
+            values={
+                "conditions": len(used),
+                "of": len(groups),
+                "recordings": self.recordings.size,
+                "error": self.error,
+            },
         )
         return [note]
 
@@ -139,12 +146,13 @@ class Zeros:
         """Return a note on recordings that drift."""
         if not wanders(self.recordings):
             return []
-        first, last = self.recordings[0], self.recordings[-1]
+        first, last = float(self.recordings[0]), float(self.recordings[-1])
         span = float(np.ptp(self.recordings))
         note = Note(
             "recorded-zero-drifts",
-            f"The recorded zero of the force cell drifts, from {first:.3g} N at first to {last:.3g} N at last, within "
-            f"{span:.2g} N ({span / load:.2g} of the load).",
+            f"The recorded zero of the force cell drifts, from {shown_number(first, '.3g')} N at first to "
+            f"{shown_number(last, '.3g')} N at last, within {span:.2g} N ({span / load:.2g} of the load).",
+            values={"first": first, "last": last, "span": span, "of_load": span / load},
         )
         return [note]
 
@@ -176,8 +184,9 @@ def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> l
         return []
     sentence = Note(
         "given-zero-contradicted",
-        f"The given zero of the force cell, {given:.3g} N, is used, though the configurations at {fitted.size} "
-        f"conditions give another one, {mean:.3g} ± {error:.1g} N.",
+        f"The given zero of the force cell, {shown_number(given, '.3g')} N, is used, though the configurations at "
+        f"{fitted.size} conditions give another one, {shown_number(mean, '.3g')} ± {error:.1g} N.",
+        values={"given": given, "fitted": mean, "error": float(error), "conditions": fitted.size},
     )
     return [sentence]
 

@@ -51,6 +51,7 @@ class Collapse:
             "curves-coincide",
             f"Curves of neighbouring temperatures coincide to {100 * self.rms:.2g} % (root mean square over "
             f"{self.points} points) where they overlap in reduced speed{errors}.",
+            values={"rms": self.rms, "points": self.points, "expected": self.error},
         )
 
 

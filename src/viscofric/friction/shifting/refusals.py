@@ -81,6 +81,7 @@ class Doubts:
             Note(
                 LEFT_OUT,
                 f"The friction curve at {shown(self.isotherms[place])} was left out: {self._reason(place, members)}.",
+                values={"temperature": float(self.isotherms[place].temperature)},
             )
             for place in range(len(self.isotherms))
             if place not in members
@@ -110,6 +111,7 @@ def too_flat(isotherms: Sequence[FrictionIsotherm]) -> Note:
         "curves-too-flat",
         f"friction curves at {_listed(isotherms)} are too flat: friction changes too little with speed for its errors, "
         "so that any shift factor fits.",
+        values={"temperatures": [float(one.temperature) for one in isotherms]},
     )
 
 

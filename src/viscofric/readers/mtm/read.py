@@ -119,9 +119,10 @@ def read_mtm(
     Found in the exports of one ETM (20 500 rows with ``TF1`` and ``TF2`` in 500 steps) and one MTM: the printed
     sliding speed is that of the disc less that of the ball; forces are positive where the disc is faster, so that
     Coulomb friction follows ``sgn(u_disc - u_ball)`` as `TractionRuns` wants it (a file in which it does not is turned
-    round, with a note); and the zero reading of the force cell seems not to have been taken off ``TF1`` and ``TF2``:
-    from step to step their half-sum changes by 0.0 ± 0.2 times the scatter of the zero reading, where it would be -0.9
-    if it had and the scatter is that of the reading.
+    round, with a note); and the zero reading of the force cell seems not to have been taken off ``TF1`` and ``TF2``.
+    The change of their half-sum from each step to the next has the slope 0.0 ± 0.2 against the change of the zero
+    reading, by linear regression.  If it had been taken off, and the zero reading changes by its own errors, the slope
+    would be −0.9.
 
     Assumed, since no sample shows it: that the zero reading is still in ``Traction Force`` where there is no ``TF1``,
     and that in ``TF3`` and ``TF4`` disc and ball run backwards although their speeds may be printed without sign.
