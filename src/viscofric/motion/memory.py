@@ -1,0 +1,202 @@
+"""Memory of a viscoelastic solid, advanced exactly over steps of any length.
+
+The displacement operator of unit compliance, G, and the pressure p give ::
+
+    u = G [p/E_inf + Σ C_k q_k],      dq_k/dt = (p − q_k)/τ_k      at a fixed point of the solid.
+
+The fields q_k are delayed pressures.  They are zero where there never was a contact, and equal to p after an infinite
+rest.  Seen from an indenter at position s, a wave exp(iq·x) of q_k also turns by q·ds.  A step during which p changes
+linearly is exact [1]_: with κ = Δt/τ_k and z = −κ + iq·Δs, ::
+
+    q(t + Δt) = e^z q(t) + κ (φ1 − φ2) p(t) + κ φ2 p(t + Δt),      φ1 = (e^z − 1)/z,   φ2 = (φ1 − 1)/z.
+
+Where the temperature changes, Δt is the time of a clock that runs with the shift factor.
+
+.. [1] M. Hochbruck, A. Ostermann, Acta Numer. 19 (2010) 209, doi:10.1017/S0962492910000048: exponential integrators.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from viscofric.arrays import Array, ComplexArray
+
+
+# |z| below which φ1 and φ2 are summed as power series, and the number of terms: 0.3¹²/14! is below rounding.
+_SERIES_BELOW, _TERMS = 0.3, 12
+# Times at which merged modes are compared with all of them: so many for each factor of ten.
+_SAMPLES_PER_DECADE = 12
+
+
+def phi(z: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return φ1(z) = (e^z − 1)/z and φ2(z) = (φ1(z) − 1)/z to rounding, for real or complex z with Re z ≤ 0."""
+    z = np.asarray(z)
+    small = np.abs(z) < _SERIES_BELOW
+    safe = np.where(small, 1.0, z)
+    first = (np.exp(safe) - 1.0) / safe
+    second = (first - 1.0) / safe
+    if small.any():
+        near = np.where(small, z, 0.0)
+        # φ2 = Σ z^n/(n + 2)!, by Horner's rule; φ1 = 1 + z φ2.
+        series = np.full_like(near, 1.0 / math.factorial(_TERMS + 2))
+        for power in range(_TERMS - 1, -1, -1):
+            series = series * near + 1.0 / math.factorial(power + 2)
+        first = np.where(small, 1.0 + near * series, first)
+        second = np.where(small, series, second)
+    return first, second
+
+
+class StepCoefficients(NamedTuple):
+    """q(t + Δt) = decay q(t) + start p(t) + end p(t + Δt)."""
+
+    decay: NDArray[Any]
+    start: NDArray[Any]
+    end: NDArray[Any]
+
+
+def step_coefficients(steps: ArrayLike, turn: ArrayLike = 0.0) -> StepCoefficients:
+    """Return the exact coefficients of a step.
+
+    `steps` are κ = Δt/τ, not below zero; zero is a jump, after which q is what it was.  `turn` is q·Δs in the
+    indenter's frame, zero in the solid's; both broadcast.  The coefficients are real without `turn`.
+    """
+    kappa, angle = np.asarray(steps, dtype=np.float64), np.asarray(turn, dtype=np.float64)
+    z = -kappa + 1j * angle if np.any(angle != 0.0) else np.broadcast_to(-kappa, np.broadcast(kappa, angle).shape)
+    first, second = phi(z)
+    return StepCoefficients(np.exp(z), kappa * (first - second), kappa * second)
+
+
+class Spectrum(Protocol):
+    """A retardation spectrum: J(t) = 1/E_inf + Σ C_k (1 − exp(−t/τ_k))."""
+
+    @property
+    def E_inf(self) -> float:
+        """Glass modulus, Pa."""
+
+    @property
+    def C(self) -> Array:
+        """Compliance of each mode, 1/Pa."""
+
+    @property
+    def tau(self) -> Array:
+        """Retardation times, s."""
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Modes whose fields are kept: those of a spectrum, some of them merged.
+
+    It has what a steady contact needs of a spectrum.
+    """
+
+    instantaneous: float  # compliance that follows at once, 1/Pa; the glassy one and that of modes without a field
+    C: Array  # (n,) compliance of each mode, 1/Pa
+    tau: Array  # (n,) retardation times, s, rising
+    error: float = 0.0  # bound on the error of the creep compliance by merging, relative to it
+
+    @classmethod
+    def of(cls, spectrum: Spectrum) -> Modes:
+        """Return all modes of a spectrum that have a compliance, none merged."""
+        used = np.flatnonzero(spectrum.C > 0.0)
+        order = used[np.argsort(spectrum.tau[used])]
+        return cls(1.0 / spectrum.E_inf, spectrum.C[order].copy(), spectrum.tau[order].copy())
+
+    @classmethod
+    def for_history(cls, spectrum: Spectrum, shortest_time: float, whole_duration: float, error: float = 1e-5) -> Modes:
+        """Return few modes that respond in the same way to all that happens within a history.
+
+        `shortest_time` is the least time in which the pressure on a point of the solid changes noticeably: the
+        shortest step, or the time in which a sliding contact passes a cell, if that is less.  Much faster modes follow
+        the pressure at once or share one field; modes much slower than `whole_duration` share another.  `error` bounds
+        what that changes: of the creep compliance J(t) from `shortest_time` to `whole_duration`, relative to J(t), and
+        of the complex compliance S(ω) from 1/`whole_duration` to 1/`shortest_time`, relative to |S|.
+        """
+        every = cls.of(spectrum)
+        reference = _Response.of(every, shortest_time, whole_duration)
+        best, counts = every, [0, 0, 0]
+        # Each kind of merging gets a third of the error.
+        for kind in range(3):
+            while sum(counts) < len(every):
+                counts[kind] += 1
+                merged = _merged(every, *counts)
+                away = reference.error(merged)
+                if away > error * (kind + 1) / 3.0:
+                    counts[kind] -= 1
+                    break
+                best = replace(merged, error=away)
+        return best
+
+    def __len__(self) -> int:
+        return len(self.C)
+
+    @property
+    def E_inf(self) -> float:
+        """Modulus of what follows at once, Pa."""
+        return 1.0 / self.instantaneous
+
+    @property
+    def relaxed(self) -> float:
+        """Compliance after an infinite time, 1/E0, 1/Pa."""
+        return self.instantaneous + float(self.C.sum())
+
+    def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
+        """Return S(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
+        omega = np.asarray(angular_frequency, dtype=np.float64)
+        total = np.full(omega.shape, self.instantaneous, dtype=complex)
+        for compliance, time in zip(self.C, self.tau, strict=True):
+            total += compliance / (1.0 + 1j * omega * time)
+        return total
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """Return J(t), 1/Pa, in the shape of `time` (s, not below zero)."""
+        elapsed = np.asarray(time, dtype=np.float64)[..., None]
+        return np.asarray(self.instantaneous - np.expm1(-elapsed / self.tau) @ self.C)
+
+
+def _merged(every: Modes, at_once: int, fast: int, slow: int) -> Modes:
+    """Return modes of which the fastest ones follow at once, the next share a field, and the slowest share another.
+
+    The common time of fast modes has the same loss at low frequencies, that of slow ones the same rate of creep at
+    first; both have the same compliance in the end.
+    """
+    C, tau = every.C, every.tau
+    first, last = at_once + fast, len(every) - slow
+    one_C, one_tau = [C[first:last]], [tau[first:last]]
+    if fast:
+        part = slice(at_once, first)
+        one_C.insert(0, C[part].sum(keepdims=True))
+        one_tau.insert(0, C[part] @ tau[part] / one_C[0])
+    if slow:
+        part = slice(last, None)
+        one_C.append(C[part].sum(keepdims=True))
+        one_tau.append(one_C[-1] / (C[part] @ (1.0 / tau[part])))
+    instantaneous = every.instantaneous + float(C[:at_once].sum())
+    return Modes(instantaneous, np.concatenate(one_C), np.concatenate(one_tau))
+
+
+@dataclass(frozen=True, eq=False)
+class _Response:
+    """Creep and complex compliance over the times of a history."""
+
+    times: Array
+    creep: Array
+    dynamic: ComplexArray
+
+    @classmethod
+    def of(cls, modes: Modes, shortest: float, longest: float) -> _Response:
+        decades = math.log10(longest / shortest)
+        times = np.geomspace(shortest, longest, 2 + math.ceil(_SAMPLES_PER_DECADE * decades))
+        return cls(times, modes.creep_compliance(times), modes.compliance(1.0 / times))
+
+    def error(self, other: Modes) -> float:
+        """Return the largest relative difference of other modes."""
+        creep = np.abs(other.creep_compliance(self.times) / self.creep - 1.0).max()
+        dynamic = np.abs(other.compliance(1.0 / self.times) / self.dynamic - 1.0).max()
+        return float(max(creep, dynamic))
