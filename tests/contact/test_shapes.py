@@ -363,18 +363,22 @@ def test_contact_beyond_the_height_map_is_refused() -> None:
 @pytest.mark.parametrize(
     ("indenter", "arguments", "reported"),
     [
-        (Cone("20 deg"), {"load": LOAD}, "0.36"),
-        (Ellipsoid(BALL_RADIUS, 0.1 * BALL_RADIUS), {"load": 10.0 * LOAD}, "rises by"),
-        (PUNCH, {"indentation": 0.4 * HERTZ_RADIUS}, "0.40"),
-        (HeightMap(rough_map() * 15.0, MAP_STEP), {"load": LOAD}, "rises by"),
+        (Cone("20 deg"), {"load": LOAD}, ("slope", 0.36)),
+        (Ellipsoid(BALL_RADIUS, 0.1 * BALL_RADIUS), {"load": 10.0 * LOAD}, ("slope", None)),
+        (PUNCH, {"indentation": 0.4 * HERTZ_RADIUS}, ("slope", 0.4)),
+        (HeightMap(rough_map() * 15.0, MAP_STEP), {"load": LOAD}, ("slope", None)),
     ],
     ids=["cone", "ellipsoid", "punch", "map"],
 )
-def test_steep_indenters_are_a_warning(indenter: Indenter, arguments: dict[str, float], reported: str) -> None:
+def test_steep_indenters_are_a_warning(
+    indenter: Indenter, arguments: dict[str, float], reported: tuple[str, float | None]
+) -> None:
     solution = solve_steady(RUBBER, indenter, speed=0.0, **arguments)
-    assert len(solution.warnings) == 1
-    assert reported in solution.warnings[0]
-    assert "small strain" in solution.warnings[0]
+    (warning,) = solution.warnings
+    assert warning.code == "large-strain"
+    name, size = reported
+    assert warning.values[name] > warning.values["limit"] == 0.3
+    assert size is None or warning.values[name] == pytest.approx(size, abs=5e-3)
 
 
 def test_gentle_indenters_are_none() -> None:

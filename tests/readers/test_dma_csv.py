@@ -95,8 +95,10 @@ def test_many_isotherms_share_one_note(tmp_path):
     rows = [f"{temperature},{f},5,0.5" for temperature in (0.04, -0.04, 10, 20, 30, 40) for f in (2, 1, 1)]
     rows[:6] = ["-0.04,2,5,0.5", "-0.04,1,5,0.5", "-0.04,1,5,0.5"]
     notes = read_dma(write(tmp_path, HEADER, *rows)).notes
-    assert noted(notes, "sorted", "at 0.0, 10.0, 20.0 °C and 2 more temperatures")
-    assert noted(notes, "averaged", "5 repeated frequencies at 0.0, 10.0, 20.0 °C and 2 more temperatures")
+    (by_frequency,), (averaged,) = noted(notes, "sorted"), noted(notes, "averaged")
+    kelvin = pytest.approx(273.15 + np.array([0.0, 10.0, 20.0, 30.0, 40.0]), abs=0.05)
+    assert by_frequency.values["temperatures"] == averaged.values["temperatures"] == kelvin
+    assert averaged.values["repeated"] == 5
 
 
 def test_two_columns_of_frequency_must_agree(tmp_path):

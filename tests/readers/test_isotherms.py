@@ -206,7 +206,9 @@ def test_strain_amplitudes_that_differ_between_isotherms_are_reported():
     same, differing = np.full(27, 1e-3), np.repeat([1e-3, 2e-3, 5e-3], 9)
     assert notes_with(isothermal_sweeps([readings(celsius, hertz, strain_amplitude=same)]), "amplitudes-differ") == []
     sweeps = isothermal_sweeps([readings(celsius, hertz, strain_amplitude=differing)])
-    assert "from 0.1 % at 20.0 °C to 0.5 % at 40.0 °C" in notes_with(sweeps, "amplitudes-differ")[0]
+    (differ, *_) = notes_with(sweeps, "amplitudes-differ")
+    assert [differ.values[name] for name in ("least", "most")] == pytest.approx([1e-3, 5e-3])
+    assert [differ.values[name] for name in ("least_at", "most_at")] == pytest.approx([293.15, 313.15], abs=0.05)
     assert sweeps.isotherms[2].strain_amplitude == pytest.approx(np.full(9, 5e-3))
 
 
@@ -232,7 +234,7 @@ def test_files_that_contradict_each_other_are_refused():
 
 def test_notes_that_files_share_stand_once():
     files = [readings(np.full(9, T), FREQUENCIES, source=f"{T:g}.txt", notes=("Odd.",)) for T in (10.0, 20.0, 30.0)]
-    assert [note for note in isothermal_sweeps(files).notes if "Odd" in note] == ["All files: Odd."]
+    assert [note.where for note in isothermal_sweeps(files).notes if note.text == "Odd."] == ["All files"]
 
 
 def test_nothing_at_all_is_refused():

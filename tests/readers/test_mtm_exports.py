@@ -170,7 +170,7 @@ def test_a_test_that_was_aborted_is_reported(tmp_path):
     text = text.replace("completed:\t5", "completed:\t4")
     runs = read_mtm(pcs.write(tmp_path, text.split("\n")))
     assert "Test aborted by user" in note(runs, "aborted").values["remark"]
-    assert noted(runs.notes, "steps-missing", "4 of the 5 steps")
+    assert {"completed": 4, "planned": 5} in [note.values for note in noted(runs.notes, "steps-missing")]
 
 
 def test_the_thermometer_can_be_chosen(tmp_path, mtm):

@@ -30,14 +30,14 @@ def test_a_torn_or_unknown_binary_file_is_refused_with_what_to_do(tmp_path):
     whole = pcs_binary.write(tmp_path).read_bytes()
     path = tmp_path / "torn.mtmd"
     path.write_bytes(whole[:-20])
-    with refused("damaged", None, "as text"):
+    with refused("damaged"):
         read_mtm(path)
     head = pcs_binary.header(1)
     path.write_bytes(head + pcs_binary.step(7, "bidirectional", pcs_binary.with_ecr(pcs_binary.PAIRS)))
-    with refused("damaged", None, "as text"):
+    with refused("damaged"):
         read_mtm(path)
     path.write_bytes(b"\x07" + whole[1:])
-    with refused("unknown-format", None, "as text"):
+    with refused("unknown-format"):
         read_mtm(path)
 
 

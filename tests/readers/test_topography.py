@@ -45,7 +45,8 @@ def test_a_matrix_of_heights_is_read_however_its_cells_are_parted(tmp_path, betw
     np.testing.assert_allclose(found.heights, 1e-6 * HEIGHTS, rtol=1e-15)
     assert found.spacing == pytest.approx((2e-6, 3e-6), rel=1e-15)
     assert found.name == "scan"
-    assert found.history == ("read from scan.csv (text matrix)",)
+    assert codes(found.history) == set()
+    assert len(found.history) == 1
 
 
 def test_lines_of_an_image_may_follow_one_another_along_y(tmp_path):
@@ -95,10 +96,10 @@ def test_points_without_headings_are_distinguished_from_a_matrix_by_the_spacing(
 
 def test_metres_are_taken_for_what_has_no_unit_and_that_is_reported(tmp_path):
     points = write(tmp_path, "0,1e-6\n1e-5,2e-6\n2e-5,0\n")
-    assert vf.read_topography(points).history[1:] == ("positions and heights assumed to be in m",)
+    assert vf.read_topography(points).history[1].code == "unit-assumed"
     matrix = write(tmp_path, matrix_text())
     taken, *doubt = vf.read_topography(matrix, spacing="1 um").history[1:]
-    assert taken == "heights assumed to be in m"
+    assert (taken.code, taken.values) == ("unit-assumed", {"unit": "m"})
     assert codes(doubt) == {"implausible-heights"}  # of metres
     assert vf.read_topography(matrix, spacing="1 um", unit="nm").history[1:] == ()
 
@@ -109,7 +110,8 @@ def test_a_line_scan_with_uneven_positions_is_interpolated_and_says_so(tmp_path)
     found = vf.read_topography(write(tmp_path, text))
     assert found.is_line
     np.testing.assert_allclose(found.heights[:, 0], 3e-6 * np.arange(6.0), atol=1e-18)
-    assert found.history[1] == "5 uneven positions interpolated linearly onto 6 even ones"
+    assert found.history[1].code == "positions-interpolated"
+    assert found.history[1].values == {"positions": 5, "even": 6}
 
 
 def test_missing_heights_are_reported_by_words_or_by_a_number(tmp_path):

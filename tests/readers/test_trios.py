@@ -48,7 +48,7 @@ def test_genuine_frequency_sweep_among_other_techniques(real_data):
     readings = read(real_data / "instruments/trios/multi_technique_LIMS.txt")
     assert len(readings) == 29
     assert readings.deformation == "shear"
-    assert readings.said_by == "the column 'Oscillation torque', as only a rotational rheometer writes it"
+    assert "'Oscillation torque'" in readings.said_by
     assert set(readings.step) == {2}
     # the numbers of lines 204 and 205 of the file, MPa and % there
     assert readings.places[:2] == ("line 204", "line 205")
@@ -68,7 +68,7 @@ def test_genuine_flow_curves_are_refused_with_what_they_hold(real_data):
 
 
 def test_genuine_strain_sweep_in_json_is_refused_with_what_it_holds(real_data):
-    with refused("no-frequency-sweep", None, "'Amplitude - 1', with moduli, but not over frequency"):
+    with refused("no-frequency-sweep", None, "'Amplitude - 1'"):
         read(real_data / "instruments/trios/tadatakit_dataset.json")
 
 
@@ -258,7 +258,7 @@ def test_json_of_original_results_needs_no_note_and_goes_before_processed_ones(t
     assert len(processed.notes) == len(noted(processed.notes, "processed-results")) == 1
     both["Results"]["Original"]["Classification"] = {"Id": "Transformed", "Description": "Data resulting from a change"}
     path.write_text(json.dumps(both), encoding="utf-8")
-    assert "'Data resulting from a change'" in read(path).notes[0]
+    assert read(path).notes[0].values == {"description": "Data resulting from a change"}
 
 
 def test_json_may_lack_what_the_schema_requires(tmp_path):

@@ -248,7 +248,7 @@ def test_more_cells_than_any_measurement_are_refused(monkeypatch, tmp_path):
     monkeypatch.setattr(sys, "stdin", Stream(one_sheet(tmp_path).read_bytes()))
     monkeypatch.setattr(sys, "stdout", answer)
     parse_workbook.main()
-    assert "far more than a workbook of measurements" in json.loads(answer.getvalue())["problem"]
+    assert json.loads(answer.getvalue())["code"] == "too-large"
 
 
 @pytest.mark.parametrize("python", ["", "/no/such/python"])

@@ -87,7 +87,7 @@ def test_a_change_of_modulus_alone_is_mended_by_a_vertical_shift():
     measured = sweeps(strongly_shifted, 0.01, celsius=CELSIUS[2:])
     without = check_superposition(vf.superpose(measured, "30 degC"))
     assert not without.holds
-    assert "a free vertical shift may correct" in without.sentences[0]
+    assert not without.sentences[0].values["vertical_shift"]
     mended = check_superposition(vf.superpose(measured, "30 degC", vertical="free"))
     assert mended.holds
     assert mended.between < 0.3 * without.between

@@ -114,9 +114,8 @@ def test_points_of_a_master_curve_that_lie_together_are_averaged():
     )
     assert one.storage_modulus_values == pytest.approx([2e6, 5e6, 6e6])  # (1 · 4 · 2)^(1/3): the geometric mean
     assert one.angular_frequency == pytest.approx([1.02 ** (1 / 3), 10.0, 100.0])
-    assert one.notes == (
-        "5 points of the master curve were averaged to 3, those within 0.05 decade of frequency together.",
-    )
+    (note,) = one.notes
+    assert (note.code, note.values) == ("points-averaged", {"points": 5, "averaged": 3, "decades": 0.05})
 
 
 def test_a_dense_master_curve_is_not_averaged_into_one_point():

@@ -206,7 +206,9 @@ def test_a_factor_corrected_by_hand_is_what_it_was_given():
     assert changed.standard_errors[2] == pytest.approx(0.05)
     assert changed.covariance[2, [0, 1, 3]] == pytest.approx(0.0)
     assert changed.covariance[np.ix_([0, 3], [0, 3])] == pytest.approx(table.covariance[np.ix_([0, 3], [0, 3])])
-    assert changed.notes == ("The shift factor at 60.0 °C was corrected by hand, from log10 α = −1.5 to −1.7.",)
+    (note,) = changed.notes
+    assert note.code == "corrected-by-hand"
+    assert note.values == {"temperature": 333.15, "before": pytest.approx(-1.5), "after": -1.7}
     assert changed.at_reference("0 degC").notes == changed.notes
     between = table.at_reference("45 degC")
     corrected = between.with_value("60 degC", -0.9)

@@ -142,5 +142,5 @@ def test_steps_do_what_the_topography_does() -> None:
         assert (found.spacing, found.periodic, found.history) == (wanted.spacing, wanted.periodic, wanted.history)
     piece = step_of("periodic")(one.crop(x=("0 um", "20 um")))
     assert piece.periodic
-    assert piece.history[-1] == "taken as one period of the surface"
+    assert piece.history[-1].code == "taken-as-period"
     assert {next(name for name in STEPS if words.startswith(name)) for words in [*expected, "periodic"]} == set(STEPS)

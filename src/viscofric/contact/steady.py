@@ -355,5 +355,6 @@ def _beyond_table(
         "beyond-table",
         f"The contact's frequency v/a, {frequency:.3g} rad/s, lies beyond those of the table, {low:.3g} to {high:.3g} "
         "rad/s at this temperature: the friction rests on the extrapolated modes.",
+        values={"frequency": float(frequency), "low": float(low), "high": float(high)},
     )
     return (note,)

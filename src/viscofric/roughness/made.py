@@ -12,6 +12,7 @@ import scipy.fft
 from viscofric.arguments import check_cost, flag, numbers, whole_number
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note
 from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum, hurst_exponent, wanted_rms
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, positive, to_si, two_lengths
@@ -122,7 +123,10 @@ def self_affine(
     rms = f"rms height {wanted:.4g} m" if order == 0.0 else f"rms slope {wanted:.4g}"
     history = f"made: self-affine, Hurst exponent {H:g}, wavelengths {long:.4g} to {short:.4g} m, "
     history += f"roll-off {roll:.4g} m, {rms}{'' if exact else ' in the mean'}, {waves.description}"
-    return Topography(heights, steps, periodic=True, name=f"self-affine, seed {seed}", history=(history,))
+    made = {"hurst": H, "longest": long, "shortest": short, "rolloff": roll, "seed": seed, "exact": exact}
+    return Topography(
+        heights, steps, periodic=True, name=f"self-affine, seed {seed}", history=(Note("made", history, values=made),)
+    )
 
 
 def surface_from_spectrum(
@@ -187,7 +191,14 @@ def surface_from_spectrum(
         raise InputError("the spectrum has no wave between the period and two points of the grid.", code="no-wave")
     heights = scipy.fft.irfft2(waves.series(spectrum, exact), points, norm="forward")
     history = f"made: from a power spectrum{'' if exact else ', amplitudes in the mean'}, {waves.description}"
-    return Topography(heights, steps, periodic=True, name=f"from a spectrum, seed {seed}", history=(history,))
+    made = {"seed": seed, "exact": exact}
+    return Topography(
+        heights,
+        steps,
+        periodic=True,
+        name=f"from a spectrum, seed {seed}",
+        history=(Note("made", history, values=made),),
+    )
 
 
 def _grid(

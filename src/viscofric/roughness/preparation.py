@@ -11,6 +11,7 @@ from viscofric.contact.free.geometry import LINE
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, brief, check_choice
+from viscofric.notes import Note
 from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ _TOLD = {
 _DEGREES = {"mean": 0, "tilt": 1, "curvature": 2}
 
 
-def without_trend(heights: Array, what: str) -> tuple[Array, str]:
+def without_trend(heights: Array, what: str) -> tuple[Array, Note]:
     """Return heights less a least-squares polynomial of degree 0, 1 or 2 in x and y, and what was done."""
     check_choice(what, "what", *_DEGREES)
     known = ~np.isnan(heights)
@@ -47,7 +48,7 @@ def without_trend(heights: Array, what: str) -> tuple[Array, str]:
     )
     terms = np.linalg.lstsq(matrix, right, rcond=None)[0]
     trend = sum(term * np.multiply.outer(along[:, i], across[:, j]) for term, (i, j) in zip(terms, pairs, strict=True))
-    return np.asarray(heights - trend), _TOLD[what]
+    return np.asarray(heights - trend), Note(f"{what}-removed", _TOLD[what])
 
 
 def tapered(heights: Array, edge: float) -> Array:
@@ -72,9 +73,9 @@ def cropped(
     spacing: tuple[float, float],
     x: tuple[Quantity, Quantity] | None,
     y: tuple[Quantity, Quantity] | None,
-) -> tuple[Array, str]:
+) -> tuple[Array, Note]:
     """Return the heights between two positions along each axis, and what was done."""
-    cut, steps = [], []
+    cut, steps, values = [], [], {}
     for axis, given in (("x", x), ("y", y)):
         points, step = heights.shape["xy".index(axis)], spacing["xy".index(axis)]
         if given is None:
@@ -97,7 +98,8 @@ def cropped(
             )
         cut.append(slice(start, stop))
         steps.append(f"{axis} from {start * step:.4g} to {(stop - 1) * step:.4g} m")
-    return heights[cut[0], cut[1]].copy(), f"cropped: {', '.join(steps) or 'nothing'}"
+        values[axis] = [start * step, (stop - 1) * step]
+    return heights[cut[0], cut[1]].copy(), Note("cropped", f"cropped: {', '.join(steps) or 'nothing'}", values=values)
 
 
 def resampled(

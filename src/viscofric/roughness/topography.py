@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arguments import check_cost, flag, numbers, sentences, text
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
+from viscofric.notes import Note
 from viscofric.roughness import preparation, waves
 from viscofric.units import Quantity, two_lengths
 
@@ -159,7 +160,7 @@ class Topography:
     def _noun(self) -> str:
         return f"topography {self.name!r}" if self.name else "topography"
 
-    def _with(self, heights: Array, step: str, **changed: object) -> Topography:
+    def _with(self, heights: Array, step: Note, **changed: object) -> Topography:
         return replace(self, heights=heights, history=(*self.history, step), **changed)  # type: ignore[arg-type]
 
     def fill(self, method: Literal["harmonic", "nearest"] = "harmonic") -> Topography:
@@ -181,7 +182,8 @@ class Topography:
             return self
         filled = preparation.filled(self.heights, self.spacing, self.periodic, method)
         share = 100.0 * self.missing / self.heights.size
-        return self._with(filled, f"{self.missing} missing heights ({share:.2g} %) filled: {method}")
+        said = f"{self.missing} missing heights ({share:.2g} %) filled: {method}"
+        return self._with(filled, Note("filled", said, values={"heights": self.missing, "method": method}))
 
     def remove(self, what: Literal["mean", "tilt", "curvature"]) -> Topography:
         """Subtract the mean height, the least-squares plane, or the least-squares paraboloid (all terms to x², xy, y²).
@@ -219,7 +221,8 @@ class Topography:
         within.  `mirror` leaves the statistics as they are.
         """
         heights = preparation.tapered(self.complete(), edge)
-        return self._with(heights, f"windowed: heights fall to their mean over {edge:g} of each length", periodic=True)
+        said = f"windowed: heights fall to their mean over {edge:g} of each length"
+        return self._with(heights, Note("windowed", said, values={"edge": edge}), periodic=True)
 
     def mirror(self) -> Topography:
         """Append the mirror images of the surface, so that it is periodic without steps and without new heights.
@@ -232,7 +235,7 @@ class Topography:
         z = self.complete()
         for axis in (0,) if self.is_line else (0, 1):
             z = np.concatenate([z, np.flip(z, axis)], axis)
-        return self._with(z, "mirrored: extended by its mirror images", periodic=True)
+        return self._with(z, Note("mirrored", "mirrored: extended by its mirror images"), periodic=True)
 
     def crop(
         self, x: tuple[Quantity, Quantity] | None = None, y: tuple[Quantity, Quantity] | None = None
@@ -276,7 +279,8 @@ class Topography:
         change = waves.resampled if self.periodic else preparation.resampled
         heights, found = change(self.complete(), self.spacing, wanted)
         points = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))
-        return self._with(heights, f"resampled to {points} points, {found[0]:.4g} m apart along x", spacing=found)
+        said = f"resampled to {points} points, {found[0]:.4g} m apart along x"
+        return self._with(heights, Note("resampled", said, values={"spacing": [*found]}), spacing=found)
 
     def keep_wavelengths(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> Topography:
         """Leave out waves that are shorter or longer (low-, high- or band-pass, sharp in Fourier space).
@@ -302,7 +306,7 @@ class Topography:
 
     def inverted(self) -> Topography:
         """Exchange summits and valleys, as in a cast of the surface."""
-        return self._with(-self.heights, "inverted: summits become valleys")
+        return self._with(-self.heights, Note("inverted", "inverted: summits become valleys"))
 
     def along_y(self) -> Topography:
         """Exchange x and y, so that the motion along x goes along what was y.
@@ -315,7 +319,7 @@ class Topography:
         heights, spacing = np.array(self.heights.T), (self.spacing[1], self.spacing[0])
         if self.is_line:
             raise InputError(f"{self._noun} is a line scan; its other axis has one point only.", code="line-scan")
-        return self._with(heights, "x and y exchanged", spacing=spacing)
+        return self._with(heights, Note("exchanged", "x and y exchanged"), spacing=spacing)
 
     def to_surface(self) -> PeriodicSurface:
         """Return it as the rigid surface of `solve_periodic`.

@@ -9,6 +9,7 @@ import scipy.fft
 
 from viscofric.contact.periodic.surface import wave_number, without_nyquist
 from viscofric.errors import InputError
+from viscofric.notes import Note
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ def gradient(heights: Array, grid: Gridded) -> tuple[Array, ...]:
 
 def passed(
     heights: Array, spacing: tuple[float, float], shortest: Quantity | None, longest: Quantity | None
-) -> tuple[Array, str]:
+) -> tuple[Array, Note]:
     """Return the waves between two lengths, with the mean height, and what was done."""
     if shortest is None and longest is None:
         raise InputError(
@@ -57,22 +58,25 @@ def passed(
         )
     q = np.hypot(*wave_number((heights.shape[0], heights.shape[1]), spacing))
     keep = q > 0.0
-    bounds = []
+    bounds, values = [], {}
     if longest is not None:
         length = positive(longest, "m", "longest")
         keep &= q >= 2.0 * np.pi / length * (1.0 - _ROUNDING)
         bounds.append(f"longer than {length:.4g} m")
+        values["longest"] = length
     if shortest is not None:
         length = positive(shortest, "m", "shortest")
         keep &= q <= 2.0 * np.pi / length * (1.0 + _ROUNDING)
         bounds.append(f"shorter than {length:.4g} m")
+        values["shortest"] = length
     if not keep.any():
         raise InputError(
             f"shortest = {shortest!r}, longest = {longest!r}: the surface has no wave in between.", code="no-wave"
         )
     keep[0, 0] = True
     series = np.where(keep, scipy.fft.rfft2(heights), 0.0)
-    return scipy.fft.irfft2(series, heights.shape), f"waves left out: {' and '.join(bounds)}"
+    note = Note("waves-left-out", f"waves left out: {' and '.join(bounds)}", values=values)
+    return scipy.fft.irfft2(series, heights.shape), note
 
 
 def resampled(

@@ -79,7 +79,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
         except ConvergenceError as failure:
             if halvings or not goal.errors:
                 raise
-            raise goal.missed("the finest grid that could be solved") from failure
+            raise goal.missed("the finest grid that could be solved", max(coarse.window.shape)) from failure
         if window.cuts(stage.result.pressure > 0.0):
             # The coarse contact was a little too small: start again from a window around the finer one.
             if given.window is not None:
@@ -122,18 +122,20 @@ class _Goal:
         """Raise ConvergenceError where a grid is too fine, or the accuracy cannot be reached even on the finest."""
         cells = max(window.shape)
         if cells > self.finest:
-            raise self.missed(f"the finest grid allowed ({self.finest} cells)")
+            raise self.missed(f"the finest grid allowed ({self.finest} cells)", self.finest)
         halvings = 1 + int(math.log2(self.finest / cells))
         if self.errors and max(self._expected_error(halvings), least_error(stages, halvings)) > self.accuracy:
-            raise self.missed(f"a grid of {cells // 2} cells, and {self.finest} cells will not be enough")
+            words = f"a grid of {cells // 2} cells, and {self.finest} cells will not be enough"
+            raise self.missed(words, cells // 2)
 
-    def missed(self, where: str) -> ConvergenceError:
+    def missed(self, where: str, cells: int) -> ConvergenceError:
         """Return the error to raise."""
         known = self.errors[-1] if self.errors else math.inf
         return ConvergenceError(
             f"the relative error of the friction coefficient is {known:.1e} on {where}; request less accuracy than "
             f"{self.accuracy:g}, or a finer grid.",
             code="accuracy-not-reached",
+            values={"error": known, "accuracy": self.accuracy, "cells": cells},
         )
 
     def _expected_error(self, halvings: int) -> float:

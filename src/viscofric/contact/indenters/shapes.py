@@ -285,4 +285,5 @@ def _too_wide(ratio: float, noun: str) -> Note | None:
         "large-strain",
         f"The contact extends to {ratio:.2f} {noun} radii from the axis; above {SMALL_STRAIN} the assumptions of "
         f"small strain and of a parabolic {noun} are doubtful.",
+        values={"radii": float(ratio), "limit": SMALL_STRAIN},
     )

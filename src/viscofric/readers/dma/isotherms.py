@@ -214,13 +214,16 @@ def _on_order(points: Points, keep: Indices, sweeps: Sequence[Sorted], files: in
     unsorted = [one for one in sweeps if np.any(np.diff(points.angular_frequency[one.rows]) < 0)]
     averaged = [one for one in sweeps if len(one.rows) > len(one.origins)]
     if unsorted:
-        said = f"The rows {at([one.isotherm.temperature for one in unsorted])} were sorted by frequency."
-        notes.append(Note("sorted", said))
+        there = [one.isotherm.temperature for one in unsorted]
+        said = f"The rows {at(there)} were sorted by frequency."
+        notes.append(Note("sorted", said, values={"temperatures": there}))
     if averaged:
         repeated = sum(len(one.rows) - len(one.origins) for one in averaged)
         what = "1 repeated frequency" if repeated == 1 else f"{repeated} repeated frequencies"
         were = "was" if repeated == 1 else "were"
-        notes.append(Note("averaged", f"{what} {at([one.isotherm.temperature for one in averaged])} {were} averaged."))
+        there = [one.isotherm.temperature for one in averaged]
+        values = {"repeated": repeated, "temperatures": there}
+        notes.append(Note("averaged", f"{what} {at(there)} {were} averaged.", values=values))
         again = [one.isotherm.temperature for one in averaged if all(len(rows) > 1 for rows in one.origins)]
         if again:
             said = f"All frequencies {at(again)} were measured more than once, as in repeated sweeps."

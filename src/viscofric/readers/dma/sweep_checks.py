@@ -221,7 +221,8 @@ def of_one_amplitude(points: Points, rows: Indices, source: str) -> tuple[Indice
         f"The strain amplitude runs from {span} {at([kelvin])}; points at about {100 * levels[best]:.3g} % are used, "
     )
     left = f"{len(out)} at other amplitudes are left out ({points.named(out.tolist())})."
-    return np.setdiff1d(rows, out, assume_unique=True), [Note("other-amplitudes", said + left)]
+    values = {"used": float(levels[best]), "points": len(out), "temperature": float(kelvin)}
+    return np.setdiff1d(rows, out, assume_unique=True), [Note("other-amplitudes", said + left, values=values)]
 
 
 def _swept(points: Points, rows: Indices) -> tuple[Array, list[int]]:
@@ -255,7 +256,9 @@ def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:
     (least, at_least), (most, at_most) = (f((float(np.median(one)), T) for one, T in known) for f in (min, max))
     if most > AMPLITUDES_DIFFER * least:
         said = f"The strain amplitudes of the isotherms differ, from {100 * least:.3g} % {at([at_least])} to "
-        notes.append(Note("amplitudes-differ", f"{said}{100 * most:.3g} % {at([at_most])}; {falls}temperature."))
+        values = {"least": least, "least_at": at_least, "most": most, "most_at": at_most}
+        said = f"{said}{100 * most:.3g} % {at([at_most])}; {falls}temperature."
+        notes.append(Note("amplitudes-differ", said, values=values))
     within = [(one, T) for one, T in known if one.max() > AMPLITUDES_DIFFER * one.min()]
     if within:
         widest, where = max(within, key=lambda each: float(each[0].max() / each[0].min()))

@@ -222,9 +222,11 @@ def _unfinished(export: Export) -> Iterator[str]:
         yield Note("cut-short", said, values={"row": export.cut})
     planned, completed = (export.header.get(f"number of steps {what}", "") for what in ("in profile", "completed"))
     if completed.isdecimal() and planned.isdecimal() and planned != completed:
-        yield Note("steps-missing", f"{completed} of the {planned} steps of the profile were completed.")
+        said = f"{completed} of the {planned} steps of the profile were completed."
+        yield Note("steps-missing", said, values={"completed": int(completed), "planned": int(planned)})
     if completed.isdecimal() and completed.lstrip("0") != str(len(export.steps)):
-        yield Note("steps-missing", f"The file states {completed} completed steps, but contains {len(export.steps)}.")
+        said = f"The file states {completed} completed steps, but contains {len(export.steps)}."
+        yield Note("steps-missing", said, values={"completed": int(completed), "contained": len(export.steps)})
     for remark in export.remarks:
         if _ABORTED.search(remark) and "completed normally" not in remark:
             yield Note("aborted", f"The file contains the remark {remark[:120]!r}.", values={"remark": remark[:120]})

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
@@ -99,7 +100,8 @@ def _line(source: Source, points: Array) -> Scan:
         raise DataFileError(source.path, "its positions are too uneven for a grid.", code="no-grid")
     even = x[0] + (np.ptp(x) / (count - 1)) * np.arange(count)
     heights = np.interp(even, x, z)
-    note = f"{len(x)} uneven positions interpolated linearly onto {count} even ones"
+    said = f"{len(x)} uneven positions interpolated linearly onto {count} even ones"
+    note = Note("positions-interpolated", said, values={"positions": len(x), "even": count})
     return Scan(heights[:, None], (float(np.ptp(x)) / (count - 1),) * 2, origin, notes=(note,))
 
 

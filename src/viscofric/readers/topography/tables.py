@@ -11,6 +11,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import LARGEST_FILE, decoded, insist_on_short_text, read_bytes, saved_array
+from viscofric.notes import Note
 from viscofric.readers.table import MISSING
 from viscofric.readers.topography.scan import Scan, ScanOptions, name_of, scan_of_points
 from viscofric.units import conversion
@@ -72,7 +73,11 @@ def read_text_table(source: Source, options: ScanOptions) -> Scan:
     if options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
         factor, _ = conversion(options.unit or "m", "m", "unit")
         found = scan_of_points(source, factor * table.rows, options, table.lines)
-        assumed = () if options.unit else ("positions and heights assumed to be in m",)
+        assumed = (
+            ()
+            if options.unit
+            else (Note("unit-assumed", "positions and heights assumed to be in m", values={"unit": "m"}),)
+        )
         return replace(found, notes=(*found.notes, *assumed))
     return _matrix(source, table.rows, options, table.remarks, "text matrix")
 
@@ -104,7 +109,11 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
             "does not state the spacing of its points; give spacing='5 um', for instance.",
             code="no-spacing",
         )
-    notes = () if options.unit or stated_unit else ("heights assumed to be in m",)
+    notes = (
+        ()
+        if options.unit or stated_unit
+        else (Note("unit-assumed", "heights assumed to be in m", values={"unit": "m"}),)
+    )
     return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=notes)
 
 

@@ -158,11 +158,14 @@ def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material,
             Note(
                 "changed-in-card",
                 f"The Poisson ratio was changed to {solid.poisson_ratio:.6g} in the card, which counts.",
+                values={"poisson_ratio": solid.poisson_ratio},
             )
         )
         stated["poisson_ratio"] = solid.poisson_ratio
     if card.get("shift") and not _same_law(card_law(shift_of(stated.get("shift"))), solid.shift):
-        notes.append(Note("changed-in-card", "The shift was changed in the card, which counts."))
+        notes.append(
+            Note("changed-in-card", "The shift was changed in the card, which counts.", values={"shift": True})
+        )
         stated.pop("shift", None)
         return _with_shift(assembled(solid.spectrum, stated), solid.shift, stated), notes
     return assembled(solid.spectrum, stated), notes

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.arguments import sentences, whole_number
 from viscofric.errors import InputError
-from viscofric.notes import Remedy
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
@@ -246,9 +246,11 @@ class ShiftFactors(ShiftLaw):
             if abs(missing) < _ROUNDING:
                 break
             values[place] += missing
-        note = (
+        note = Note(
+            "corrected-by-hand",
             f"The shift factor at {shown_celsius(float(self.temperatures[place]))} °C was corrected by hand, from "
-            f"log10 α = {shown_number(before, '.4g')} to {shown_number(value, '.4g')}."
+            f"log10 α = {shown_number(before, '.4g')} to {shown_number(value, '.4g')}.",
+            values={"temperature": float(self.temperatures[place]), "before": float(before), "after": float(value)},
         )
         return ShiftFactors(self.temperatures, corrected.log10_values, self.reference, covariance, (*self.notes, note))
 

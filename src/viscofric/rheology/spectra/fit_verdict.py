@@ -276,7 +276,10 @@ def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) -
         )
     elif fit.E_inf_missed:
         also = f" {end[0].upper()}{end[1:]}: the glassy plateau was not measured." if fit.E_inf_extrapolated else ""
-        notes.append(Note("glass-missed", f"{where}: the fit does not follow the stiffest points.{also}"))
+        values = {"E_inf": spectrum.E_inf, "measured": float(stiffest)}
+        notes.append(
+            Note("glass-missed", f"{where}: the fit does not follow the stiffest points.{also}", values=values)
+        )
     elif fit.E_inf_extrapolated:
         notes.append(
             Note(

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.arguments import insist_on, numbers, sentences
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice
+from viscofric.notes import Note
 from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
@@ -147,9 +148,11 @@ class ModulusTable(FrequencyResponse):
             np.exp(np.bincount(place, weights=np.log(values)) / count)
             for values in (master_curve.angular_frequency, master_curve.storage_modulus, master_curve.loss_modulus)
         )
-        note = (
+        note = Note(
+            "points-averaged",
             f"{len(log_omega)} points of the master curve were averaged to {len(count)}, those within "
-            f"{decades:g} decade of frequency together."
+            f"{decades:g} decade of frequency together.",
+            values={"points": len(log_omega), "averaged": len(count), "decades": decades},
         )
         return cls(omega, storage, loss, extrapolate, (note,) if len(count) < len(log_omega) else ())
 
@@ -309,9 +312,11 @@ def what_was_fitted(spectrum: RetardationSpectrum) -> tuple[str, ...]:
     fit = spectrum.fit
     if fit is None or fit.rms_storage is None or fit.rms_loss is None:
         return ()
-    stands = (
+    stands = Note(
+        "modes-fitted",
         f"The material is a table of moduli, to which {fit.modes} retardation modes were fitted: rms errors of "
-        f"{fit.rms_storage:.2g} decades of E' and {fit.rms_loss:.2g} of E''."
+        f"{fit.rms_storage:.2g} decades of E' and {fit.rms_loss:.2g} of E''.",
+        values={"modes": fit.modes, "rms_storage": fit.rms_storage, "rms_loss": fit.rms_loss},
     )
     return (stands, *fit.notes)
 

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arguments import whole_number
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice
+from viscofric.notes import Note
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, judged_jointly, solid_modes
 from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
@@ -210,9 +211,11 @@ def _sparse(
     error = sparse.joint_error(misfit, fitted)
     if error <= limit:
         return fitted, ()
-    note = (
+    note = Note(
+        "error-not-reached",
         f"{len(fitted.C)} modes leave a joint rms error of {error:.3g} decades, above the requested {limit:.3g}; "
-        f"the non-negative spectrum leaves {sparse.joint_error(misfit, dense):.3g}."
+        f"the non-negative spectrum leaves {sparse.joint_error(misfit, dense):.3g}.",
+        values={"modes": len(fitted.C), "error": float(error), "requested": float(limit)},
     )
     return fitted, (note,)
 

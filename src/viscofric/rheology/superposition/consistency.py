@@ -191,7 +191,11 @@ def check(
     verdict = _verdict(neighbours, figure, drifting, unidentified, own)
     headline, *others = _words(verdict, neighbours, figure, ratio, own, drifting, unidentified, vertical_shift)
     sentences = (
-        Note(f"superposition-{verdict.replace(' ', '-')}", headline),
+        Note(
+            f"superposition-{verdict.replace(' ', '-')}",
+            headline,
+            values={"figure_of_merit": float(figure), "vertical_shift": vertical_shift is not None},
+        ),
         *others,
         *_overlap(figure, quality.joint),
         *_gaps(isotherms, quality),

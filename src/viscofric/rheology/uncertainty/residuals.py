@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.notes import Note
+
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Integers
 
@@ -132,11 +134,17 @@ class SystematicMisfit:
         if largest < WORTH_A_NOTE:
             return ()
         modulus = ("E'", "E''")[worst[1]]
-        sentence = (
+        sentence = Note(
+            "fit-misses-data",
             f"The fit misses the measured moduli by more than noise, {modulus} by up to {largest:.2g} decades "
             f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, with "
             "the same sign at neighbouring points: isotherms do not superpose, or the spectrum cannot follow them. The "
-            "bands of E' and E'' are widened accordingly; those of other quantities include the noise only."
+            "bands of E' and E'' are widened accordingly; those of other quantities include the noise only.",
+            values={
+                "modulus": modulus,
+                "decades": largest,
+                "angular_frequency": float(10.0 ** self.log10_frequency[worst[0]]),
+            },
         )
         return (sentence,)
 

@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from viscofric.errors import DataFileError, InputError, brief
+from viscofric.notes import Note
 from viscofric.roughness.made import self_affine
 from viscofric.roughness.reading import read_topography
 from viscofric.units import positive, to_si
@@ -296,4 +297,5 @@ def _crop(rest: str) -> _Applied:
 def _as_period(one: Topography) -> Topography:
     from viscofric.roughness.topography import Topography
 
-    return Topography(one.heights, one.spacing, True, one.name, (*one.history, "taken as one period of the surface"))
+    said = Note("taken-as-period", "taken as one period of the surface")
+    return Topography(one.heights, one.spacing, True, one.name, (*one.history, said))

@@ -100,7 +100,7 @@ def readings_of(
 
 
 def _contents(steps: Sequence[Step]) -> str:
-    """Return what there is instead of a frequency sweep."""
+    """Return in words what there is instead of a frequency sweep."""
     if not steps:
         return "it has no steps with data"
     names = [repr(step.name) for step in steps]
@@ -119,7 +119,8 @@ def _passed_over(steps: Sequence[Step], test: Test) -> list[str]:
     what = f"1 step that is not {'an' if test == 'amplitude' else 'a'} {TESTS[test]} was"
     if len(others) > 1:
         what = f"{len(others)} steps that are not {TESTS[test]}s were"
-    return [Note(f"no-{TESTS[test].replace(' ', '-')}", f"{what} skipped: {_listed(others)}.")]
+    values = {"steps": [step.name for step in steps if not step.is_of(test)]}
+    return [Note(f"no-{TESTS[test].replace(' ', '-')}", f"{what} skipped: {_listed(others)}.", values=values)]
 
 
 def _listed(names: Sequence[str], most: int = 6) -> str:

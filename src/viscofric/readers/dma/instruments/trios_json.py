@@ -94,6 +94,7 @@ def _notes(name: str, section: Mapping[str, Any]) -> list[str]:
         Note(
             "processed-results",
             f"The results may not be as they were measured: {str(classification.get('Description', ''))!r}.",
+            values={"description": str(classification.get("Description", ""))},
         )
     ]
 

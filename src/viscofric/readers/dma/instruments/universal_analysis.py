@@ -211,5 +211,6 @@ def _note_records_behind(records: Array, end: int, notes: list[str]) -> None:
                 "records-behind-end",
                 f"Record {end + 1} has a negative time and ends the data; {like_data} later records look like data "
                 "and were not read.",
+                values={"end": int(end) + 1, "records": int(like_data)},
             )
         )
