@@ -223,6 +223,7 @@ def written():
     np.savetxt(at / "scan.csv", [[0.0, 1.0, 0.5], [0.2, 0.8, 0.1]], delimiter=",")
     vf.write_card(rubber(), at / "rubber.json", "json")
     vf.write_friction_curves(curves(), at / "friction.csv")
+    (at / "history.csv").write_text("time (s),position (mm)\n0,0\n1,20\n", encoding="utf-8")
     factors().save(at / "alpha.csv")
     rows = "".join(f"20,1,{0.1 * 2**n},{5 - 0.3 * n},0.5\n" for n in range(10))
     (at / "payne.csv").write_text("T (degC),f (Hz),strain amplitude (%),G' (MPa),G'' (MPa)\n" + rows)
@@ -323,6 +324,9 @@ CALLS: dict[str, Any] = {
     "History": lambda: {"time": np.array([0.0, 0.1, 0.2]), "load": np.array([0.0, 1.0, 0.5]), "indentation": None,
         "pressure": None, "gap": None, "position": np.zeros(3), "speed": None, "temperature": 300.0, "before":
         "untouched", "direction": (1.0, 0.0)},
+    "read_history": lambda: {"path": at("history.csv"), "load": 1.0, "indentation": None, "pressure": None, "gap":
+        None, "speed": None, "temperature": 300.0, "before": "untouched", "direction": (1.0, 0.0), "columns": {},
+        "sheet": None},
     "History.schedule": lambda: (vf.History([0.0, 0.1], load=1.0, temperature=[300.0, 310.0]), {"material": shifted(),
         "kind": "point"}),
     "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "history": vf.History([0.0, 0.1],

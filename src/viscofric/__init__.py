@@ -67,6 +67,7 @@ if TYPE_CHECKING:
     from viscofric.literature.citations import Citations as Citations
     from viscofric.literature.citations import citations as citations
     from viscofric.motion.history import History as History
+    from viscofric.motion.history_files import read_history as read_history
     from viscofric.motion.solution import TransientErrors as TransientErrors
     from viscofric.motion.solution import TransientSolution as TransientSolution
     from viscofric.motion.solve import solve_transient as solve_transient
@@ -186,6 +187,7 @@ _HOME = {
     "Diagnostics": "viscofric.contact.solution",
     "solve_steady": "viscofric.contact.steady",
     "History": "viscofric.motion.history",
+    "read_history": "viscofric.motion.history_files",
     "TransientErrors": "viscofric.motion.solution",
     "TransientSolution": "viscofric.motion.solution",
     "solve_transient": "viscofric.motion.solve",

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.contact.bodies import unit_direction
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.motion.schedule import Schedule, make_schedule
+from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.units import to_si_array, to_si_in_shape
 
@@ -114,14 +115,16 @@ class History:
         values = _column(given[control], unit if control == "load" and unit else CONTROLS[control], control, count)
         if control != "indentation" and np.any(values < 0.0):
             place = int(np.argmax(values < 0.0))
-            raise InputError(
+            raise _wrong_at(
+                place,
+                "negative-load",
                 f"{control} = {values[place]:g} {unit or CONTROLS[control]} at time {seconds[place]:g} s: must not be "
                 "below zero; adhesion is not part of the model.",
-                code="negative-load",
             )
         kelvin = None if temperature is None else _column(temperature, "K", "temperature", count)
         if kelvin is not None and np.any(kelvin <= 0.0):
-            raise InputError(f"temperature = {kelvin.min():g} K: must be above absolute zero.", code="not-positive")
+            said = f"temperature = {kelvin.min():g} K: must be above absolute zero."
+            raise _wrong_at(int(np.argmin(kelvin)), "not-positive", said)
         if position is not None and speed is not None:
             raise InputError("position and speed: both given; give at most one of them.", code="give-one")
         velocity = None if speed is None else _in_plane(speed, "m/s", "speed", count, toward)
@@ -191,6 +194,11 @@ class History:
         )  # fmt: skip
 
 
+def _wrong_at(index: int, code: str, sentence: str) -> InputError:
+    """Return the error of one point, with its index in the values."""
+    return InputError(Note(code, sentence, values={"index": index}))
+
+
 def _checked_time(time: Quantities) -> Array:
     seconds = to_si_array(time, "s", "time")
     if len(seconds) < 2 or seconds[0] == seconds[-1]:
@@ -201,16 +209,17 @@ def _checked_time(time: Quantities) -> Array:
     steps = np.diff(seconds)
     if np.any(steps < 0.0):
         place = int(np.argmax(steps < 0.0))
-        raise InputError(
-            f"time: goes back from {seconds[place]:g} s to {seconds[place + 1]:g} s at index {place + 1}; sort the "
-            "history by time.",
-            code="time-goes-back",
+        raise _wrong_at(
+            place + 1,
+            "time-goes-back",
+            f"time: goes back from {seconds[place]:g} s to {seconds[place + 1]:g} s; sort the history by time.",
         )
     if np.any((steps[1:] == 0.0) & (steps[:-1] == 0.0)):
         place = int(np.argmax((steps[1:] == 0.0) & (steps[:-1] == 0.0)))
-        raise InputError(
+        raise _wrong_at(
+            place + 2,
+            "repeated-time",
             f"time = {seconds[place]:g} s: is given more than twice; a jump has one point before it and one after it.",
-            code="repeated-time",
         )
     return seconds
 
@@ -226,7 +235,7 @@ def _only(given: dict[str, Any]) -> str:
 def _load_unit(load: Quantities | None) -> str:
     """Return the unit of a load written with one: the load of a line contact is per unit of length."""
     one: Any = load
-    while isinstance(one, (list, tuple, np.ndarray)) and len(one) and np.ndim(one) > 0:
+    while isinstance(one, (list, tuple)) and one:
         one = one[0]
     if not (isinstance(one, str) or hasattr(one, "to")):
         return ""
@@ -279,9 +288,10 @@ def _path(time: Array, position: Any, velocity: Array | None, toward: tuple[floa
     jumps = (np.diff(time) == 0.0) & np.any(np.diff(path, axis=0) != 0.0, axis=1)
     if np.any(jumps):
         place = int(np.argmax(jumps))
-        raise InputError(
+        raise _wrong_at(
+            place + 1,
+            "position-jump",
             f"position: jumps at time {time[place]:g} s; only loads, depths, speeds and temperatures may jump.",
-            code="position-jump",
         )
     return path
 

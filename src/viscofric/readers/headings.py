@@ -183,6 +183,13 @@ def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:
     return None, ""
 
 
+def option_of(key: str) -> str:
+    """Return the command-line option of a key with the user's own headings, or with the sheet, without its plural."""
+    table, _, own = key.partition(".")
+    prefix = "history-" if table == "history" else ""
+    return f"--{prefix}{own.replace('_', '-').removesuffix('s')}"
+
+
 def is_place(said: str) -> bool:
     """Return whether the user names a column by its number."""
     bracketed = _BRACKETED.match(said)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from viscofric.errors import DataFileError
 from viscofric.notes import setting
 from viscofric.readers.given_files import bytes_of
+from viscofric.readers.headings import option_of
 from viscofric.readers.source import Source, checked_sheet, insist_on_content
 from viscofric.readers.table import Table, table_of_text
 from viscofric.readers.tables import find_tables
@@ -50,7 +51,8 @@ def one_table(source: Source, vocabulary: Vocabulary) -> Table:
     if len(tables) > 1:
         shown = ", ".join(map(repr, tables))
         key = f"{vocabulary.key.rpartition('columns')[0]}sheet"
-        remedy = setting(key, "Sheet", repr(next(iter(tables)))) + "."
+        first = repr(next(iter(tables)))
+        remedy = replace(setting(key, "Sheet", first), shell=f"{option_of(key)} {first}") + "."
         problem = f"the sheets {shown} each contain {vocabulary.kind}; choose one with "
         raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
     return next(iter(tables.values()))

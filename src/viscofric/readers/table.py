@@ -13,7 +13,7 @@ import numpy as np
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_text
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import NO_WORDS, Column, Vocabulary, heading
+from viscofric.readers.headings import NO_WORDS, Column, Vocabulary, heading, option_of
 from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
@@ -259,8 +259,8 @@ def or_name_it(key: str, what: str, said: str) -> Remedy:
     shown = repr(said)
     return Remedy(
         f", or name it: columns={{{name!r}: {shown}}}.",
-        f", or name it: --column {name}={shown}.",
-        f", or name it: columns = {{ {name} = {shown} }} under [{key.partition('.')[0]}].",
+        f", or name it: {option_of(key)} {name}={shown}.",
+        f", or name it: {key.partition('.')[2]} = {{ {name} = {shown} }} under [{key.partition('.')[0]}].",
         ", or choose the columns in the form.",
         key or None,
     )

@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
-from viscofric.readers.headings import place_of
+from viscofric.readers.headings import option_of, place_of
 from viscofric.readers.source import decimal_comma
 from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
@@ -147,7 +147,7 @@ def name_columns(key: str, missing: Sequence[str]) -> Remedy:
     table, _, own = key.partition(".")
     return Remedy(
         f"; name them, e.g. columns={{'{name}': 'heading'}}.",
-        f"; name them, e.g. --{own.removesuffix('s').replace('_', '-')} {name}=HEADING.",
+        f"; name them, e.g. {option_of(key)} {name}=HEADING.",
         f'; name them, e.g. {own} = {{ {name} = "heading" }} under [{table}].',
         "; choose the columns in the form.",
         key,

@@ -1,0 +1,97 @@
+"""Columns of histories: time, load or depth, path and temperature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from viscofric.errors import DataFileError
+from viscofric.readers.dma.names import TEMPERATURE
+from viscofric.readers.headings import Vocabulary
+from viscofric.readers.one_table import table_of
+from viscofric.readers.tables import name_columns
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from os import PathLike
+
+    from viscofric.arrays import Array
+    from viscofric.readers.table import Table
+
+#: Quantity -> its SI unit, and names of its column.
+_QUANTITIES: dict[str, tuple[str, frozenset[str]]] = {
+    "time": ("s", frozenset({"t", "time"})),
+    "load": ("N", frozenset({"F", "Fn", "load", "normal load", "force", "normal force"})),
+    "indentation": ("m", frozenset({"indentation", "depth", "indentation depth", "penetration"})),
+    "pressure": ("Pa", frozenset({"p", "pressure", "mean pressure"})),
+    "gap": ("m", frozenset({"gap", "mean gap"})),
+    "position": ("m", frozenset({"position", "distance", "sliding distance", "path"})),
+    "position x": ("m", frozenset({"x", "position x", "x position"})),
+    "position y": ("m", frozenset({"y", "position y", "y position"})),
+    "speed": ("m/s", frozenset({"v", "speed", "velocity", "sliding speed"})),
+    "speed x": ("m/s", frozenset({"vx", "speed x", "velocity x"})),
+    "speed y": ("m/s", frozenset({"vy", "speed y", "velocity y"})),
+    "temperature": ("K", TEMPERATURE),
+}
+
+#: The words of tables of histories.
+HISTORY = Vocabulary(
+    "a table of a history",
+    {name: names for name, (_, names) in _QUANTITIES.items()},
+    needed=(("time",), tuple(name for name in _QUANTITIES if name != "time")),
+    example="a history has 'time (s)' with 'load (N)' or 'indentation (mm)', and where it moves 'position (mm)' or "
+    "'speed (mm/s)'",
+    key="history.columns",
+    offered=(
+        ("time", "s"),
+        ("load", "N"),
+        ("indentation", "mm"),
+        ("position", "mm"),
+        ("speed", "mm/s"),
+        ("temperature", "degC"),
+    ),
+)
+
+
+class HistoryColumns(NamedTuple):
+    """Columns of a history in SI units, (n,) each, with the unit of the load and the lines of the file."""
+
+    values: dict[str, Array]
+    load_unit: str
+    lines: list[int]
+    unused: tuple[str, ...]  # headings
+
+
+def history_columns(
+    path: str | PathLike[str], columns: Mapping[str, str] | None = None, sheet: str | None = None
+) -> HistoryColumns:
+    """Return the columns of a history in a text table or a workbook.
+
+    Raises
+    ------
+    DataFileError
+        If there is no such table, or a cell or unit is wrong.
+    InputError
+        If `columns` or `sheet` are no headings, or no name.
+    """
+    table = table_of(path, HISTORY, columns, sheet)
+    missing = HISTORY.missing(column.quantity for column in table.columns)
+    if missing:
+        problem = f"there is no column of the {' and the '.join(missing)}; there are {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(HISTORY.key, missing), missing)
+    places = {name: place for name in _QUANTITIES if (place := table.place(name)) is not None}
+    load_unit = _load_unit(table, places.get("load"))
+    units = {name: load_unit if name == "load" else unit for name, (unit, _) in _QUANTITIES.items()}
+    values = {name: table.values(place, units[name]) for name, place in places.items()}
+    unused = tuple(column.heading for column in table.unused(places.values()))
+    return HistoryColumns(values, load_unit, table.lines.tolist(), unused)
+
+
+def _load_unit(table: Table, place: int | None) -> str:
+    """Return the unit of the load: N, or N/m of a line contact."""
+    if place is not None:
+        try:
+            table.conversion(table.columns[place], "N/m")
+        except DataFileError:
+            return "N"
+        return "N/m"
+    return "N"
