@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -9,6 +11,7 @@ from click.testing import CliRunner
 import viscofric as vf
 from refusals import refused
 from viscofric.cli import main
+from viscofric.study.rubber import make_rubber, rubber_groups
 from viscofric.study.run_file.study import material_of
 
 
@@ -89,7 +92,17 @@ def test_a_material_is_fitted_to_step_tests(tmp_path, kind):
 
 @pytest.mark.parametrize(
     "more",
-    [{"shift_by": "storage"}, {"shift_weights": [1.0, 0.5]}, {"dma": "sweeps.csv"}, {"relaxation": "other.csv"}],
+    [
+        {"shift_by": "storage"},
+        {"shift_weights": [1.0, 0.5]},
+        {"ramps": "ramp.csv"},
+        {"relaxation": "other.csv"},
+        {"dma": "sweeps.csv", "relaxation": "other.csv"},
+        {"dma": "sweeps.csv", "temperature": "10 degC"},
+        {"dma": "sweeps.csv", "columns": {"temperature": "T (degC)"}},
+        {"dma": "sweeps.csv", "shift_factors": "alpha.csv"},
+        {"dma": "sweeps.csv", "vertical_shift": "free"},
+    ],
 )
 def test_what_belongs_to_sweeps_is_refused(more):
     with refused("contradiction", vf.StudyError):
@@ -103,3 +116,38 @@ def test_kinds_on_the_command_line_exclude_each_other(tmp_path):
     )
     assert found.exit_code == 2
     assert "--creep and --relaxation exclude each other" in found.output
+
+
+@pytest.mark.slow
+def test_sweeps_and_creep_make_one_material(tmp_path):
+    """Sweeps reach 0.6 rad/s at the warmest temperature; creep continues three decades below."""
+    true, omega = vf.synthetic_fluoroelastomer(), 2.0 * np.pi * np.logspace(-1.0, 1.0, 13)
+    rows = ["T (degC);f (Hz);E' (MPa);E'' (MPa)"]
+    for one in (-5.0, 0.0, 5.0, 10.0):
+        E = 1e-6 * true.complex_modulus(omega, one + 273.15)
+        rows += [f"{one};{w / (2.0 * np.pi):.8g};{e.real:.8g};{e.imag:.8g}" for w, e in zip(omega, E, strict=True)]
+    sweeps = tmp_path / "sweeps.csv"
+    sweeps.write_text("\n".join(rows) + "\n")
+    chosen = {"dma": str(sweeps), "creep": str(written(tmp_path)), "reference_temperature": "10 degC"}
+    made = make_rubber(material_of(chosen | {"deformation": "tension"}))
+    groups = rubber_groups(made)
+    assert {"/isotherms", "/master_curve", "/step_tests", "/step_master_curve"} <= set(groups)
+    assert groups["/shift_factors"].attrs["isotherms_used"] == groups["/shift_factors"].attrs["isotherms_given"] == 5
+    both = np.array([3e-3, 1e-1, 1e2])  # creep alone, both, sweeps alone
+    planted = true.complex_modulus(both, "10 degC")
+    # data of nine digits; what superposition of few isotherms and a lattice of modes leave
+    np.testing.assert_allclose(abs(made.material.complex_modulus(both)), abs(planted), rtol=0.03)
+
+
+def test_the_command_takes_creep_beside_sweeps(monkeypatch):
+    tables = []
+
+    def keep(table, *_, **__):
+        tables.append(table)
+        raise vf.InputError("enough")
+
+    monkeypatch.setattr("viscofric.study.rubber_results.run_material", keep)
+    arguments = ["material", "fit", "sweeps.csv", "--with-creep", "a.csv", "--with-creep", "b.csv"]
+    assert CliRunner().invoke(main, [*arguments, "--reference", "10 degC"]).exit_code == 1
+    (table,) = tables
+    assert (table.dma, table.creep, table.relaxation) == ((Path("sweeps.csv"),), (Path("a.csv"), Path("b.csv")), None)

@@ -128,10 +128,11 @@ def _pairs(found: CheckedStudy) -> list[tuple[Rubber, Any]]:
 def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
-    spectrum, measured = rubber.material.spectrum, rubber.sweeps or rubber.step_tests
+    spectrum = rubber.material.spectrum
+    measured = [one for one in (rubber.sweeps, rubber.step_tests) if one is not None]
     return {
         "name": name or rubber.material.name,
-        "isotherms": None if measured is None else len(measured),
+        "isotherms": sum(map(len, measured)) if measured else None,
         "modes": len(spectrum.C) if isinstance(spectrum, RetardationSpectrum) else None,
         "reference_temperature": rubber.material.reference,
         "shift": rubber.shift_used or None,

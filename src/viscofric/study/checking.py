@@ -49,7 +49,7 @@ class CheckedStudy:
             [rubber.material for rubber in self.rubbers],
             accuracy=study.solver.accuracy,
             sensitive=study.applied_uncertainty.draws > 0
-            and any((rubber.fit or rubber.step_fit) is not None for rubber in self.rubbers),
+            and any(rubber.superposed is not None for rubber in self.rubbers),
             fields=study.outputs.fields == "all",
             each=study.solver.cases == "each",
         )

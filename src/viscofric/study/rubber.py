@@ -20,11 +20,15 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.ramps.assumed import assumed_of
 from viscofric.rheology.ramps.superpose import superpose_ramps
 from viscofric.rheology.shifts.shift_files import read_shift_factors
+from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
-from viscofric.rheology.superposition.step_result import PER_DECADE
+from viscofric.rheology.superposition.joint import JointSuperposition, of_all_kinds
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition
 from viscofric.rheology.superposition.superpose import superpose
+from viscofric.step_tests import StepMasterCurve
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -37,8 +41,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.rheology.superposition.step_result import StepSuperposition
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.step_tests import StepTests
     from viscofric.study.run_file.material import MaterialTable
@@ -59,7 +61,9 @@ class Rubber:
     sweeps, fit : IsothermalSweeps, Superposition or None
         None for a predefined material.
     step_tests, step_fit : StepTests, StepSuperposition or None
-        Creep or relaxation tests instead of sweeps.
+        Creep or relaxation tests, instead of sweeps or together with them.
+    joint : JointSuperposition or None
+        Of sweeps and step tests together; `fit` and `step_fit` are its parts.
     master_curve : MasterCurve or None
         Given instead of sweeps, or made of ramps.
     ramps : RampSuperposition or None
@@ -81,6 +85,7 @@ class Rubber:
     fit: Superposition | None = None
     step_tests: StepTests | None = None
     step_fit: StepSuperposition | None = None
+    joint: JointSuperposition | None = None
     master_curve: MasterCurve | None = None
     ramps: RampSuperposition | None = None
     laws: LawComparison | None = None
@@ -96,6 +101,11 @@ class Rubber:
         if isinstance(self.material.shift, ParametricLaw):
             return self.material.shift
         return None if self.laws is None else self.laws.best
+
+    @property
+    def superposed(self) -> JointSuperposition | Superposition | StepSuperposition | None:
+        """The superposition of all tests, None for a predefined material, a master curve, or ramps."""
+        return self.joint or self.fit or self.step_fit
 
     @property
     def from_friction(self) -> bool:
@@ -140,8 +150,8 @@ def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
         If a file cannot be used or does not state tension or shear, or the fit fails.
     """
     if table.dma is not None:
-        return _from_sweeps(table, liquids)
-    if table.tests:
+        return _from_both(table, liquids) if table.steps else _from_sweeps(table, liquids)
+    if table.steps:
         return _from_step_tests(table)
     if table.ramps is not None:
         return _from_ramps(table, liquids)
@@ -170,15 +180,7 @@ def _name_of(files: tuple[Path, ...]) -> str:
 
 def _from_step_tests(table: MaterialTable) -> Rubber:
     """Superpose creep or relaxation tests, and fit their spectrum."""
-    tests = read_step_tests(
-        *table.tests,
-        kind="creep" if table.creep is not None else "relaxation",
-        deformation=table.deformation,
-        temperature=table.temperature,
-        response_unit=table.modulus_unit,
-        columns=table.columns,
-        sheet=table.sheet,
-    )
+    tests = _read_steps(table)
     try:
         fit = _superposed(table, tests)
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
@@ -186,7 +188,7 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
     except DataFileError:
         raise  # it names its file
     except InputError as error:
-        raise error.at(_name_of(table.tests)) from error
+        raise error.at(_name_of(table.steps)) from error
     if spectrum.fit is not None and not fit.check.holds:
         doubts = (fit.check.sentences[0], *spectrum.fit.notes)
         spectrum = replace(spectrum, fit=replace(spectrum.fit, notes=doubts))
@@ -204,28 +206,73 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
     )
 
 
+def _read_steps(table: MaterialTable) -> StepTests:
+    return read_step_tests(
+        *table.steps,
+        kind="creep" if table.creep is not None else "relaxation",
+        deformation=table.deformation,
+        temperature=table.temperature,
+        response_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
+    )
+
+
+def _from_both(table: MaterialTable, liquids: bool) -> Rubber:
+    """Superpose sweeps and step tests together, and fit one spectrum to both."""
+    sweeps, tests = _read_sweeps(table), _read_steps(table)
+    try:
+        joint = superpose(
+            [sweeps, tests], _reference(table), by=table.shift_by, weights=table.shift_weights, **_how(table)
+        )
+        shift, laws, used = _law_or_table(table.shift, joint.shift_factors)
+    except InputError as error:
+        raise error.at(_name_of((*(table.dma or ()), *table.steps))) from error
+    fit, step_fit = joint.parts
+    assert isinstance(fit, Superposition)
+    assert isinstance(step_fit, StepSuperposition)
+    verdict = (*_verdict(fit), *(() if step_fit.check.holds else step_fit.check.sentences[:1]))
+    spectrum, flowing = _spectrum(table, joint, verdict, liquids)
+    material = Material(
+        spectrum, shift=shift, poisson_ratio=table.poisson_ratio, name=table.name, vertical_shift=joint.vertical_shift
+    )
+    return Rubber(
+        material,
+        sweeps=sweeps,
+        fit=fit,
+        step_tests=tests,
+        step_fit=step_fit,
+        joint=joint,
+        laws=laws,
+        shift_used=used,
+        notes=(*joint.notes, *flowing, *_undecided(laws, table.shift)),
+    )
+
+
 def _origin(table: MaterialTable) -> str:
     return "given" if table.shift_factors else "held" if table.fixed_shift_factors else "found"
 
 
-def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
-    files = table.dma or ()
-    name = _name_of(files)
-    sweeps = read_dma(
-        *files,
+def _read_sweeps(table: MaterialTable) -> IsothermalSweeps:
+    return read_dma(
+        *(table.dma or ()),
         deformation=table.deformation,
         temperature=table.temperature,
         modulus_unit=table.modulus_unit,
         columns=table.columns,
         sheet=table.sheet,
     )
+
+
+def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
+    sweeps = _read_sweeps(table)
     try:
         fit = _superposed(table, sweeps)
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
     except DataFileError:
         raise  # it names its file
     except InputError as error:
-        raise error.at(name) from error
+        raise error.at(_name_of(table.dma or ())) from error
     spectrum, flowing = _spectrum(table, fit.master_curve, _verdict(fit), liquids)
     material = Material(
         spectrum,
@@ -313,7 +360,7 @@ def _undecided(laws: LawComparison | None, choice: str) -> tuple[str, ...]:
 
 
 def _spectrum(
-    table: MaterialTable, curve: MasterCurve, verdict: tuple[str, ...], liquids: bool
+    table: MaterialTable, curve: MasterCurve | JointSuperposition, verdict: tuple[str, ...], liquids: bool
 ) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
     """Fit the spectrum; warnings about the master curve go into it, so that they stay in its file.
 
@@ -324,7 +371,9 @@ def _spectrum(
     except LiquidError as error:
         if not liquids:
             raise
-        return ModulusTable.from_master_curve(curve), (Note("liquid", f"No spectrum: {error}"),)
+        moduli = curve.parts[0].master_curve if isinstance(curve, JointSuperposition) else curve
+        assert not isinstance(moduli, StepMasterCurve)  # sweeps come first
+        return ModulusTable.from_master_curve(moduli), (Note("liquid", f"No spectrum: {error}"),)
     if spectrum.fit is None or not verdict:
         return spectrum, ()
     return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes))), ()
@@ -341,19 +390,25 @@ def _superposed(table: MaterialTable, tests: IsothermalSweeps) -> Superposition:
 @overload
 def _superposed(table: MaterialTable, tests: StepTests) -> StepSuperposition: ...
 def _superposed(table: MaterialTable, tests: IsothermalSweeps | StepTests) -> Superposition | StepSuperposition:
-    reference = table.reference_temperature
-    if reference is None:
-        raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
-    given = None if table.shift_factors is None else _given_factors(table, table.shift_factors)
-    common: Any = {
-        "poisson_ratio": table.poisson_ratio,
-        "vertical": None if table.vertical_shift == "none" else table.vertical_shift,
-        "shift": given,
+    reference = _reference(table)
+    common = _how(table) | {
+        "shift": None if table.shift_factors is None else _given_factors(table, table.shift_factors),
         "fixed": table.fixed_shift_factors or None,
     }
     if isinstance(tests, IsothermalSweeps):
         return superpose(tests, reference, by=table.shift_by, weights=table.shift_weights, **common)
     return superpose(tests, reference, **common)
+
+
+def _reference(table: MaterialTable) -> float:
+    if table.reference_temperature is None:
+        raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
+    return table.reference_temperature
+
+
+def _how(table: MaterialTable) -> dict[str, Any]:
+    vertical = None if table.vertical_shift == "none" else table.vertical_shift
+    return {"poisson_ratio": table.poisson_ratio, "vertical": vertical}
 
 
 def _given_factors(table: MaterialTable, path: Path, reference: float | None = None) -> ShiftFactors:
@@ -406,16 +461,10 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
     if fit is not None and rubber.sweeps is not None:
         isotherms = rubber.sweeps.in_tension(rubber.material.poisson_ratio).to_dataset()
         groups["/isotherms"] = isotherms.drop_attrs(deep=False).drop_vars("strain_amplitude", errors="ignore")
-        given = np.unique(rubber.sweeps.temperatures)
-        groups["/shift_factors"] = fit.to_dataset().assign_attrs(
-            shift_used=rubber.shift_used,
-            shift_origin=rubber.shift_origin,
-            isotherms_given=len(given),
-            temperatures_given=json.dumps(given.tolist()),
-        )
+        groups["/shift_factors"] = _factors(rubber, fit, rubber.sweeps.temperatures)
         groups["/superposition"] = fit.check.to_dataset()
     if rubber.step_fit is not None and rubber.step_tests is not None:
-        groups |= _step_groups(rubber, rubber.step_tests, rubber.step_fit)
+        groups = _step_groups(rubber, rubber.step_tests, rubber.step_fit) | groups
     if rubber.ramps is not None:
         groups["/ramps"] = rubber.ramps.to_dataset()
     curve = rubber.master_curve if fit is None else fit.master_curve
@@ -438,20 +487,33 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
 def _step_groups(rubber: Rubber, tests: StepTests, fit: StepSuperposition) -> dict[str, xarray.Dataset]:
     """Return the data sets of creep or relaxation tests: tensile points, shift factors, check, master curve."""
     used = tests.in_tension(rubber.material.poisson_ratio).thinned(PER_DECADE)
-    given = np.unique(tests.temperatures)
-    spectrum = rubber.material.spectrum
-    assert isinstance(spectrum, RetardationSpectrum)
+    spectrum, curve = rubber.material.spectrum, fit.master_curve
     return {
         "/step_tests": used.to_dataset(),
-        "/shift_factors": fit.to_dataset().assign_attrs(
-            shift_used=rubber.shift_used,
-            shift_origin=rubber.shift_origin,
-            isotherms_given=len(given),
-            temperatures_given=json.dumps(given.tolist()),
-        ),
+        "/shift_factors": _factors(rubber, fit, tests.temperatures),
         "/superposition": fit.check.to_dataset(),
-        "/step_master_curve": spectrum.step_curve_dataset(fit.master_curve),
+        "/step_master_curve": spectrum.step_curve_dataset(curve)
+        if isinstance(spectrum, RetardationSpectrum)
+        else curve.to_dataset(),
     }
+
+
+def _factors(rubber: Rubber, fit: Superposition | StepSuperposition, temperatures: Any) -> xarray.Dataset:
+    """Return shift factors, of all tests where there are several kinds, with the overlap of one kind."""
+    found = fit.to_dataset()
+    if (joint := rubber.joint) is not None:
+        common = with_vertical_shift(joint.to_dataset(), joint.vertical_shift, joint.shift_factors.temperatures)
+        found = common.assign_attrs(found.attrs | {"isotherms_used": len(joint.shift_factors.temperatures)})
+        assert rubber.sweeps is not None
+        assert rubber.step_tests is not None
+        temperatures = of_all_kinds([rubber.sweeps.temperatures, rubber.step_tests.temperatures])
+    given = np.unique(temperatures)
+    return found.assign_attrs(
+        shift_used=rubber.shift_used,
+        shift_origin=rubber.shift_origin,
+        isotherms_given=len(given),
+        temperatures_given=json.dumps(given.tolist()),
+    )
 
 
 def _shift_law(rubber: Rubber) -> xarray.Dataset:
@@ -460,8 +522,7 @@ def _shift_law(rubber: Rubber) -> xarray.Dataset:
     assert law is not None
     ends = law.fitted_range or (law.reference - 50.0, law.reference + 50.0)
     rms: dict[str, float] = {}
-    fit = rubber.fit or rubber.step_fit
-    if fit is not None:
+    if (fit := rubber.superposed) is not None:
         factors = fit.shift_factors
         ends = float(factors.temperatures[0]), float(factors.temperatures[-1])
         residual = factors.log10_values - law.log10(factors.temperatures)

@@ -107,7 +107,7 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
     material = rubber.material
     written = [folder / MATERIAL_FILE]
     write_card(material, written[0], format="json")
-    fit = rubber.fit or rubber.step_fit
+    fit = rubber.superposed
     if fit is not None:
         fit.shift_factors.save(folder / "shift_factors.csv")
         written.append(folder / "shift_factors.csv")
@@ -115,7 +115,8 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
     if curve is not None:
         written.append(write_master_curve(curve, folder / "master_curve.csv"))
     if rubber.step_fit is not None:
-        written.append(write_step_master_curve(rubber.step_fit.master_curve, folder / "master_curve.csv"))
+        name = "master_curve.csv" if curve is None else "step_master_curve.csv"
+        written.append(write_step_master_curve(rubber.step_fit.master_curve, folder / name))
     if isinstance(material.spectrum, RetardationSpectrum):
         written.append(write_spectrum(material.spectrum, folder / "spectrum.csv"))
     return written

@@ -169,7 +169,7 @@ def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples 
         If its spectrum was not fitted to its sweeps, or there are too few samples.
     """
     spectrum = rubber.material.spectrum
-    fit = rubber.fit or rubber.step_fit
+    fit = rubber.superposed
     if samples == 0 or fit is None or not isinstance(spectrum, RetardationSpectrum):
         return None
     law = None if rubber.shift_used == "measured" else rubber.shift_used
@@ -211,7 +211,7 @@ class FrictionBands:
         self._drawn = None if self.samples is None else DrawnMaterials(self.samples, rubber.material)
         if self.samples is not None:
             self.notes = tuple(self.samples.notes)
-        elif count and rubber.fit is None and rubber.step_fit is None:
+        elif count and rubber.superposed is None:
             text = "Friction has no 95 % bands: the uncertainty of the material is known from its sweeps only."
             self._note(Note("no-bands", text))
 

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.material import MaterialTable
 
 _KINDS = ("creep", "relaxation", "master_curve")
+#: Tests beside the sweeps.
+_BESIDE = ("with_creep", "with_relaxation")
 _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
 
 
@@ -32,6 +34,20 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 @click.option("--name", default="", help="Name of the material, for reports and cards.")
 @click.option("--creep", is_flag=True, help="FILES are creep tests, J(t) at several temperatures, instead of sweeps.")
 @click.option("--relaxation", is_flag=True, help="FILES are relaxation tests, E(t) or G(t), instead of sweeps.")
+@click.option(
+    "--with-creep",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Creep tests of the same material, besides the sweeps in FILES; repeatable.",
+)
+@click.option(
+    "--with-relaxation",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Relaxation tests of the same material, besides the sweeps in FILES; repeatable.",
+)
 @click.option("--master-curve", is_flag=True, help="FILES is one finished master curve at the reference temperature.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly.")
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
@@ -172,6 +188,9 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
     else:
         kind = next((name for name in ("creep", "relaxation") if parameters[name]), "dma")
         values[kind] = [str(path) for path in files]
+        for other in _BESIDE:
+            if parameters[other]:
+                values.setdefault(other.removeprefix("with_"), []).extend(map(str, parameters[other]))
     if parameters["fix"]:
         pairs = [_fixed(text) for text in parameters["fix"]]
         values["fixed_shift_factors"] = dict(pairs)
@@ -179,7 +198,7 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
             raise click.BadParameter("holds one temperature twice.", param_hint="--fix")
     defaults = {option.name: option.default for option in command.params}
     for name, value in parameters.items():
-        if name not in ("reference", "fix", *_KINDS) and value not in (None, (), {}, defaults.get(name)):
+        if name not in ("reference", "fix", *_KINDS, *_BESIDE) and value not in (None, (), {}, defaults.get(name)):
             values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
     return material_of(values)
 

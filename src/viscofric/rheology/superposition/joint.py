@@ -73,9 +73,7 @@ class JointSuperposition:
 
 def joined_kinds(alone: Sequence[Part], reference: float) -> JointSuperposition:
     """Join superpositions of several kinds about one reference, K."""
-    kelvin = np.sort(np.concatenate([one.shift_factors.temperatures for one in alone]))
-    groups = np.concatenate([[0], np.cumsum(np.diff(kelvin) > SAME)])
-    temperatures = np.bincount(groups, weights=kelvin) / np.bincount(groups)
+    temperatures = of_all_kinds([one.shift_factors.temperatures for one in alone])
     size = len(temperatures)
     picks, onto, inverse = [], [], []
     for one in alone:
@@ -107,6 +105,13 @@ def joined_kinds(alone: Sequence[Part], reference: float) -> JointSuperposition:
     common = ShiftFactors(temperatures, values, reference, covariance)
     parts = tuple(_shifted(one, pick @ common.log10_values) for one, pick in zip(alone, picks, strict=True))
     return JointSuperposition(parts, common, tuple(alone), gains, tuple(dict.fromkeys(notes)))
+
+
+def of_all_kinds(temperatures: Sequence[Array]) -> Array:
+    """Return the temperatures of all kinds of tests, ascending, K; those closer than `SAME` are one."""
+    kelvin = np.sort(np.concatenate(temperatures))
+    groups = np.concatenate([[0], np.cumsum(np.diff(kelvin) > SAME)])
+    return np.bincount(groups, weights=kelvin) / np.bincount(groups)
 
 
 def _weights(temperatures: Array, reference: float) -> Array:

@@ -34,8 +34,10 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.tables import Problem
 
 _MOST_FILES = MOST_POINTS
-#: Keys for the source of the material; every run file has exactly one of them.
+#: Keys for the source of the material; every run file has one of them, or sweeps and step tests together.
 SOURCES = ("dma", "ramps", "creep", "relaxation", "master_curve", "file", "catalogue")
+#: Kinds of tests that make one material together.
+SEVERAL = (["dma", "creep"], ["dma", "relaxation"])
 #: Laws whose constants are fitted to temperature ramps.
 RAMP_LAWS = ("wlf", "arrhenius", "vft", "wlf+arrhenius")
 #: Keys for the conversion of sweeps, invalid for a predefined material …
@@ -61,6 +63,8 @@ _HOW = (
 )
 #: … those invalid for step tests, which have one curve for each temperature …
 _OF_TWO_MODULI = ("shift_by", "shift_weights")
+#: … those for one kind of tests, not for sweeps and step tests together …
+_OF_ONE_KIND = ("temperature", "modulus_unit", "columns", "sheet", "shift_factors", "fixed_shift_factors")
 #: … and those invalid for a master curve.
 _OF_SWEEPS = ("temperature", "vertical_shift", "shift_by", "shift_weights", "fixed_shift_factors")
 
@@ -103,9 +107,9 @@ class MaterialTable(Table):
     ramps: FileNames | None = Field(
         None, description="Instead: temperature ramps at one or several frequencies, as files like those of dma."
     )
-    creep: FileNames | None = Field(None, description="Instead: creep tests, J(t) after a step of stress.")
+    creep: FileNames | None = Field(None, description="Instead, or with dma: creep tests, J(t) after a step of stress.")
     relaxation: FileNames | None = Field(
-        None, description="Instead: relaxation tests, E(t) or G(t) after a step of strain."
+        None, description="Instead, or with dma: relaxation tests, E(t) or G(t) after a step of strain."
     )
     master_curve: FileName | None = Field(None, description="Instead: a master curve.")
     file: FileName | None = Field(
@@ -183,9 +187,11 @@ class MaterialTable(Table):
                 'has no source of the material; give dma = "sweeps.csv" (or a master_curve, a file with a '
                 "predefined material, or a name in the catalogue)"
             )
-        if len(given) > 1:
-            yield f"{' and '.join(given)} are both given; give one of them"
         chosen = self.model_fields_set
+        if given in SEVERAL:
+            yield from self._doubts_of_several(" and ".join(given))
+        elif len(given) > 1:
+            yield f"{' and '.join(given)} are both given; give one of them"
         if given in (["file"], ["catalogue"]):
             useless = [name for name in _HOW if name in chosen]
             if useless:
@@ -204,6 +210,13 @@ class MaterialTable(Table):
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
 
+    def _doubts_of_several(self, kinds: str) -> Iterator[str]:
+        useless = [name for name in _OF_ONE_KIND if name in self.model_fields_set]
+        if useless:
+            yield f"{' and '.join(useless)} cannot be chosen for {kinds} together, only for one of them"
+        if self.vertical_shift == "free":
+            yield 'vertical_shift = "free" is fitted to one kind of tests; choose "density" or "none"'
+
     def _doubts_of_ramps(self) -> Iterator[str]:
         chosen = self.model_fields_set
         if self.reference_temperature is None:
@@ -221,7 +234,7 @@ class MaterialTable(Table):
     def _doubts_of_shifts(self) -> Iterator[str]:
         for name in ("creep", "relaxation"):
             useless = [key for key in _OF_TWO_MODULI if key in self.model_fields_set]
-            if useless and getattr(self, name) is not None:
+            if useless and getattr(self, name) is not None and self.dma is None:
                 yield f"{' and '.join(useless)} cannot be chosen for {name} tests, only for sweeps (dma)"
         if self.assumed_shift is not None and self.ramps is None:
             yield "assumed_shift is for temperature ramps (ramps) only"
@@ -250,15 +263,16 @@ class MaterialTable(Table):
         return self.model_copy(update=changes)
 
     @property
-    def tests(self) -> tuple[Path, ...]:
-        """Files of sweeps, or of creep or relaxation tests."""
-        return self.dma or self.creep or self.relaxation or ()
+    def steps(self) -> tuple[Path, ...]:
+        """Files of creep or relaxation tests."""
+        return self.creep or self.relaxation or ()
 
     @property
     def inputs(self) -> tuple[Path, ...]:
         """All files of the material."""
         return (
-            *self.tests,
+            *(self.dma or ()),
+            *self.steps,
             *(self.ramps or ()),
             *(path for path in (self.master_curve, self.file, self.shift_factors) if path is not None),
         )

@@ -170,7 +170,7 @@ def _members(tables: Tables) -> Iterator[Problem]:
     if "uncertainty" not in tables or tables["uncertainty"].members == 0:
         return
     for number, material in enumerate(tables.get("material", ())):
-        if not material.tests:
+        if not (material.dma or material.steps):
             which = f"material[{number}]" if len(tables["material"]) > 1 else "[material]"
             yield (
                 "uncertainty.members",
