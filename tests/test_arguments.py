@@ -440,6 +440,7 @@ CALLS: dict[str, Any] = {
     "ShiftLaw.valid_at": lambda: (wlf(), {"temperature": [310.0], "above_pole": 1.0}),
     "ShiftLaw.values_at": lambda: (wlf(), {"temperatures": [310.0]}),
     "ShiftLaw.covariance_at": lambda: (wlf(), {"temperatures": [310.0]}),
+    "KrausLaw.to_dataset": lambda: (kraus(), {"strain": [1e-3, 0.1]}),
     "ShiftLaw.to_dataset": lambda: (wlf(), {"temperatures": [310.0]}),
     "ParametricLaw.gradient": lambda: (wlf(), {"temperature": [310.0]}),
     "ParametricLaw.with_parameters": lambda: (wlf(), {"parameters": np.array([9.0, 100.0])}),

@@ -1,10 +1,15 @@
 """Labelled data sets carry units and names, and become JSON without a NaN."""
 
+import functools
+import inspect
 import json
 
 import numpy as np
+import pytest
 
 import viscofric as vf
+from viscofric import _HOME
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.datasets import dataset, record
 
 FACTORS = dataset(
@@ -64,3 +69,87 @@ def test_traction_runs_leave_out_what_was_not_recorded():
     assert list(found.data_vars) == names
     assert found["traction_force"].attrs["units"] == "N"
     assert found["step"].values.tolist() == [1, 2]
+
+
+#: Classes that are no results: what users put in, settings, texts, and trees of data sets.
+INPUTS = {
+    "Backend",
+    "CatalogueEntry",
+    "Card",
+    "Citations",
+    "ContactAnchor",
+    "History",
+    "Layer",
+    "Material",
+    "ModulusAnchor",
+}
+INPUTS |= {"PeriodicSurface", "Study", "StudyResults", "ThermalProperties"}
+#: Parts of results, whose numbers lie in the data set of the whole.
+PARTS = {
+    "Diagnostics": "ContactSolution",
+    "PeriodicDiagnostics": "PeriodicSolution",
+    "StepTest": "StepTests",
+    "TractionStep": "TractionRuns",
+    "TransientErrors": "TransientSolution",
+}
+
+
+def test_every_public_result_has_a_data_set():
+    classes = {name: found for name in _HOME if inspect.isclass(found := getattr(vf, name))}
+    results = {name for name, found in classes.items() if not issubclass(found, (Exception, Indenter))}
+    without = {name for name in results if not hasattr(classes[name], "to_dataset")}
+    assert without == INPUTS | PARTS.keys()
+    assert all(hasattr(classes[whole], "to_dataset") for whole in PARTS.values())
+
+
+@functools.cache
+def small_results():
+    """Results that are quickly made, without their own tests of data sets."""
+    kelvin = np.arange(253.0, 323.0, 2.0)
+    rubber = vf.synthetic_fluoroelastomer()
+    modulus = rubber.spectrum.complex_modulus(2.0 * np.pi * rubber.shift(kelvin))
+    ramp = vf.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
+    law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
+    solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    contact = {"speed": "1 m/s", "load": "100 N/m", "measured_at": 1e-3, "accuracy": 0.1}
+    return {
+        "isotherm": vf.Isotherm(280.0, [1.0, 10.0], [2e6, 3e6], [2e5, 3e5], strain_amplitude=[1e-3, 1e-3]),
+        "ramp": ramp,
+        "peak": vf.glass_transition(ramp, "loss modulus"),
+        "ramp check": vf.RampCheck(0.01, 0.005, (0.001, -0.002)),
+        "overlap": vf.OverlapQuality(0.01, 0.02, 5, 2, (1,)),
+        "fit": vf.SpectrumFit(0.01, None, True, False, (1.0, 1e3), method="sparse", measured_storage=(1e6, 1e9)),
+        "law": law,
+        "range": vf.LinearRange(0.05, 0.01, 1e-4),
+        "at strain": vf.solve_at_contact_strain(solid, law, vf.Cylinder("10 mm"), **contact),
+    }
+
+
+def test_each_number_of_a_result_has_unit_and_name_and_is_json():
+    for name, result in small_results().items():
+        found = result.to_dataset()
+        assert found.data_vars, name
+        for number in found.variables.values():
+            assert number.attrs["units"], name
+            assert number.attrs["long_name"], name
+        json.dumps(record(found), allow_nan=False)
+
+
+def test_data_sets_of_small_results_hold_their_numbers():
+    found = {name: result.to_dataset() for name, result in small_results().items()}
+    assert found["isotherm"]["loss_tangent"].values.tolist() == [0.1, 0.1]
+    assert found["isotherm"].attrs == {"temperature": 280.0}
+    assert found["peak"]["height"].attrs["units"] == "Pa"
+    assert float(found["peak"]["temperature"]) == pytest.approx(260.25, abs=1.0)  # K, as the example of the docs
+    assert found["ramp check"]["offset"].values.tolist() == [0.001, -0.002]
+    assert found["ramp check"].attrs["holds"] == 1
+    assert int(found["overlap"]["neighbours_without_overlap"]) == 1
+    assert found["fit"]["frequency_range"].values.tolist() == [1.0, 1e3]
+    assert "rms_log10_loss" not in found["fit"]
+    half = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear").to_dataset([0.0, 0.02])
+    np.testing.assert_allclose(half["storage_modulus"], [6e6, 3.75e6])
+    assert (half.attrs["critical_strain"], half.attrs["deformation"]) == (0.02, "shear")
+    both = found["at strain"]["friction_coefficient"]
+    assert both.dims == ("moduli",)
+    assert both.attrs["units"] == "1"
+    assert float(both[1]) != float(both[0]) > 0.0

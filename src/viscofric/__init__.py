@@ -91,9 +91,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.payne.at_strain import contact_strain as contact_strain
     from viscofric.rheology.payne.at_strain import material_at_strain as material_at_strain
     from viscofric.rheology.payne.kraus import KrausLaw as KrausLaw
-    from viscofric.rheology.payne.kraus import LinearRange as LinearRange
-    from viscofric.rheology.payne.kraus import PayneFit as PayneFit
-    from viscofric.rheology.payne.kraus import fit_kraus as fit_kraus
+    from viscofric.rheology.payne.kraus_fit import LinearRange as LinearRange
+    from viscofric.rheology.payne.kraus_fit import PayneFit as PayneFit
+    from viscofric.rheology.payne.kraus_fit import fit_kraus as fit_kraus
     from viscofric.rheology.ramps.glass_transition import GlassTransition as GlassTransition
     from viscofric.rheology.ramps.glass_transition import glass_transition as glass_transition
     from viscofric.rheology.ramps.result import RampCheck as RampCheck
@@ -277,9 +277,9 @@ _HOME = {
     "RampSuperposition": "viscofric.rheology.ramps.result",
     "superpose_ramps": "viscofric.rheology.ramps.superpose",
     "KrausLaw": "viscofric.rheology.payne.kraus",
-    "LinearRange": "viscofric.rheology.payne.kraus",
-    "PayneFit": "viscofric.rheology.payne.kraus",
-    "fit_kraus": "viscofric.rheology.payne.kraus",
+    "LinearRange": "viscofric.rheology.payne.kraus_fit",
+    "PayneFit": "viscofric.rheology.payne.kraus_fit",
+    "fit_kraus": "viscofric.rheology.payne.kraus_fit",
     "material_at_strain": "viscofric.rheology.payne.at_strain",
     "contact_strain": "viscofric.rheology.payne.at_strain",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",

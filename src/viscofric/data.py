@@ -125,6 +125,33 @@ class Isotherm:
     def __len__(self) -> int:
         return len(self.angular_frequency)
 
+    @property
+    def loss_tangent(self) -> Array:
+        """E''/E' (or G''/G')."""
+        return np.asarray(self.loss_modulus / self.storage_modulus)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the moduli along ``angular_frequency``.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``storage_modulus`` and ``loss_modulus`` (Pa), ``loss_tangent``, and ``strain_amplitude`` if it was
+            recorded; the attribute ``temperature`` (K).
+        """
+        amplitude = self.strain_amplitude
+        return dataset(
+            "angular_frequency",
+            {
+                "storage_modulus": (self.storage_modulus, "Pa", "storage modulus"),
+                "loss_modulus": (self.loss_modulus, "Pa", "loss modulus"),
+                "loss_tangent": (self.loss_tangent, "1", "loss tangent"),
+                "strain_amplitude": None if amplitude is None else (amplitude, "1", "strain amplitude"),
+            },
+            coordinates={"angular_frequency": (self.angular_frequency, "rad/s", "angular frequency")},
+            attributes={"temperature": self.temperature},
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class IsothermalSweeps:

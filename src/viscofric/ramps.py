@@ -68,6 +68,26 @@ class TemperatureRamp:
         """E''/E' (or G''/G')."""
         return np.asarray(self.loss_modulus / self.storage_modulus)
 
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the moduli along the dimension ``reading``.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``temperature`` (K), ``storage_modulus`` and ``loss_modulus`` (Pa), ``loss_tangent``; the attribute
+            ``angular_frequency`` (rad/s).
+        """
+        return dataset(
+            "reading",
+            {
+                "temperature": (self.temperature, "K", "temperature"),
+                "storage_modulus": (self.storage_modulus, "Pa", "storage modulus"),
+                "loss_modulus": (self.loss_modulus, "Pa", "loss modulus"),
+                "loss_tangent": (self.loss_tangent, "1", "loss tangent"),
+            },
+            attributes={"angular_frequency": self.angular_frequency},
+        )
+
 
 def _rad_per_second(value: Quantity) -> float:
     return angular_frequency(value, "angular_frequency of a ramp")

@@ -17,12 +17,8 @@ def contact():
 def test_a_contact_has_its_fields_over_x_and_y(contact):
     found = contact.to_dataset()
     assert dict(found.sizes) == {"x": len(contact.x), "y": 1}
-    assert {name: found[name].attrs["units"] for name in found.variables} == {
-        "pressure": "Pa",
-        "displacement": "m",
-        "x": "m",
-        "y": "m",
-    }
+    units = {name: found[name].attrs["units"] for name in found.variables if found[name].ndim}
+    assert units == {"pressure": "Pa", "displacement": "m", "x": "m", "y": "m"}
     assert found.attrs["friction_coefficient"] == contact.friction_coefficient
     assert found.attrs["direction"] == [1.0, 0.0]
 
@@ -61,3 +57,30 @@ def test_stresses_are_labelled_with_given_coordinates(contact):
 def test_the_highest_stress_is_four_numbers():
     found = HighestStress(2e5, 1e-4, 0.0, 3e-4).to_dataset()
     assert {name: float(found[name]) for name in found} == {"von_mises": 2e5, "x": 1e-4, "y": 0.0, "depth": 3e-4}
+
+
+def test_a_contact_has_its_numbers_with_units_and_errors(contact):
+    found = contact.to_dataset()
+    assert {name: found[name].attrs["units"] for name in ("load", "contact_area", "friction_force", "power")} == {
+        "load": "N/m",
+        "contact_area": "m",
+        "friction_force": "N/m",
+        "power": "W/m",
+    }
+    assert float(found["mean_pressure"]) == pytest.approx(contact.load / contact.contact_area)
+    assert found["rear"].attrs["ancillary_variables"] == "edge_error"
+    assert float(found["edge_error"]) == contact.diagnostics.edge_error
+    assert "temperature" not in found
+    fast = vf.solve_steady(RUBBER, vf.Ball("10 mm"), speed=np.inf, load=1.0, accuracy=0.1).numbers
+    assert "power" not in fast
+    assert fast["load"].attrs["units"] == "N"
+
+
+def test_a_rough_contact_has_its_numbers_with_units():
+    surface = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16)[:, None], spacing="10 um")
+    solution = vf.solve_periodic(RUBBER, surface, speed=1.0, pressure="0.2 kPa")
+    found = solution.to_dataset()
+    assert float(found["mean_contact_pressure"]) == pytest.approx(200.0 / solution.contact_area_fraction)
+    assert float(found["power"]) == pytest.approx(solution.friction_coefficient * 200.0)
+    assert found["power"].attrs["units"] == "W/m**2"
+    assert found["friction_coefficient"].attrs["ancillary_variables"] == "friction_error"

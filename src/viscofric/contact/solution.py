@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from viscofric.datasets import dataset
 
@@ -12,6 +13,80 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.derivatives.friction import FrictionDerivatives
+
+#: Unit and long name of a number.
+Meaning: TypeAlias = tuple[str, str]
+#: Numbers of every contact, of indenters and of rough surfaces.
+SHARED_NUMBERS: dict[str, Meaning] = {
+    "speed": ("m/s", "speed at which the rubber is deformed"),
+    "temperature": ("K", "temperature"),
+    "friction_coefficient": ("1", "viscoelastic friction coefficient"),
+    "friction_error": ("1", "numerical error estimate of the friction coefficient"),
+    "pressure_friction_coefficient": ("1", "friction coefficient from the pressure on the slopes"),
+    "lateral_friction_coefficient": ("1", "force across the motion over the load"),
+    "max_pressure": ("Pa", "largest contact pressure"),
+    "energy_balance": ("1", "friction from the pressure minus friction from the dissipation, relative"),
+}
+#: Numbers of an indenter's contact.
+NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
+    "energy_friction_coefficient": ("1", "friction coefficient from the dissipated energy"),
+    "friction_force": ("N", "friction force"),
+    "friction_force_error": ("N", "numerical error estimate of the friction force"),
+    "power": ("W", "dissipated power"),
+    "power_error": ("W", "numerical error estimate of the dissipated power"),
+    "load": ("N", "normal load"),
+    "load_error": ("N", "error estimate of the load"),
+    "indentation": ("m", "indentation"),
+    "indentation_error": ("m", "error estimate of the indentation"),
+    "contact_area": ("m**2", "contact area"),
+    "contact_area_error": ("m**2", "error estimate of the contact area"),
+    "front": ("m", "distance from the axis to the leading edge"),
+    "rear": ("m", "distance from the axis to the trailing edge"),
+    "half_width": ("m", "half-width of the contact across the motion"),
+    "edge_error": ("m", "error estimate of front, rear and half-width"),
+    "max_pressure_error": ("Pa", "error estimate of the largest contact pressure"),
+    "mean_pressure": ("Pa", "mean contact pressure"),
+    "centre_of_pressure": ("m", "distance of the centre of pressure ahead of the indenter's axis"),
+    "centre_of_pressure_error": ("m", "error estimate of the centre of pressure"),
+    "complementarity": ("1", "largest violation of the contact conditions over the indentation"),
+    "cells": ("1", "cells along the longer edge of the finest window"),
+    "spacing": ("m", "length of a cell along the motion"),
+    "products": ("1", "products with the influence matrix"),
+}
+#: Those of a line contact, whose load and area are per length.
+LINE_NUMBERS: dict[str, Meaning] = NUMBERS | {
+    "friction_force": ("N/m", "friction force per length"),
+    "friction_force_error": ("N/m", "numerical error estimate of the friction force per length"),
+    "power": ("W/m", "dissipated power per length"),
+    "power_error": ("W/m", "numerical error estimate of the dissipated power per length"),
+    "load": ("N/m", "normal load per length"),
+    "load_error": ("N/m", "error estimate of the load per length"),
+    "contact_area": ("m", "width of the contact along the motion"),
+    "contact_area_error": ("m", "error estimate of the width of the contact"),
+}
+#: The error estimate of each number that has one.
+ERRORS = {
+    "friction_coefficient": "friction_error",
+    "friction_force": "friction_force_error",
+    "power": "power_error",
+    "load": "load_error",
+    "indentation": "indentation_error",
+    "contact_area": "contact_area_error",
+    "front": "edge_error",
+    "rear": "edge_error",
+    "half_width": "edge_error",
+    "max_pressure": "max_pressure_error",
+    "centre_of_pressure": "centre_of_pressure_error",
+}
+
+
+def labelled_numbers(meaning: dict[str, Meaning], values: dict[str, Any]) -> xarray.Dataset:
+    """Return numbers with units, long names and the names of their errors (``ancillary_variables``); None: absent."""
+    found = dataset((), {name: (values[name], *words) for name, words in meaning.items() if values[name] is not None})
+    for name, error in ERRORS.items():
+        if name in found and error in found:
+            found[name].attrs["ancillary_variables"] = error
+    return found
 
 
 class Level(NamedTuple):
@@ -184,9 +259,33 @@ class ContactSolution:
         """Distance from the indenter's axis to where the resultant load acts, along +x, m."""
         return float(self.x @ self.pressure.sum(axis=1)) / float(self.pressure.sum())
 
+    @property
+    def friction_force(self) -> float:
+        """Friction coefficient times load, N, or N/m for a line contact."""
+        return self.friction_coefficient * self.load
+
+    @property
+    def mean_pressure(self) -> float:
+        """Load over contact area, Pa."""
+        return self.load / self.contact_area
+
+    @property
+    def numbers(self) -> xarray.Dataset:
+        """All numbers and errors with units and long names; ``ancillary_variables`` names the error of each."""
+        found = self.diagnostics
+        line, moves = self.geometry == "line", math.isfinite(self.speed)
+        values = {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
+            "energy_balance": found.energy,
+            "cells": max(found.shape),
+            "friction_force_error": found.friction_error * self.load,
+            "power": self.friction_force * self.speed if moves else None,
+            "power_error": found.friction_error * self.load * abs(self.speed) if moves else None,
+        }
+        return labelled_numbers(LINE_NUMBERS if line else NUMBERS, values)
+
     def to_dataset(self) -> xarray.Dataset:
-        """Return pressure and displacement over x and y, with load, speed and main results as attributes."""
-        return dataset(
+        """Return pressure and displacement over x and y, and all `numbers`; the main results also as attributes."""
+        fields = dataset(
             ("x", "y"),
             {
                 "pressure": (self.pressure, "Pa", "contact pressure"),
@@ -204,3 +303,4 @@ class ContactSolution:
                 "indentation": self.indentation,
             },
         )
+        return fields.assign(self.numbers.data_vars)

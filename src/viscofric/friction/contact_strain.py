@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,8 @@ from viscofric.rheology.payne.at_strain import contact_strain, material_at_strai
 from viscofric.rheology.payne.kraus import KrausLaw
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.contact.solution import ContactSolution
     from viscofric.units import Quantity
 
@@ -54,6 +57,24 @@ class ContactAtStrain:
         return (
             f"ContactAtStrain({100 * self.strain:.2g} % strain, friction {self.scaled.friction_coefficient:.4g}; "
             f"linear {self.linear.friction_coefficient:.4g})"
+        )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the numbers of both contacts along the dimension ``moduli``.
+
+        Returns
+        -------
+        xarray.Dataset
+            `ContactSolution.numbers` at ``moduli`` "linear" and "at the strain of the contact"; the attributes are
+            ``strain`` and ``notes`` (JSON).
+        """
+        import xarray
+
+        names = ["linear", "at the strain of the contact"]
+        words = {"units": "1", "long_name": "moduli of the contact"}
+        moduli = xarray.DataArray(names, dims="moduli", name="moduli", attrs=words)
+        return xarray.concat([self.linear.numbers, self.scaled.numbers], moduli).assign_attrs(
+            strain=self.strain, notes=json.dumps([str(note) for note in self.notes], ensure_ascii=False)
         )
 
 

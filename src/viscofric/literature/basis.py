@@ -19,7 +19,8 @@ from viscofric.literature.reference import Reference
 from viscofric.literature.references import PAPER, REFERENCES
 from viscofric.rheology.catalogue import catalogue_material
 from viscofric.rheology.material import Material
-from viscofric.rheology.payne.kraus import KrausLaw, PayneFit
+from viscofric.rheology.payne.kraus import KrausLaw
+from viscofric.rheology.payne.kraus_fit import PayneFit
 from viscofric.rheology.ramps.result import RampSuperposition
 from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, ShiftLaw, WLFArrhenius

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from viscofric.friction.contact_strain import ContactAtStrain
-    from viscofric.rheology.payne.kraus import PayneFit
+    from viscofric.rheology.payne.kraus_fit import PayneFit
 
 
 @click.command(name="amplitude")
@@ -61,7 +61,7 @@ def command(
     approximation.
     """
     from viscofric.readers.dma.amplitudes import read_amplitude_sweep
-    from viscofric.rheology.payne.kraus import fit_kraus
+    from viscofric.rheology.payne.kraus_fit import fit_kraus
 
     check_ending(picture, "--picture", PICTURES)
     for target in (picture, output):

@@ -2,15 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from viscofric.contact.solution import SHARED_NUMBERS, Meaning, labelled_numbers
 from viscofric.datasets import dataset
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+
+#: Numbers of a contact on a rough surface.
+NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
+    "mean_pressure": ("Pa", "mean pressure"),
+    "mean_gap": ("m", "mean gap between the surfaces"),
+    "indentation": ("m", "distance that the surface has moved since the first touch"),
+    "contact_area_fraction": ("1", "contact area fraction, real over nominal: points under pressure over all"),
+    "mean_contact_pressure": ("Pa", "mean pressure on the points in contact"),
+    "power": ("W/m**2", "dissipated power per area"),
+    "complementarity": ("1", "largest violation of the contact conditions over the rms height"),
+    "cells": ("1", "points along the longer period"),
+    "products": ("1", "products with the transfer function on the finest grid"),
+}
 
 
 @dataclass(frozen=True)
@@ -122,9 +137,22 @@ class PeriodicSolution:
     diagnostics: PeriodicDiagnostics
     warnings: tuple[str, ...] = ()
 
+    @property
+    def numbers(self) -> xarray.Dataset:
+        """All numbers with units and long names; ``ancillary_variables`` names the error of the friction."""
+        found = self.diagnostics
+        touching = self.contact_area_fraction
+        values = {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
+            "mean_contact_pressure": self.mean_pressure / touching if touching > 0.0 else None,
+            "power": self.friction_coefficient * self.mean_pressure * self.speed if math.isfinite(self.speed) else None,
+            "energy_balance": found.energy,
+            "cells": max(self.pressure.shape),
+        }
+        return labelled_numbers(NUMBERS, values)
+
     def to_dataset(self) -> xarray.Dataset:
-        """Return pressure, displacement and gap over x and y, with speed and main results as attributes."""
-        return dataset(
+        """Return pressure, displacement and gap over x and y, and all `numbers`; main results also as attributes."""
+        fields = dataset(
             ("x", "y"),
             {
                 "pressure": (self.pressure, "Pa", "contact pressure"),
@@ -142,3 +170,4 @@ class PeriodicSolution:
                 "contact_area_fraction": self.contact_area_fraction,
             },
         )
+        return fields.assign(self.numbers.data_vars)

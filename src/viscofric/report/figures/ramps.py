@@ -12,7 +12,7 @@ from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamps
 from viscofric.report.figures.style import BLUE, GREY, VERMILION, sequential_looks
 from viscofric.report.results import values
-from viscofric.rheology.payne.kraus import PayneFit
+from viscofric.rheology.payne.kraus_fit import PayneFit
 from viscofric.rheology.ramps.glass_transition import glass_transition
 from viscofric.rheology.ramps.result import RampSuperposition
 from viscofric.units import CELSIUS_ZERO

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.contact.solution import ERRORS
 from viscofric.datasets import plain
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
@@ -23,31 +24,10 @@ _ROUND_OFF = 1e-12
 # Relative to the friction: a lateral one below it is what the solver's tolerance leaves of none.
 _LEAST_LATERAL = 1e-5
 
-#: Units of what `contact_record` holds.
-UNITS = {
-    "speed": "m/s",
-    "load": "N",
-    "direction": "1",
-    "temperature": "K",
-    "E0": "Pa",
-    "E_inf": "Pa",
-    "C": "1/Pa",
-    "tau": "s",
-    "friction_force": "N",
-    "friction_coefficient": "1",
-    "lateral_friction_coefficient": "1",
-    "indentation": "m",
-    "contact_area": "m^2",
-    "front": "m",
-    "rear": "m",
-    "half_width": "m",
-    "max_pressure": "Pa",
-    "mean_pressure": "Pa",
-    "centre_of_pressure": "m",
-    "spacing": "m",
-    "seconds": "s",
-}
-_UNITS_OF_A_LINE = {"load": "N/m", "friction_force": "N/m", "contact_area": "m"}
+# Units of what `contact_record` holds beside the numbers of the contact.
+_UNITS = {"direction": "1", "E0": "Pa", "E_inf": "Pa", "C": "1/Pa", "tau": "s", "seconds": "s"}
+# Numbers of a contact that are inputs, or work of the solver.
+_NO_RESULTS = ("speed", "temperature", "energy_balance", "complementarity", "cells", "spacing", "products")
 
 
 def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, str]]:
@@ -71,7 +51,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         ("friction coefficient", _friction(solution)),
         ("  from the pressure", _five(solution.pressure_friction_coefficient)),
         ("  from the energy", f"{_five(solution.energy_friction_coefficient)}{_balance(solution)}"),
-        ("friction force", prefixed(_friction_force(solution), None, force)),
+        ("friction force", prefixed(solution.friction_force, None, force)),
         *_lateral(solution),
         ("load", prefixed(solution.load, diagnostics.load_error, force)),
         ("indentation", length(solution.indentation, diagnostics.indentation_error)),
@@ -86,7 +66,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         lines.append(("  half width across", length(solution.half_width, edge)))
     lines += [
         ("largest pressure", peak),
-        ("mean pressure", prefixed(solution.load / solution.contact_area, None, "Pa")),
+        ("mean pressure", prefixed(solution.mean_pressure, None, "Pa")),
         ("centre of pressure", _centre(solution)),
         ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
         ("solver", _work(diagnostics)),
@@ -139,10 +119,6 @@ def _centre(solution: ContactSolution) -> str:
     return f"{length(abs(distance))} {'ahead of' if distance > 0.0 else 'behind'} the axis"
 
 
-def _friction_force(solution: ContactSolution) -> float:
-    return solution.friction_coefficient * solution.load
-
-
 def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: float) -> dict[str, Any]:
     """Return a contact in plain types: inputs, results, errors, diagnostics, and the units of their names.
 
@@ -156,35 +132,11 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
     """
     from importlib.metadata import version
 
-    diagnostics = solution.diagnostics
-    line = solution.geometry == "line"
-    results = {
-        "geometry": solution.geometry,
-        "friction_coefficient": solution.friction_coefficient,
-        "pressure_friction_coefficient": solution.pressure_friction_coefficient,
-        "energy_friction_coefficient": solution.energy_friction_coefficient,
-        "friction_force": _friction_force(solution),
-        "lateral_friction_coefficient": solution.lateral_friction_coefficient,
-        "load": solution.load,
-        "indentation": solution.indentation,
-        "contact_area": solution.contact_area,
-        "front": solution.front,
-        "rear": solution.rear,
-        "half_width": solution.half_width,
-        "max_pressure": solution.max_pressure,
-        "mean_pressure": solution.load / solution.contact_area,
-        "centre_of_pressure": solution.centre_of_pressure,
-    }
+    diagnostics, numbers = solution.diagnostics, solution.numbers
+    names = [str(name) for name in numbers if name not in (*ERRORS.values(), *_NO_RESULTS)]
+    results = {"geometry": solution.geometry, **{name: numbers[name].item() for name in names}}
     errors = {
-        "friction_coefficient": diagnostics.friction_error,
-        "load": diagnostics.load_error,
-        "indentation": diagnostics.indentation_error,
-        "contact_area": diagnostics.contact_area_error,
-        "front": diagnostics.edge_error,
-        "rear": diagnostics.edge_error,
-        "half_width": None if line else diagnostics.edge_error,
-        "max_pressure": diagnostics.max_pressure_error,
-        "centre_of_pressure": diagnostics.centre_of_pressure_error,
+        name: numbers[ERRORS[name]].item() if math.isfinite(results[name]) else None for name in names if name in ERRORS
     }
     work = {
         "cells": list(diagnostics.shape),
@@ -211,7 +163,7 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
             "derivatives": derivative_record(solution),
             "diagnostics": work,
             **listed("warnings", solution.warnings),
-            "units": UNITS | (_UNITS_OF_A_LINE if line else {}),
+            "units": {str(name): number.attrs["units"] for name, number in numbers.items()} | _UNITS,
         },
         digits=None,
     )

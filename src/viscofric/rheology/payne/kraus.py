@@ -1,4 +1,4 @@
-"""The linear range of an amplitude sweep, and Kraus's law fitted to it.
+"""Kraus's law of the moduli of a filled rubber over the strain amplitude.
 
 G. Kraus, J. Appl. Polym. Sci. Appl. Polym. Symp. 39 (1984) 75; A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57.
 """
@@ -11,16 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.amplitudes import AmplitudeSweep
-from viscofric.arguments import insist_on, number, numbers
+from viscofric.arguments import number, numbers
 from viscofric.data import DEFORMATIONS
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.notes import Note
 from viscofric.rheology.shifts.columns import checked_covariance
-from viscofric.rheology.superposition.common_curve import Smoother
-from viscofric.rheology.superposition.shift_problem import inflation
-from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
     import xarray
@@ -29,17 +24,10 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: Points that the constants of both moduli, six, need.
-FEWEST = 6
-#: Starting values of the exponent m; 0.4 to 0.7 is usual for carbon black (Kraus; 0.5 to 0.6).
-EXPONENTS = (0.35, 0.6, 1.0)
-#: Fits with the weights of both moduli found anew.
-PASSES = 4
-#: Logarithms of constants stay within this of the data.
-WIDEST = math.log(1e4)
-#: Scatter about the law above which it does not describe the sweep, decades.
-LARGEST_SCATTER = 0.03
-_NAMES = ("storage_linear", "storage_large", "critical_strain", "exponent", "loss_peak", "loss_large")
+#: Amplitudes that the law is drawn at.
+_DRAWN = 101
+#: The constants in the order of their covariance.
+CONSTANTS = ("storage_linear", "storage_large", "critical_strain", "exponent", "loss_peak", "loss_large")
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,13 +77,13 @@ class KrausLaw:
     strain_range: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        for name in (*_NAMES, "angular_frequency", "temperature"):
+        for name in (*CONSTANTS, "angular_frequency", "temperature"):
             if not (value := number(getattr(self, name), name)) > 0.0:
                 raise InputError(f"{name} = {value:g}: must be above zero.")
             object.__setattr__(self, name, value)
         check_choice(self.deformation, "deformation", *DEFORMATIONS)
         if self.covariance is not None:
-            object.__setattr__(self, "covariance", checked_covariance(self.covariance, len(_NAMES), "Kraus's law"))
+            object.__setattr__(self, "covariance", checked_covariance(self.covariance, len(CONSTANTS), "Kraus's law"))
         if self.strain_range is not None:
             ends = numbers(self.strain_range, "strain_range")
             if ends.shape != (2,) or not 0.0 < ends[0] < ends[1]:
@@ -117,7 +105,7 @@ class KrausLaw:
     @property
     def constants(self) -> Array:
         """The six constants in the order of `covariance`."""
-        return np.array([getattr(self, name) for name in _NAMES])
+        return np.array([getattr(self, name) for name in CONSTANTS])
 
     @property
     def standard_errors(self) -> tuple[float, ...] | None:
@@ -129,233 +117,65 @@ class KrausLaw:
         amplitude = numbers(strain, "strain")
         if not np.all(amplitude >= 0.0):
             raise InputError("strain must hold amplitudes as fractions, none below zero.")
-        return _moduli(np.log(np.maximum(self.constants, 1e-300)), amplitude)
+        return kraus_moduli(np.log(np.maximum(self.constants, 1e-300)), amplitude)
 
     def tensile_strain(self, strain: float) -> float:
         """Return the amplitude of this law's deformation that a tensile strain corresponds to: γ = √3 ε in shear."""
         value = number(strain, "strain")
         return math.sqrt(3.0) * value if self.deformation == "shear" else value
 
+    def to_dataset(self, strain: ArrayLike | None = None) -> xarray.Dataset:
+        """Return the moduli along ``strain_amplitude``, and the constants.
 
-def _moduli(logs: Array, strain: Array) -> Any:
-    linear, large, critical, exponent, peak, floor = np.exp(logs)
-    ratio = (strain / critical) ** exponent
-    storage = large + (linear - large) / (1.0 + ratio**2)
-    return storage + 1j * (floor + 2.0 * (peak - floor) * ratio / (1.0 + ratio**2))
-
-
-@dataclass(frozen=True)
-class LinearRange:
-    """The amplitude up to which a sweep is linear.
-
-    Parameters
-    ----------
-    drop : float
-        By which part the storage modulus has fallen there, 0.05 or 0.1.
-    strain : float
-        The amplitude, a fraction; infinite where the modulus falls by less within the sweep.
-    standard_error : float
-        Of the strain, from the scatter of the points.
-    """
-
-    drop: float
-    strain: float
-    standard_error: float
-
-    def __str__(self) -> str:
-        """Return the range as a line of text."""
-        if not math.isfinite(self.strain):
-            return f"the storage modulus falls by less than {100 * self.drop:.0f} % within the sweep"
-        return (
-            f"the storage modulus has fallen by {100 * self.drop:.0f} % at a strain of {100 * self.strain:.3g} ± "
-            f"{100 * self.standard_error:.1g} %"
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class PayneFit:
-    """The result of `fit_kraus`.
-
-    Parameters
-    ----------
-    law : KrausLaw
-        With the covariance of its constants.
-    sweep : AmplitudeSweep
-        What it was fitted to.
-    linear_ranges : tuple of LinearRange
-        Where the storage modulus has fallen by 5 and by 10 %, found without the law.
-    scatter : (float, float)
-        Of log10 G' and of log10 G'' about the law, decades.
-    notes : tuple of str
-        What the reader noted, and what is doubtful about the law: one sentence each.
-    """
-
-    law: KrausLaw
-    sweep: AmplitudeSweep
-    linear_ranges: tuple[LinearRange, ...]
-    scatter: tuple[float, float]
-    notes: tuple[str, ...] = ()
-
-    def __repr__(self) -> str:
-        return f"PayneFit({self.sweep!r}, {self.law})"
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Return the sweep as `AmplitudeSweep.to_dataset` does, with the law at its amplitudes.
+        Parameters
+        ----------
+        strain : array_like, optional
+            Amplitudes, fractions; without them, the law from a thousandth of γc to a thousand times that, or over the
+            amplitudes of its fit.
 
         Returns
         -------
         xarray.Dataset
-            ``storage_fitted`` and ``loss_fitted`` (Pa) in addition; constants, their errors and linear ranges among
-            the attributes.
+            ``storage_modulus`` and ``loss_modulus`` (Pa); attributes are the constants, their standard errors where
+            the law was fitted, ``angular_frequency`` (rad/s), ``temperature`` (K) and ``deformation``.
+
+        Raises
+        ------
+        InputError
+            If an amplitude is below zero.
         """
-        found = self.sweep.to_dataset()
-        fitted = self.law.complex_modulus(self.sweep.strain_amplitude)
-        more = dataset(
+        ends = self.strain_range or (1e-3 * self.critical_strain, 1e3 * self.critical_strain)
+        amplitude = np.atleast_1d(numbers(np.geomspace(*ends, _DRAWN) if strain is None else strain, "strain"))
+        moduli = self.complex_modulus(amplitude)
+        return dataset(
             "strain_amplitude",
             {
-                "storage_fitted": (fitted.real, "Pa", "storage modulus by Kraus's law"),
-                "loss_fitted": (fitted.imag, "Pa", "loss modulus by Kraus's law"),
+                "storage_modulus": (moduli.real, "Pa", "storage modulus"),
+                "loss_modulus": (moduli.imag, "Pa", "loss modulus"),
+            },
+            coordinates={"strain_amplitude": (amplitude, "1", "strain amplitude")},
+            attributes=self.attributes
+            | {
+                "angular_frequency": self.angular_frequency,
+                "temperature": self.temperature,
+                "deformation": self.deformation,
             },
         )
-        errors = self.law.standard_errors or (math.nan,) * 6
-        constants = dict(zip(_NAMES, self.law.constants.tolist(), strict=True))
-        constants |= {f"{name}_error": error for name, error in zip(_NAMES, errors, strict=True)}
-        for one in self.linear_ranges:
-            constants[f"linear_strain_{100 * one.drop:.0f}_percent"] = one.strain
-            constants[f"linear_strain_{100 * one.drop:.0f}_percent_error"] = one.standard_error
-        return found.assign(more.data_vars).assign_attrs(law=str(self.law), **constants)
 
-
-@one_blas_thread
-def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
-    """Fit Kraus's law to an amplitude sweep, and find its linear range.
-
-    Parameters
-    ----------
-    sweep : AmplitudeSweep
-        Of at least six amplitudes.
-
-    Returns
-    -------
-    PayneFit
-
-    Raises
-    ------
-    InputError
-        If there are fewer amplitudes.
-
-    Notes
-    -----
-    Least squares of log G' and log G'', each with the weight of its own scatter; G' and G'' share γc and m, as Kraus
-    derived.  The loss modulus of many compounds is larger at small amplitudes than the law says (J. D. Ulmer, Rubber
-    Chem. Technol. 69 (1996) 15); its greater scatter then gives it a smaller weight, and a note says so.
-
-    The linear range is found from a smooth curve through log G' over log γ (a spline, smoothed by restricted maximum
-    likelihood) relative to the smallest amplitude, without the law.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import viscofric as vf
-    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
-    >>> strain = np.geomspace(1e-4, 0.5, 30)
-    >>> G = law.complex_modulus(strain)
-    >>> fit = vf.fit_kraus(vf.AmplitudeSweep(strain, G.real, G.imag, "10 Hz", "60 degC", "shear"))
-    >>> f"{fit.law.critical_strain:.4f}, {fit.law.exponent:.3f}"
-    '0.0200, 0.600'
-    """
-    insist_on(sweep, "sweep", AmplitudeSweep, right="an AmplitudeSweep; read it with read_amplitude_sweep(…)")
-    if len(sweep) < FEWEST:
-        raise InputError(
-            f"an amplitude sweep of {len(sweep)} amplitudes is too short; give {FEWEST} or more.", code="too-few-points"
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """The constants and their standard errors, as data sets have them."""
+        errors = self.standard_errors or (math.nan,) * len(CONSTANTS)
+        return (
+            {"law": str(self)}
+            | dict(zip(CONSTANTS, self.constants.tolist(), strict=True))
+            | {f"{name}_error": error for name, error in zip(CONSTANTS, errors, strict=True)}
         )
-    logs, scatter, covariance = _fitted(sweep)
-    constants = np.exp(logs)
-    law = KrausLaw(
-        **dict(zip(_NAMES, constants.tolist(), strict=True)),
-        angular_frequency=sweep.angular_frequency,
-        temperature=sweep.temperature,
-        deformation=sweep.deformation,
-        covariance=constants[:, None] * covariance * constants,
-        strain_range=(float(sweep.strain_amplitude[0]), float(sweep.strain_amplitude[-1])),
-    )
-    ranges = tuple(linear_range(sweep, drop) for drop in (0.05, 0.1))
-    return PayneFit(
-        law, sweep, ranges, (float(scatter[0]), float(scatter[1])), (*sweep.notes, *_doubts(sweep, scatter))
-    )
 
 
-def _doubts(sweep: AmplitudeSweep, scatter: Array) -> list[Note]:
-    notes = []
-    letter = "G" if sweep.deformation == "shear" else "E"
-    for mark, one in zip(("'", "''"), scatter, strict=True):
-        if one > LARGEST_SCATTER:
-            said = f"Kraus's law misses {letter}{mark} by {one:.2g} decades (rms); it describes it roughly only."
-            notes.append(Note("kraus-misfit", said))
-    fall = sweep.storage_modulus.max() / sweep.storage_modulus[-1]
-    if fall < 1.1:
-        said = f"{letter}' falls by {100.0 * (1.0 - 1.0 / fall):.0f} % only: the sweep does not determine the law."
-        notes.append(Note("hardly-nonlinear", said))
-    return notes
-
-
-def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
-    """Return the logarithms of the constants, the scatter of both moduli (decades), and the covariance."""
-    from scipy.optimize import least_squares
-
-    strain = sweep.strain_amplitude
-    measured = np.log(np.stack([sweep.storage_modulus, sweep.loss_modulus]))
-    low, high = measured.min(axis=1) - WIDEST, measured.max(axis=1) + WIDEST
-    ends = np.log(strain[[0, -1]])
-    bounds = (
-        np.array([low[0], low[0], ends[0] - 3.0, math.log(0.05), low[1], low[1]]),
-        np.array([high[0], high[0], ends[1] + 3.0, math.log(5.0), high[1], high[1]]),
-    )
-    scatter = np.ones(2)
-
-    def away(logs: Array) -> Array:
-        found = _moduli(logs, strain)
-        difference = np.log(np.stack([np.maximum(found.real, 1e-300), np.maximum(found.imag, 1e-300)])) - measured
-        return np.asarray((difference / scatter[:, None]).ravel())
-
-    middle = float(np.log(strain[np.argmin(np.abs(measured[0] - measured[0].mean()))]))
-    starts = [
-        [measured[0, 0], measured[0, -1] - 0.1, middle, math.log(m), measured[1].max(), measured[1].min() - 0.2]
-        for m in EXPONENTS
-    ]
-    best = min((least_squares(away, start, bounds=bounds) for start in starts), key=lambda one: float(one.cost))
-    freedom = len(strain) - 3.0
-    for _ in range(PASSES):
-        residual = (best.fun.reshape(2, -1)) * scatter[:, None]
-        scatter = np.maximum(np.sqrt(np.sum(residual**2, axis=1) / freedom), 1e-9)
-        best = least_squares(away, best.x, bounds=bounds)
-    residual = best.fun.reshape(2, -1)
-    same = np.ones(len(strain) - 1, dtype=bool)
-    alike = np.repeat([inflation(one, same) for one in residual], len(strain))
-    slope = np.asarray(best.jac)
-    inverse = np.linalg.pinv(slope.T @ slope, rcond=1e-12)
-    return best.x, scatter / math.log(10.0), inverse @ (slope.T * alike @ slope) @ inverse
-
-
-def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
-    """Return the amplitude where the storage modulus has fallen by a part, from a smooth curve without a law."""
-    insist_on(sweep, "sweep", AmplitudeSweep)
-    if not 0.0 < (part := number(drop, "drop")) < 1.0:
-        raise InputError(f"drop = {part:g}: must lie between 0 and 1, such as 0.05.")
-    logarithm = np.log10(sweep.strain_amplitude)
-    storage = np.log10(sweep.storage_modulus)[:, None]
-    smoother = Smoother.fitted(logarithm, storage)
-    fine = np.linspace(logarithm[0], logarithm[-1], 2001)
-    curves = smoother.curves(logarithm, storage)
-    basis = smoother.basis(fine)
-    fallen = (basis - basis[0]) @ curves.coefficients[:, 0] - math.log10(1.0 - part)
-    below = np.flatnonzero(fallen < 0.0)
-    if not below.size:
-        return LinearRange(part, math.inf, math.inf)
-    place = int(below[0])
-    slope = (fallen[place] - fallen[place - 1]) / (fine[1] - fine[0])
-    row = basis[place] - basis[0]
-    variance = smoother.scatter[0] ** 2 * float(row @ curves.inverse[0] @ row)
-    variance *= inflation(curves.residual[:, 0], np.ones(len(logarithm) - 1, dtype=bool))
-    strain = float(10.0 ** fine[place])
-    return LinearRange(part, strain, strain * math.log(10.0) * math.sqrt(variance) / abs(float(slope)))
+def kraus_moduli(logs: Array, strain: Array) -> Any:
+    """Return G' + iG'' at amplitudes (n,) from the logarithms of the six constants."""
+    linear, large, critical, exponent, peak, floor = np.exp(logs)
+    ratio = (strain / critical) ** exponent
+    storage = large + (linear - large) / (1.0 + ratio**2)
+    return storage + 1j * (floor + 2.0 * (peak - floor) * ratio / (1.0 + ratio**2))

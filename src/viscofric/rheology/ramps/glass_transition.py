@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.datasets import dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamp
 from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.arrays import Array, Mask
 
 
@@ -57,6 +60,26 @@ class GlassTransition:
         hertz = self.angular_frequency / (2.0 * np.pi)
         name = "tan δ" if self.by == "tan delta" else "loss modulus"
         return f"{name} at {hertz:.3g} Hz: {celsius(self.temperature):z.1f} ± {self.standard_error:.2g} °C"
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the peak as single numbers.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``angular_frequency`` (rad/s), ``temperature`` and ``standard_error`` (K), ``height`` (1 or Pa); the
+            attribute ``by``.
+        """
+        return dataset(
+            (),
+            {
+                "angular_frequency": (self.angular_frequency, "rad/s", "angular frequency"),
+                "temperature": (self.temperature, "K", "temperature of the peak"),
+                "standard_error": (self.standard_error, "K", "standard error of the temperature of the peak"),
+                "height": (self.height, "1" if self.by == "tan delta" else "Pa", f"{self.by} at the peak"),
+            },
+            attributes={"by": self.by},
+        )
 
 
 def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTransition | None:

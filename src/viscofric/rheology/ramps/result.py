@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from viscofric.datasets import dataset
 from viscofric.rheology.superposition.consistency import REPRODUCIBILITY
@@ -54,6 +54,28 @@ class RampCheck:
             f"The ramps of {len(self.offsets)} frequencies {verdict}: they scatter by {self.between:.2g} decades about "
             f"common curves of E' and E''{own} (good up to {REPRODUCIBILITY:g} on top of their own)."
         )
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the distances along the dimension ``ramp``, with the verdict as attributes.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``offset``, ``between`` and ``within`` (decades); the attributes ``holds`` (1 or 0) and ``sentence``.
+        """
+        return dataset(
+            "ramp",
+            {
+                "offset": (self.offsets, "1", "mean distance of log10 of the moduli from the common curves"),
+                "between": (self.between, "1", "scatter of log10 of the moduli about the common curves"),
+                "within": (self.within, "1", "scatter of log10 of the moduli about the curves of each ramp"),
+            },
+            attributes=self._verdict,
+        )
+
+    @property
+    def _verdict(self) -> dict[str, Any]:
+        return {"holds": int(self.holds), "sentence": self.sentence}
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,22 +131,17 @@ class RampSuperposition:
             of the check, and the peaks (JSON).
         """
         found = self.ramps.to_dataset()
-        peaks = [
-            {"by": one.by, "angular_frequency": one.angular_frequency, "temperature": one.temperature,
-             "standard_error": one.standard_error, "height": one.height}
-            for one in self.glass_transitions
-        ]  # fmt: skip
+        peaks = [{"by": one.by, **vars(one)} for one in self.glass_transitions]
         values = dataset(
             "reading",
             {"log10_shift_factor": (self.shift.log10(found["temperature"].values), "1", "log10 of the shift factor")},
         )
-        check = {} if self.check is None else {"holds": int(self.check.holds), "sentence": self.check.sentence}
         return found.assign(values.data_vars).assign_attrs(
             {
                 "reference_temperature": self.master_curve.reference,
                 "assumption": self.assumption,
                 "law": str(self.shift),
                 "glass_transitions": json.dumps(peaks),
-                **check,
+                **({} if self.check is None else self.check._verdict),
             }
         )

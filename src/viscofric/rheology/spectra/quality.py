@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from viscofric.datasets import dataset
 from viscofric.rheology.spectra.response import shown_modulus
+
+if TYPE_CHECKING:
+    import xarray
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
@@ -113,6 +117,37 @@ class SpectrumFit:
             "E_inf_at_limit": int(self.E_inf_at_limit),
             "statements": json.dumps(list(self.notes), ensure_ascii=False),
         }
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the numbers of the fit.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``rms_log10_storage``, ``rms_log10_loss`` and ``rms_log10_step`` (decades), ``modes``, ``tau_ratio``,
+            ``regularisation`` and ``measured_storage`` (Pa), where they are known; ``frequency_range`` (rad/s); the
+            attributes ``method``, ``E0_extrapolated``, ``E_inf_extrapolated``, ``E0_remark``, ``E_inf_remark``,
+            ``E_inf_at_limit`` and ``statements`` (JSON).
+        """
+        known: dict[str, tuple[Any, str, str]] = {
+            "rms_log10_storage": (self.rms_storage, "1", "rms misfit of log10 of the storage modulus"),
+            "rms_log10_loss": (self.rms_loss, "1", "rms misfit of log10 of the loss modulus"),
+            "rms_log10_step": (self.rms_step, "1", "rms misfit of log10 of the step response"),
+            "modes": (self.modes, "1", "number of modes with compliance"),
+            "tau_ratio": (self.tau_ratio, "1", "ratio of neighbouring retardation times"),
+            "regularisation": (self.regularisation, "1", "strength of the smoothing"),
+            "frequency_range": (self.frequency_range, "rad/s", "lowest and highest measured angular frequency"),
+            "measured_storage": (self.measured_storage, "Pa", "smallest and largest measured storage modulus"),
+        }
+        extrapolated = {
+            "E0_extrapolated": int(self.E0_extrapolated),
+            "E_inf_extrapolated": int(self.E_inf_extrapolated),
+        }
+        return dataset(
+            "end",
+            {name: entry for name, entry in known.items() if entry[0] is not None},
+            attributes={"method": self.method, **extrapolated, **self.attributes},
+        )
 
     @property
     def _beyond(self) -> str:

@@ -12,10 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.datasets import dataset
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import xarray
 
     from viscofric.arrays import Array, Mask
     from viscofric.data import Isotherm
@@ -228,6 +231,27 @@ class OverlapQuality:
     def joint(self) -> float:
         """√((storage² + loss²)/2), decades."""
         return float(np.sqrt(0.5 * (self.storage**2 + self.loss**2)))
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the misfits as single numbers.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``overlap_rms_log10_storage`` and ``overlap_rms_log10_loss`` (decades), ``points``, ``neighbours`` and
+            ``neighbours_without_overlap``.
+        """
+        rms = "rms difference of log10 of the {} modulus where shifted isotherms overlap"
+        return dataset(
+            (),
+            {
+                "overlap_rms_log10_storage": (self.storage, "1", rms.format("storage")),
+                "overlap_rms_log10_loss": (self.loss, "1", rms.format("loss")),
+                "points": (self.points, "1", "number of points compared"),
+                "neighbours": (self.neighbours, "1", "number of pairs of neighbouring isotherms"),
+                "neighbours_without_overlap": (self.without_overlap, "1", "number of pairs that do not overlap"),
+            },
+        )
 
 
 def overlap_quality(sweeps: list[LogSweep], log10_shifts: Array) -> OverlapQuality:

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
+from viscofric.contact.periodic.solution import NUMBERS as SURFACE
+from viscofric.contact.solution import LINE_NUMBERS as LINE
+from viscofric.contact.solution import NUMBERS as INDENTER
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.contact.solution import ContactSolution
+    from viscofric.contact.solution import ContactSolution, Meaning
     from viscofric.errors import ViscofricError
 
 
@@ -59,51 +62,32 @@ class Failure:
         return Note(self.code, self.reason, self.label)
 
 
-#: Unit and long name of a number.
-Meaning: TypeAlias = tuple[str, str]
-# Numbers that every contact has, in the order in which results list them.
-_SHARED: dict[str, Meaning] = {
-    "speed": ("m/s", "speed at which the rubber is deformed"),
-    "temperature": ("K", "temperature"),
-    "friction_coefficient": ("1", "viscoelastic friction coefficient"),
-    "friction_error": ("1", "numerical error estimate of the friction coefficient"),
-    "max_pressure": ("Pa", "largest contact pressure"),
-    "energy_balance": ("1", "friction from the pressure minus friction from the dissipation, relative"),
-    "complementarity": ("1", "largest violation of the contact conditions over the indentation"),
-    "cells": ("1", "cells along the longer edge of the finest window"),
-    "products": ("1", "products with the influence matrix"),
-    "interpolation_error": ("1", "part of the friction error due to interpolation between solved contacts"),
-}
-#: Those of an indenter's contact.
-NUMBERS: dict[str, Meaning] = _SHARED | {
-    "load": ("N", "normal load"),
-    "indentation": ("m", "indentation"),
-    "indentation_error": ("m", "error estimate of the indentation"),
-    "contact_area": ("m**2", "contact area"),
-    "contact_area_error": ("m**2", "error estimate of the contact area"),
-    "front": ("m", "distance from the axis to the leading edge"),
-    "rear": ("m", "distance from the axis to the trailing edge"),
-    "half_width": ("m", "half-width of the contact across the motion"),
-    "edge_error": ("m", "error estimate of front, rear and half-width"),
-    "max_pressure_error": ("Pa", "error estimate of the largest contact pressure"),
-    "centre_of_pressure": ("m", "distance of the centre of pressure ahead of the indenter's axis"),
-}
-#: Those of a line contact, whose load and area are per length.
-LINE_NUMBERS: dict[str, Meaning] = NUMBERS | {
-    "load": ("N/m", "normal load per length"),
-    "contact_area": ("m", "width of the contact along the motion"),
-    "contact_area_error": ("m", "error estimate of the width of the contact"),
-}
-#: Those of a contact on a rough surface.
-SURFACE_NUMBERS: dict[str, Meaning] = _SHARED | {
-    "complementarity": ("1", "largest violation of the contact conditions over the rms height"),
-    "cells": ("1", "points along the longer period"),
-    "products": ("1", "products with the transfer function on the finest grid"),
-    "pressure": ("Pa", "mean pressure"),
-    "lateral_friction_coefficient": ("1", "force across the motion over the load"),
-    "contact_area_fraction": ("1", "contact area fraction, real over nominal: points under pressure over all"),
-    "mean_gap": ("m", "mean gap between the surfaces"),
-}
+# What is stored of every contact, in the order in which results list it.
+_SHARED = (
+    *("speed", "temperature", "friction_coefficient", "friction_error", "max_pressure", "energy_balance"),
+    *("complementarity", "cells", "products", "interpolation_error"),
+)
+# … of an indenter's …
+_OF_INDENTER = (
+    *("load", "indentation", "indentation_error", "contact_area", "contact_area_error", "front", "rear", "half_width"),
+    *("edge_error", "max_pressure_error", "centre_of_pressure"),
+)
+# … and of one on a rough surface.
+_OF_SURFACE = ("pressure", "lateral_friction_coefficient", "contact_area_fraction", "mean_gap")
+
+
+def _stored(names: tuple[str, ...], meaning: dict[str, Meaning]) -> dict[str, Meaning]:
+    """Return the names with unit and long name: those of a solution, and those that only studies have."""
+    more: dict[str, Meaning] = {
+        "interpolation_error": ("1", "part of the friction error due to interpolation between solved contacts"),
+        "pressure": SURFACE["mean_pressure"],
+    }
+    return {name: (meaning | more)[name] for name in names}
+
+
+NUMBERS = _stored(_SHARED + _OF_INDENTER, INDENTER)
+LINE_NUMBERS = _stored(_SHARED + _OF_INDENTER, LINE)
+SURFACE_NUMBERS = _stored(_SHARED + _OF_SURFACE, SURFACE)
 #: Those of each geometry of `Case`.
 MEANING = {"point": NUMBERS, "line": LINE_NUMBERS, "rough": SURFACE_NUMBERS}
 #: Of the fields.

@@ -3,31 +3,33 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.contact.solution import ERRORS
+from viscofric.datasets import dataset
 from viscofric.files import parse_toml
 from viscofric.study.results.case_table import CaseTable, common_cases
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    import xarray
+
     from viscofric.arrays import Array
 
 
 #: Variables that are compared -> the variable with its stated error.
 COMPARED = {
-    "friction_coefficient": "friction_error",
-    "indentation": "indentation_error",
-    "contact_area": "contact_area_error",
-    "front": "edge_error",
-    "rear": "edge_error",
-    "half_width": "edge_error",
-    "max_pressure": "max_pressure_error",
-    "centre_of_pressure": "",
+    name: ERRORS[name]
+    for name in (
+        *("friction_coefficient", "indentation", "contact_area", "front", "rear", "half_width"),
+        *("max_pressure", "centre_of_pressure"),
+    )
 }
 #: Variables without a stated error agree within the accuracy, or within this if it is unknown.
 _USUAL_ACCURACY = 1e-3
@@ -103,6 +105,45 @@ class ResultsComparison:
         """Whether both have the same cases, and the same values within the tolerance."""
         same_cases = self.only_first == self.only_second == self.solved_once == 0
         return same_cases and all(difference.equal for difference in self.differences)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the differences along the dimension ``variable``.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``unit``, ``points``, ``largest``, ``rms``, ``in_errors`` (NaN without a stated error), ``first`` and
+            ``second`` (in that unit), ``equal``; the attributes are ``cases``, ``only_first``, ``only_second``,
+            ``solved_once``, ``tolerance``, ``equal``, and ``axes`` and ``provenance`` (JSON).
+        """
+        single = {name: getattr(self, name) for name in ("cases", "only_first", "only_second", "solved_once")}
+        columns = {name: [getattr(one, name) for one in self.differences] for name in ("name", *_OF_A_DIFFERENCE)}
+        columns["in_errors"] = [math.nan if one is None else one for one in columns["in_errors"]]
+        return dataset(
+            "variable",
+            {name: (columns[name], "1", words) for name, words in _OF_A_DIFFERENCE.items()},
+            coordinates={"variable": (columns["name"], "1", "variable")},
+            attributes={
+                **single,
+                "tolerance": self.tolerance,
+                "equal": int(self.equal),
+                "axes": json.dumps(self.axes, ensure_ascii=False),
+                "provenance": json.dumps(self.provenance, ensure_ascii=False),
+            },
+        )
+
+
+# Columns of the data set of a comparison.
+_OF_A_DIFFERENCE = {
+    "unit": "unit of the values",
+    "points": "cases that both solved",
+    "largest": "largest relative difference",
+    "rms": "rms of the relative differences",
+    "in_errors": "largest difference over the combined stated error",
+    "first": "first value at the largest difference, in its unit",
+    "second": "second value at the largest difference, in its unit",
+    "equal": "whether all differences are within the tolerance",
+}
 
 
 def compare_tables(one: CaseTable, other: CaseTable, tolerance: float | None) -> ResultsComparison:

@@ -44,8 +44,9 @@ if TYPE_CHECKING:
 
     import xarray
 
+    from viscofric.contact.solution import Meaning
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.cases.record import Failure, Meaning
+    from viscofric.study.cases.record import Failure
     from viscofric.study.cases.sweep import Axis, Sweep
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.study import Study

@@ -242,7 +242,7 @@ def _of_indenter(requested: RequestedContact, case: IndenterCase, solution: Cont
     return {
         "kind": solution.geometry,
         "direction": 0.0,
-        "numbers": _numbers(requested, case, solution),
+        "numbers": _numbers(solution, _of_case(requested, case, solution)),
         "peak_resolved": solution.diagnostics.peak_resolved,
         "map": None if line else pressure_map(*around(solution)),
         "outline": [] if line else outline(solution.x, solution.y, solution.pressure),
@@ -256,24 +256,16 @@ def _of_surface(requested: RequestedContact, case: SurfaceCase, solution: Period
     return {
         "kind": "rough",
         "direction": math.atan2(solution.direction[1], solution.direction[0]),
-        "numbers": plain(
+        "numbers": _numbers(
+            solution,
             {
-                "friction_coefficient": _with_error(solution.friction_coefficient, solution.diagnostics.friction_error),
-                "lateral_friction_coefficient": _with_error(solution.lateral_friction_coefficient),
-                "pressure": _with_error(solution.mean_pressure),
-                "contact_area_fraction": _with_error(solution.contact_area_fraction),
-                "mean_gap": _with_error(solution.mean_gap),
-                "max_pressure": _with_error(solution.max_pressure),
-                "mean_contact_pressure": _with_error(solution.mean_pressure / solution.contact_area_fraction),
-                "power": _with_error(solution.friction_coefficient * solution.mean_pressure * case.speed),
-                "energy_balance": _with_error(solution.diagnostics.energy),
-                "slowest_frequency": _with_error(2.0 * math.pi * case.speed / longest),
-                "fastest_frequency": _with_error(2.0 * math.pi * case.speed / shortest),
+                "pressure": solution.mean_pressure,
+                "slowest_frequency": 2.0 * math.pi * case.speed / longest,
+                "fastest_frequency": 2.0 * math.pi * case.speed / shortest,
                 **_rubber_at(requested, 2.0 * math.pi * case.speed / shortest),
-                "points": _with_error(max(solution.pressure.shape)),
-                "points_requested": _with_error(max(case.surface.shape)),
+                "points": max(solution.pressure.shape),
+                "points_requested": max(case.surface.shape),
             },
-            _DIGITS,
         ),
         "peak_resolved": None,
         "map": None if line else pressure_map(solution.x, solution.y, solution.pressure),
@@ -286,47 +278,40 @@ def _with_error(value: float | None, error: float | None = None) -> dict[str, fl
     return {"value": value, "error": error}
 
 
-def _numbers(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
-    found = solution.diagnostics
+def _numbers(solution: ContactSolution | PeriodicSolution, more: dict[str, float]) -> dict[str, Any]:
+    """Return the numbers of a contact, each with its error where it has one, and `more` without errors."""
+    data = solution.numbers
+    errors = {name: number.attrs.get("ancillary_variables") for name, number in data.items()}
+    own = {
+        str(name): _with_error(data[name].item(), None if error is None else data[error].item())
+        for name, error in errors.items()
+        if name not in errors.values()
+    }
+    found: dict[str, Any] = plain(own | {name: _with_error(value) for name, value in more.items()}, _DIGITS)
+    return found
+
+
+def _of_case(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> dict[str, float]:
+    """Return what depends on the indenter's and the rubber's range too."""
     length = solution.front + solution.rear
-    frequency = case.speed / (0.5 * length)
     half = solution.half_width if math.isfinite(solution.half_width) else 0.5 * length
-    force = solution.friction_coefficient * solution.load
-    return dict(
-        plain(
-            {
-                "friction_coefficient": _with_error(solution.friction_coefficient, found.friction_error),
-                "load": _with_error(solution.load),
-                "friction_force": _with_error(force, found.friction_error * solution.load),
-                "power": _with_error(force * case.speed, found.friction_error * solution.load * case.speed),
-                "indentation": _with_error(solution.indentation, found.indentation_error),
-                "contact_area": _with_error(solution.contact_area, found.contact_area_error),
-                "front": _with_error(solution.front, found.edge_error),
-                "rear": _with_error(solution.rear, found.edge_error),
-                "half_width": _with_error(solution.half_width, found.edge_error),
-                "max_pressure": _with_error(solution.max_pressure, found.max_pressure_error),
-                "mean_pressure": _with_error(solution.load / solution.contact_area),
-                "centre_of_pressure": _with_error(solution.centre_of_pressure),
-                "reach": _with_error(max(half, solution.front, solution.rear) / case.indenter.reach),
-                "energy_balance": _with_error(found.energy),
-                "frequency": _with_error(frequency),
-                **_rubber_at(requested, frequency),
-                "cells": _with_error(max(found.shape)),
-            },
-            _DIGITS,
-        )
-    )
+    frequency = case.speed / (0.5 * length)
+    return {
+        "reach": max(half, solution.front, solution.rear) / case.indenter.reach,
+        "frequency": frequency,
+        **_rubber_at(requested, frequency),
+    }
 
 
-def _rubber_at(requested: RequestedContact, frequency: float) -> dict[str, Any]:
+def _rubber_at(requested: RequestedContact, frequency: float) -> dict[str, float]:
     """Tell what the rubber is at a frequency (rad/s) and the contact's temperature."""
     rubber, temperature = requested.rubber, requested.case.temperature
     modulus = complex(rubber.material.modes_at(temperature).complex_modulus(frequency))
     alpha = float(rubber.shift(temperature))
     return {
-        "storage_modulus": _with_error(modulus.real),
-        "loss_factor": _with_error(modulus.imag / modulus.real),
-        "shift_factor": _with_error(alpha),
-        "reduced_frequency": _with_error(alpha * frequency),
-        "reduced_speed": _with_error(alpha * requested.case.speed),
+        "storage_modulus": modulus.real,
+        "loss_factor": modulus.imag / modulus.real,
+        "shift_factor": alpha,
+        "reduced_frequency": alpha * frequency,
+        "reduced_speed": alpha * requested.case.speed,
     }
