@@ -88,6 +88,8 @@ class TransientSolution:
         How it was solved: "springs", "grid" or "waves".
     geometry : str
         "point", "line" or "periodic".
+    direction : (float, float)
+        Of the history: that of the friction force.
     warnings : tuple of str
         One note for each assumption that is doubtful.
     """
@@ -113,6 +115,7 @@ class TransientSolution:
     interrupted: bool
     method: str
     geometry: str
+    direction: tuple[float, float]
     warnings: tuple[str, ...] = ()
     _fields: tuple[Field | None, ...] = field(default=(), repr=False)
 
@@ -191,5 +194,11 @@ class TransientSolution:
             "time",
             columns,
             coordinates={"time": (self.time, "s", "time")},
-            attributes={"method": self.method, "energy_imbalance": self.energy_imbalance},
+            attributes={
+                "method": self.method,
+                "geometry": self.geometry,
+                "direction": list(self.direction),
+                "interrupted": int(self.interrupted),
+                "energy_imbalance": self.energy_imbalance,
+            },
         )

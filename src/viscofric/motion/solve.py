@@ -213,6 +213,7 @@ def _assemble(
         interrupted=track.interrupted,
         method=method,
         geometry=kind,
+        direction=history.direction,
         warnings=tuple(material.notes_on_modes),
         _fields=tuple(one.field for one in moments),
     )
