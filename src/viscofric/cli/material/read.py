@@ -1,19 +1,16 @@
-"""``viscofric material read FILES``: what DMA files hold, and what is doubtful about them."""
+"""``viscofric material read FILES``: what files of mechanical tests hold, and what is doubtful about them."""
 
 from __future__ import annotations
 
-import math
+import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import Source, refuse_to_overwrite
+from viscofric.cli.files import Source, plainly, refuse_to_overwrite
 from viscofric.cli.rubber_options import reading_options
-
-if TYPE_CHECKING:
-    from viscofric.data import Deformation, IsothermalSweeps
 
 
 @click.command(name="read")
@@ -23,58 +20,40 @@ if TYPE_CHECKING:
     "--csv",
     "table",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="Also write the points used to a table (CSV).",
+    help="Also write the points used of frequency sweeps to a table (CSV).",
 )
-def command(
-    files: tuple[Path, ...],
-    deformation: Deformation | None,
-    temperature: tuple[str, ...],
-    modulus_unit: str | None,
-    columns: dict[str, str],
-    sheet: str | None,
-    table: Path | None,
-) -> None:
-    """Print the format, isotherms and doubtful data of DMA FILES.
+@click.option("--json", "as_json", is_flag=True, help="Print what was read as JSON, in SI units.")
+def command(files: tuple[Path, ...], table: Path | None, as_json: bool, **reading: Any) -> None:
+    """Print the kind of test, format, isotherms and doubtful data of FILES.
 
-    Several files make one set of sweeps, such as one file for each temperature.
+    FILES are frequency sweeps, temperature ramps, amplitude sweeps, creep or relaxation tests; the kind is recognised
+    by content. Several files of one kind make one set, such as one file for each temperature.
     """
-    from viscofric.readers import read_dma
+    from viscofric.cli.material.readings import described, read_kind
+    from viscofric.readers.recognise import by_kind
 
     if table is not None:
         refuse_to_overwrite(table, files)
     with reported_errors():
-        sweeps = read_dma(
-            *files,
-            deformation=deformation,
-            temperature=temperature or None,
-            modulus_unit=modulus_unit,
-            columns=columns,
-            sheet=sheet,
-        )
-        click.echo(f"{sweeps.format}; moduli in {sweeps.deformation}; {len(sweeps)} isotherms")
-        for line in _isotherms(sweeps):
-            click.echo(line)
-        print_notes(sweeps.notes)
-        if table is not None:
-            from viscofric.study.rubber_results import write_sweeps
+        stated = {name: reading[name] or None for name in ("modulus_unit", "columns", "sheet")}
+        kinds = by_kind(files, temperatures=reading["temperature"], **stated)
+        records = []
+        for kind, own in kinds.items():
+            given = reading["temperature"]
+            if len(given) == len(files) > 1:
+                given = tuple(given[files.index(path)] for path in own)
+            test = read_kind(kind, own, reading | {"temperature": given})
+            record, lines = described(kind, test, [plainly(str(path)) for path in own])
+            records.append(record)
+            if not as_json:
+                for line in lines:
+                    click.echo(line)
+            print_notes(test.notes)
+            if table is not None and kind == "dma":
+                from viscofric.study.rubber_results import write_sweeps
 
-            click.echo(f"table    {write_sweeps(sweeps, table)}")
-
-
-def _isotherms(sweeps: IsothermalSweeps) -> list[str]:
-    from viscofric.units import celsius
-
-    letter = "G" if sweeps.deformation == "shear" else "E"
-    lines = [f"{'T (°C)':>8}  {'points':>6}  {'f (Hz)':>19}  {letter + chr(39) + ' (MPa)':>19}  {'tan δ':>15}"]
-    for one in sweeps.isotherms:
-        tangent = one.loss_modulus / one.storage_modulus
-        spans = [
-            f"{low:.3g} to {high:.3g}"
-            for low, high in (
-                (one.angular_frequency[0] / (2 * math.pi), one.angular_frequency[-1] / (2 * math.pi)),
-                (one.storage_modulus.min() / 1e6, one.storage_modulus.max() / 1e6),
-                (tangent.min(), tangent.max()),
-            )
-        ]
-        lines.append(f"{celsius(one.temperature):8.1f}  {len(one):6d}  {spans[0]:>19}  {spans[1]:>19}  {spans[2]:>15}")
-    return lines
+                click.echo(f"table    {write_sweeps(test, table)}", err=as_json)
+        if as_json:
+            click.echo(json.dumps({"tests": records}, indent=2, ensure_ascii=False, allow_nan=False))
+        if table is not None and "dma" not in kinds:
+            raise click.UsageError("--csv is for frequency sweeps.")

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.data import DEFORMATIONS
 from viscofric.errors import DataFileError, InputError, check_choice
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.names import NOT_SAID, said_by_columns, temperature_in_name, tools_in
 from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
@@ -175,6 +175,22 @@ def _parts(source: Source, kind: StepKind | None) -> list[_Part]:
     return [_part(table, source, name or source.stem, kind, form) for name, table in tables.items()]
 
 
+def step_kind(source: Source) -> StepKind | None:
+    """Return whether a file holds creep or relaxation tests, None for other tests.
+
+    Raises
+    ------
+    DataFileError
+        If it is no table, or one of time and strain that does not state which of the two it is (``"no-kind"``).
+    """
+    if trios_text.recognises(source) and not source.columns:
+        return _trios_parts(source, None)[0].kind
+    for name, table in find_tables(reptate.with_units(source), STEPS).items():
+        if not STEPS.missing(column.quantity for column in table.columns):
+            return _kind(table, name or source.stem)
+    return None
+
+
 def _trios_parts(source: Source, kind: StepKind | None) -> list[_Part]:
     found = trios_text.tables_of(source)
     parts, recovered = [], 0
@@ -258,9 +274,13 @@ def _kind(table: Table, name: str) -> StepKind:
         steady = [_is_held(table.numbers_or_missing(place)) for place in (stress, strain)]
         if steady[0] != steady[1]:
             return "creep" if steady[0] else "relaxation"
-    raise table.refused(
-        "no-kind", "does not state whether it is creep or relaxation; give kind='creep' or 'relaxation'."
+    remedy = Remedy(
+        "; give kind='creep' or 'relaxation'.",
+        "; choose --creep or --relaxation of viscofric material fit.",
+        "; name it as creep or as relaxation under [material].",
+        "; choose “Creep tests” or “Relaxation tests” as the source, and drop it there.",
     )
+    raise table.refused("no-kind", "does not state whether it is creep or relaxation", remedy)
 
 
 def _is_held(values: Array) -> bool:
@@ -279,8 +299,9 @@ def _response(table: Table, source: Source, kind: StepKind, notes: list[str]) ->
             factor, offset = unit_conversion(source.modulus_unit, _SI[kind], "response_unit")
         elif not column.unit:
             example = "1/MPa" if kind == "creep" else "MPa"
-            problem = f"column {column.heading!r} has no unit; give it by response_unit='{example}'."
-            raise table.refused("no-unit", problem)
+            by = setting("material.modulus_unit", "Unit of the moduli", repr(example))
+            remedy = replace(by, python=f"response_unit='{example}'") + "."
+            raise table.refused("no-unit", f"column {column.heading!r} has no unit; give it by ", remedy)
         else:
             factor, offset = table.conversion(column, _SI[kind])
         return factor * table.numbers_or_missing(place) + offset, column.heading, lacks_unit
@@ -314,8 +335,9 @@ def _temperature(table: Table, source: Source, name: str, count: int, notes: lis
         return np.full(count, source.temperature)
     found = temperature_in_name(name) or temperature_in_name(source.stem)
     if found is None:
-        problem = f"no column for temperature, this table has {table.headings()}; give it, e.g. temperature='25 degC'."
-        raise table.refused("no-temperature", problem)
+        problem = f"no column for temperature, this table has {table.headings()}; give it, e.g. "
+        by = setting("material.temperature", "Temperature of the sweep", "'25 degC'")
+        raise table.refused("no-temperature", problem, replace(by, python="temperature='25 degC'") + ".")
     notes.append(Note("temperature-from-name", "No column holds a temperature; it was taken from the file's name."))
     return np.full(count, found)
 
