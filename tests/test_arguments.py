@@ -332,6 +332,12 @@ CALLS: dict[str, Any] = {
     "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "history": vf.History([0.0, 0.1],
         load=[0.0, 1.0], temperature=300.0), "times": np.array([0.05, 0.1]), "accuracy": 1e-2, "layer": None,
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None},
+    "solve_impact": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "mass": 0.03, "speed": 0.1, "gravity":
+        9.81, "rebounds": 1, "temperature": 300.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
+        0.3},
+    "restitution_curve": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "speeds": [0.1], "temperatures":
+        [300.0], "mass": 0.03, "gravity": 0.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
+        0.3},
     "TransientSolution.pressure_at": lambda: (vf.solve_transient(rubber(), vf.Ball(1e-2), vf.History([0.0, 0.1],
         load=1.0), times=[0.1]), {"time": 0.1}),
     "Isotherm": lambda: {"temperature": 300.0, "angular_frequency": np.array([1.0, 10.0]), "storage_modulus":

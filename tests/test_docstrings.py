@@ -101,6 +101,9 @@ RETURNED = {
     "Superposition",
     "SuperpositionCheck",
     "TractionStep",
+    "ImpactContact",
+    "ImpactSolution",
+    "RestitutionCurve",
     "TransientErrors",
     "TransientSolution",
 }

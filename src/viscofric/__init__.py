@@ -68,6 +68,11 @@ if TYPE_CHECKING:
     from viscofric.literature.citations import citations as citations
     from viscofric.motion.history import History as History
     from viscofric.motion.history_files import read_history as read_history
+    from viscofric.motion.impact import restitution_curve as restitution_curve
+    from viscofric.motion.impact import solve_impact as solve_impact
+    from viscofric.motion.impact_solution import ImpactContact as ImpactContact
+    from viscofric.motion.impact_solution import ImpactSolution as ImpactSolution
+    from viscofric.motion.impact_solution import RestitutionCurve as RestitutionCurve
     from viscofric.motion.solution import TransientErrors as TransientErrors
     from viscofric.motion.solution import TransientSolution as TransientSolution
     from viscofric.motion.solve import solve_transient as solve_transient
@@ -188,6 +193,11 @@ _HOME = {
     "solve_steady": "viscofric.contact.steady",
     "History": "viscofric.motion.history",
     "read_history": "viscofric.motion.history_files",
+    "ImpactContact": "viscofric.motion.impact_solution",
+    "ImpactSolution": "viscofric.motion.impact_solution",
+    "RestitutionCurve": "viscofric.motion.impact_solution",
+    "restitution_curve": "viscofric.motion.impact",
+    "solve_impact": "viscofric.motion.impact",
     "TransientErrors": "viscofric.motion.solution",
     "TransientSolution": "viscofric.motion.solution",
     "solve_transient": "viscofric.motion.solve",

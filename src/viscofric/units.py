@@ -43,6 +43,8 @@ _EXAMPLE = {
     "delta_degC": "'10 K'",
     "J/mol": "'120 kJ/mol'",
     "byte": "'8 GB'",
+    "kg": "'33 g'",
+    "m/s**2": "'9.81 m/s**2'",
     "dimensionless": "the plain number 0.5",
 }
 

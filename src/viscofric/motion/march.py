@@ -316,16 +316,26 @@ class _March(Generic[State]):
     def _record(self, pair: _Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:
         if not asked and self.times is not None:
             return
-        fine, difference = pair.fine, _difference(pair)
-        errors = Errors(*(abs(one) / 3.0 for one in difference))
-        work = fine.work + (fine.work - pair.coarse.work) / 3.0
+        coarse, fine = pair
+        errors = Errors(*(abs(one) / 3.0 for one in _difference(pair)))
+        # What is added up over all steps is smooth enough to be extrapolated.
+        stored, dissipated, work = (
+            two + (two - one) / 3.0
+            for one, two in (
+                (coarse.seen.stored, fine.seen.stored),
+                (coarse.seen.dissipated, fine.seen.dissipated),
+                (coarse.work, fine.work),
+            )
+        )
+        seen = fine.seen._replace(stored=stored, dissipated=dissipated)
         held = self.mover.pressure(fine.state) if self.fields else None
-        self.moments += times * [Moment(instant, fine.seen, work, errors, held)]
+        self.moments += times * [Moment(instant, seen, work, errors, held)]
 
 
 def _difference(pair: _Pair[State]) -> tuple[float, float, float, float]:
-    """Return fine less coarse: load, depth, friction (as long as the vector), dissipated energy."""
+    """Return fine less coarse: load, depth, friction (as long as the vector), and energy (work or dissipation)."""
     coarse, fine = pair.coarse.seen, pair.fine.seen
     along, across = (two - one for one, two in zip(coarse.friction_force, fine.friction_force, strict=True))
     friction = math.copysign(math.hypot(along, across), along if abs(along) >= abs(across) else across)
-    return fine.load - coarse.load, fine.depth - coarse.depth, friction, fine.dissipated - coarse.dissipated
+    energies = (pair.fine.work - pair.coarse.work, fine.dissipated - coarse.dissipated)
+    return fine.load - coarse.load, fine.depth - coarse.depth, friction, max(energies, key=abs)

@@ -23,7 +23,8 @@ import numpy as np
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.mover import Field, Observation, Scales
-from viscofric.motion.springs import elastic_radius, profile
+from viscofric.motion.springs import both_sides, elastic_radius, profile
+from viscofric.motion.steps import step_parts
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -37,8 +38,6 @@ _MARGIN = 1.05
 _FAR, _FARTHEST = 60, 4.0
 #: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
 _RISE = 1e-3
-#: Where series replace φ functions that would cancel.
-_SERIES = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,18 +114,17 @@ class NormalMotion:
 
     def step(self, state: SpringState, start: Instant, end: Instant) -> SpringState:
         """Return the springs after a step in which their forces are linear."""
-        decay, alpha, beta, lost = _coefficients((end.clock - start.clock) / self.tau)
-        known = state.memory @ (self.compliances * decay) + state.force * float(self.compliances @ alpha)
-        compliance = self.glassy + float(self.compliances @ beta)
+        parts, c = step_parts((end.clock - start.clock) / self.tau), self.compliances
+        known = state.memory @ (c * parts.decay) + state.force * float(c @ parts.start)
+        compliance = self.glassy + float(c @ parts.end)
         threshold = self.g + known
         depth, force = self._pressed(threshold, compliance, end)
-        memory = state.memory * decay + state.force[:, None] * alpha + force[:, None] * beta
+        memory = state.memory * parts.decay + state.force[:, None] * parts.start + force[:, None] * parts.end
         away, change = state.force[:, None] - state.memory, force - state.force
-        own, mixed, new = lost
         dissipated = float(
-            self.weights @ (np.square(away) @ (self.compliances * own))
-            + 2.0 * (self.weights * change) @ (away @ (self.compliances * mixed))
-            + float(self.compliances @ new) * (self.weights @ np.square(change))
+            self.weights @ (np.square(away) @ (c * parts.own))
+            + 2.0 * (self.weights * change) @ (away @ (c * parts.mixed))
+            + float(c @ parts.new) * (self.weights @ np.square(change))
         )
         return SpringState(depth, self._load(force), force, memory, state.dissipated + dissipated, threshold)
 
@@ -219,23 +217,4 @@ def _row(indenter: Indenter, edge: float) -> tuple[Array, Array, Array]:
     s = np.linspace(0.0, edge, SPRINGS + 1)
     if not indenter.has_walls:
         s = np.append(s, edge * np.geomspace(1.0, _FARTHEST, _FAR + 1)[1:])
-    weights = np.zeros(len(s))
-    weights[:-1] += np.diff(s)
-    weights[1:] += np.diff(s)
-    return s, profile(indenter, s), weights
-
-
-def _coefficients(x: Array) -> tuple[Array, Array, Array, tuple[Array, Array, Array]]:
-    """Return e^{−x}, α and β of a step Δt = xτ, and the parts of the energy that it dissipates.
-
-    y₁ = e^{−x} y₀ + α f₀ + β f₁; the energy is c times (f₀−y₀)² own + 2 (f₀−y₀)(f₁−f₀) mixed + (f₁−f₀)² new.
-    """
-    small = x < _SERIES
-    safe = np.where(small, 1.0, x)
-    gone = -np.expm1(-x)  # 1 − e^{−x}
-    beta = np.where(small, x * (1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x / 720)))), 1.0 - gone / safe)
-    own = -0.5 * np.expm1(-2.0 * x)
-    mixed = np.where(small, 0.5 * x * np.square(1.0 - beta), 0.5 * np.square(gone) / safe)
-    series = x * (1 / 3 - x * (1 / 4 - x * (7 / 60 - x * (1 / 24 - x * (31 / 2520 - x / 320)))))
-    new = np.where(small, series, (x - 2.0 * gone + own) / np.square(safe))
-    return np.exp(-x), gone - beta, beta, (own, mixed, new)
+    return s, profile(indenter, s), both_sides(s)

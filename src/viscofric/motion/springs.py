@@ -73,6 +73,38 @@ def elastic_radius(indenter: Indenter, depth: float | None, load: float | None, 
     return _root(excess)
 
 
+def impact_radius(indenter: Indenter, energy: float, weight: float, modulus: float) -> float:
+    """Return the largest contact radius on an elastic half-space after an impact of some energy under a weight, m.
+
+    The energy E* ∫₀ᵃ (δ − g)² ds of the springs is the kinetic one and the work of the weight.
+    """
+    if indenter.has_walls:
+        return elastic_radius(indenter, 0.0, None, modulus)
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    share, part = 0.5 * (nodes + 1.0), 0.5 * weights
+
+    def excess(radius: float) -> float:
+        depth = float(profile(indenter, np.array(radius)))
+        stored = modulus * radius * float(part @ np.square(depth - profile(indenter, radius * share)))
+        return stored - energy - weight * depth
+
+    return _root(excess)
+
+
+def row(indenter: Indenter, edge: float, count: int) -> tuple[Array, Array, Array]:
+    """Return places, profile and weights (of ∫ over both sides) of springs, evenly up to an edge."""
+    s = np.linspace(0.0, edge, count + 1)
+    return s, profile(indenter, s), both_sides(s)
+
+
+def both_sides(s: Array) -> Array:
+    """Return the weights of the trapezoidal rule for ∫ over both sides of a row."""
+    weights = np.zeros(len(s))
+    weights[:-1] += np.diff(s)
+    weights[1:] += np.diff(s)
+    return weights
+
+
 def _root(excess: Callable[[float], float]) -> float:
     """Return where a growing function of a length is zero, by bisection of its logarithm."""
     low, high = -60.0, 20.0  # ln m

@@ -1,0 +1,295 @@
+"""An indenter of some mass on a row of springs with memory: contact, flight, and contact again.
+
+The equation of motion m δ̈ = m g − F(δ, memory) is advanced by the linear-acceleration method: the force of every
+spring is linear within a step, the memory exact, and
+
+    δ₁ = δ₀ + v₀ h + h² (2a₀ + a₁)/6,    v₁ = v₀ + h (a₀ + a₁)/2
+
+(N. M. Newmark, J. Eng. Mech. Div. 85 (1959) 67, with β = 1/6).  With the thresholds b of the springs in order, the
+first n of which touch, F = Σ w (δ₁ − b)/c: δ₁ follows without iteration.  In flight the memory fades by itself; the
+next contact begins where the surface and the indenter meet.
+
+A first run chooses the steps by the stiffness of the contact at each time; the others divide them, so that their errors
+fall with the square of the division and can be extrapolated.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.errors import ConvergenceError
+from viscofric.motion.steps import StepParts, step_parts
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.arrays import Array
+
+#: Steps of the first run, by the time of the contact's own oscillation, and their growth.
+_BY_STIFFNESS, _GROWTH = 0.14, 1.4
+#: Steps of one contact after which the indenter is taken to rest, and reversals of its motion.
+_MOST_STEPS, _MOST_REVERSALS = 20_000, 4
+#: Under gravity, the same after so many steps of the first run at a part of the first speed.
+_RESTING, _SLOW = 500, 0.01
+_SECANTS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """A row of springs: profile and weights of the integral over both sides, and the modes of each."""
+
+    g: Array  # (n,) m
+    s: Array  # (n,) m
+    weights: Array  # (n,) m
+    instantaneous: float  # plane-strain compliance, 1/Pa
+    compliances: Array  # (modes,)
+    tau: Array
+
+
+class Contact(NamedTuple):
+    """One contact: its times, speeds and largest values; `separation` is None if the indenter stays."""
+
+    start: float
+    duration: float
+    speed_in: float
+    speed_out: float
+    peak_force: float
+    largest_depth: float
+    time_of_largest: float
+    separation_depth: float
+    separates: bool
+
+
+@dataclass(eq=False)
+class Bounce:
+    """A run of one or several contacts; `meshes` are the steps of each contact of an earlier run.
+
+    Attributes
+    ----------
+    contacts : list of Contact
+    rows : list of tuple
+        Of each step: time, depth, speed, force, radius, stored and dissipated energy.
+    """
+
+    springs: Springs
+    mass: float
+    gravity: float
+    first_step: float
+    meshes: list[list[float]] | None = None
+    division: int = 1
+    recorded: bool = False
+    contacts: list[Contact] = field(default_factory=list)
+    taken: list[list[float]] = field(default_factory=list)
+    rows: list[tuple[float, ...]] = field(default_factory=list)
+
+    def run(self, speed: float, rebounds: int) -> Bounce:
+        """Let the indenter touch with a speed, and follow it through so many contacts."""
+        springs = self.springs
+        self._step = -1.0
+        self._planned = self._parts_of_meshes()
+        self._force = np.zeros(len(springs.g))
+        self._memory = np.zeros((len(springs.tau), len(springs.g)))
+        self._lost = 0.0
+        time, depth = 0.0, float(springs.g[0])
+        for number in range(rebounds):
+            contact, depth = self._contact(number, time, depth, speed)
+            self.contacts.append(contact)
+            if not contact.separates or number + 1 == rebounds:
+                break
+            flight = self._flight(depth, contact.speed_out)
+            if flight is None:
+                break
+            time, depth, speed = contact.start + contact.duration + flight[0], flight[1], flight[2]
+        return self
+
+    def _contact(self, number: int, start: float, depth: float, speed: float) -> tuple[Contact, float]:
+        """Follow one contact; return it, and the depth at its end."""
+        m, g = self.mass, self.gravity
+        mesh = None if self.meshes is None or number >= len(self.meshes) else self.meshes[number]
+        planned = iter(() if mesh is None else [one / self.division for one in mesh for _ in range(self.division)])
+        time, v, force = 0.0, speed, 0.0
+        taken: list[float] = []
+        deepest, deepest_time, peak, last_forces = depth, 0.0, 0.0, [(0.0, 0.0)]
+        step, stiffness, reversals = self.first_step, 0.0, 0
+        self._record(start, depth, v, 0.0, 0.0)
+        for _ in range(_MOST_STEPS):
+            step = next(planned, None) or self._next_step(step, stiffness, mesh is not None)
+            a = g - force / m
+            threshold, compliance = self._predict(step)
+            order = np.argsort(threshold, kind="stable")
+            b, weights = threshold[order], self.springs.weights[order]
+            free = depth + v * step + step**2 * (2.0 * a + g) / 6.0
+            if free <= b[0]:  # nothing touches any more
+                taken.append(step)
+                step = self._separation(depth, v, a, step)
+                self._predict(step)
+                final = depth + v * step + step**2 * (2.0 * a + g) / 6.0
+                self._complete(np.zeros_like(threshold))
+                out = v + 0.5 * step * (a + g)
+                time += step
+                self._record(start + time, final, out, 0.0, 0.0)
+                self.taken.append(taken)
+                return Contact(start, time, speed, -out, peak, deepest, deepest_time, final, True), final
+            share = step**2 / (6.0 * m * compliance)
+            total = np.cumsum(weights)
+            depths = (free + share * np.cumsum(weights * b)) / (1.0 + share * total)
+            last = int(np.argmax(depths <= np.append(b[1:], np.inf)))
+            new, stiffness = float(depths[last]), float(total[last]) / compliance
+            spring_forces = np.maximum(new - threshold, 0.0) / compliance
+            force = float(self.springs.weights @ spring_forces)
+            self._complete(spring_forces)
+            a1 = g - force / m
+            v1 = v + 0.5 * step * (a + a1)
+            if v > 0.0 >= v1:
+                # v is a parabola through both accelerations
+                part = _root_of_speed(v, a * step, a1 * step)
+                at_most = depth + step * part * (v + step * part * (3.0 * a + part * (a1 - a)) / 6.0)
+                if at_most > deepest:
+                    deepest, deepest_time = at_most, time + part * step
+            if v * v1 < 0.0:
+                reversals += 1
+            depth, v, time = new, v1, time + step
+            last_forces = [*last_forces[-2:], (time, force)]
+            peak = max(peak, _top(last_forces))
+            taken.append(step)
+            if self.recorded:
+                edge = self._edge(threshold, new)
+                self._record(start + time, depth, v, force, edge)
+            resting = self.gravity > 0.0 and len(taken) >= _RESTING * self.division and abs(v) < _SLOW * speed
+            if reversals >= _MOST_REVERSALS or resting:
+                self.taken.append(taken)
+                if depth > deepest:
+                    deepest, deepest_time = depth, time
+                return Contact(start, math.inf, speed, 0.0, peak, deepest, deepest_time, depth, False), depth
+        raise ConvergenceError("the indenter neither leaves the surface nor comes to rest.", code="endless-contact")
+
+    def _next_step(self, step: float, stiffness: float, planned: bool) -> float:
+        if planned or stiffness == 0.0:
+            return step
+        return min(_GROWTH * step, _BY_STIFFNESS * math.sqrt(self.mass / stiffness))
+
+    def _parts_of_meshes(self) -> dict[float, StepParts]:
+        """Return the coefficients of all steps that are planned, computed at once."""
+        steps = sorted({one / self.division for mesh in self.meshes or () for one in mesh})
+        if not steps:
+            return {}
+        every = step_parts(np.array(steps)[:, None] / self.springs.tau)
+        return {step: StepParts(*(part[place] for part in every)) for place, step in enumerate(steps)}
+
+    def _predict(self, step: float) -> tuple[Array, float]:
+        """Return the depths at which springs touch at the end of a step, and by how much they give way."""
+        if step != self._step:
+            self._step = step
+            self._coefficients = self._planned.get(step) or step_parts(step / self.springs.tau)
+        c, parts = self.springs.compliances, self._coefficients
+        known = (c * parts.decay) @ self._memory + float(c @ parts.start) * self._force
+        return self.springs.g + known, self.springs.instantaneous + float(c @ parts.end)
+
+    def _complete(self, force: Array) -> None:
+        """Advance memory and dissipated energy over the step that was predicted."""
+        parts = self._coefficients
+        if self.recorded:
+            c, weights = self.springs.compliances, self.springs.weights
+            away, change = self._force - self._memory, force - self._force
+            self._lost += float(
+                ((c * parts.own) @ np.square(away)) @ weights
+                + 2.0 * ((c * parts.mixed) @ away) @ (weights * change)
+                + float(c @ parts.new) * (weights @ np.square(change))
+            )
+        self._memory *= parts.decay[:, None]
+        self._memory += parts.start[:, None] * self._force
+        self._memory += parts.end[:, None] * force
+        self._force = force
+
+    def _separation(self, depth: float, v: float, a: float, step: float) -> float:
+        """Return the part of a step after which the indenter only just touches, found by regula falsi."""
+
+        def gap(part: float) -> float:
+            threshold, _ = self._predict(part)
+            return float(threshold.min()) - (depth + v * part + part**2 * (2.0 * a + self.gravity) / 6.0)
+
+        return _zero(gap, 0.0, step)
+
+    def _flight(self, depth: float, speed_out: float) -> tuple[float, float, float] | None:
+        """Fly until the indenter meets the surface; return duration, depth and speed, or None if it never does."""
+        g, c, tau = self.gravity, self.springs.compliances, self.springs.tau
+        if g == 0.0:
+            return None
+
+        def overlap(time: float) -> float:
+            surface = self.springs.g + (c * np.exp(-time / tau)) @ self._memory
+            return depth - speed_out * time + 0.5 * g * time**2 - float(surface.min())
+
+        # The surface rises, and slower than the indenter at first: they meet once, before the parabola ends.
+        end = 2.0 * speed_out / g
+        start = 1e-9 * end
+        if overlap(start) >= 0.0:
+            return None
+        time = _zero(overlap, start, end)
+        self._predict(time)
+        self._complete(np.zeros_like(self._force))
+        return time, depth - speed_out * time + 0.5 * g * time**2, g * time - speed_out
+
+    def _edge(self, threshold: Array, depth: float) -> float:
+        touching = np.flatnonzero(threshold < depth)
+        last, s = int(touching[-1]), self.springs.s
+        if last + 1 == len(s):
+            return float(s[-1])
+        inside, outside = depth - threshold[last], threshold[last + 1] - depth
+        return float(s[last] + (s[last + 1] - s[last]) * inside / (inside + outside))
+
+    def _record(self, time: float, depth: float, speed: float, force: float, radius: float) -> None:
+        if self.recorded:
+            springs = self.springs
+            stored = 0.5 * float(
+                springs.weights
+                @ (springs.instantaneous * np.square(self._force) + springs.compliances @ np.square(self._memory))
+            )
+            self.rows.append((time, depth, speed, force, radius, stored, self._lost))
+
+
+def _root_of_speed(v: float, start: float, end: float) -> float:
+    """Return x in [0, 1] with v + start x + (end − start) x²/2 = 0, where v is above zero and the sum at 1 below."""
+    bend = 0.5 * (end - start)
+    root = math.sqrt(max(start**2 - 4.0 * bend * v, 0.0))
+    return min(max(2.0 * v / (root - start), 0.0), 1.0)
+
+
+def _top(points: list[tuple[float, float]]) -> float:
+    """Return the largest value of the last points, or of the parabola through three if its top lies among them."""
+    most = max(value for _, value in points)
+    if len(points) < 3:
+        return most
+    (x0, y0), (x1, y1), (x2, y2) = points
+    first, second = (y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1)
+    if not first > 0.0 > second:
+        return most
+    bend = (second - first) / (x2 - x0)
+    slope = first + bend * (x1 - x0)  # at x1
+    return y1 - 0.25 * slope**2 / bend
+
+
+def _zero(function: Callable[[float], float], low: float, high: float) -> float:
+    """Return where a function changes its sign from below zero to above it (regula falsi, Illinois)."""
+    at_low, at_high = function(low), function(high)
+    if at_low >= 0.0:
+        return low
+    x, side = low, 0
+    for _ in range(_SECANTS):
+        before, x = x, high - at_high * (high - low) / (at_high - at_low)
+        value = function(x)
+        if value >= 0.0:
+            high, at_high = x, value
+            at_low *= 0.5 if side > 0 else 1.0
+            side = 1
+        else:
+            low, at_low = x, value
+            at_high *= 0.5 if side < 0 else 1.0
+            side = -1
+        if value == 0.0 or abs(x - before) <= 1e-13 * high:
+            break
+    return x

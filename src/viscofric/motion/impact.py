@@ -1,0 +1,331 @@
+"""Solve the impact of an indenter of some mass: restitution, contact time, largest force and depth."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.arguments import number, whole_number
+from viscofric.contact.bodies import indenter_compliance
+from viscofric.contact.free.grids import Extent
+from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
+from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.motion.bounce import Bounce, Springs
+from viscofric.motion.impact_solution import ImpactContact, ImpactSolution, RestitutionCurve
+from viscofric.motion.memory import Modes
+from viscofric.motion.solution import TransientErrors, TransientSolution
+from viscofric.motion.springs import impact_radius, is_body_of_revolution, profile, row
+from viscofric.notes import Note
+from viscofric.rheology.material import Material, insist_on_material
+from viscofric.threads import one_blas_thread
+from viscofric.units import Quantity, positive, to_si, to_si_array
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.motion.bounce import Contact
+    from viscofric.units import Quantities
+
+TIGHTEST, LOOSEST = 1e-6, 1e-2  # accuracies
+#: Springs in the contact for an accuracy of 1e-4, and most of them; their error of a force is 0.4/N².
+_SPRINGS, _MOST_SPRINGS = 250, 2500
+#: Divisions of the steps of the first run; the last two are extrapolated.
+_DIVISIONS = (4, 8, 16, 32, 64)
+#: The largest edge is that on an elastic half-space of E0, and a little more.
+_MARGIN = 1.03
+_MOST_CONTACTS = 1000
+#: First step over the time to the depth on an elastic half-space of E∞, and shortest time that the modes resolve.
+_FIRST, _RESOLVED = 0.015, 1e-3
+#: Error of the compliance by modes that are merged, as a part of the accuracy.
+_MERGING = 0.1
+
+
+@one_blas_thread
+def solve_impact(
+    material: Material,
+    indenter: Indenter,
+    *,
+    mass: Quantity,
+    speed: Quantity,
+    gravity: Quantity = 0.0,
+    rebounds: int = 1,
+    temperature: Quantity | None = None,
+    accuracy: float = 1e-4,
+    indenter_modulus: Quantity | None = None,
+    indenter_poisson_ratio: float = 0.3,
+) -> ImpactSolution:
+    """Solve the impact of an indenter of some mass on a half-space, and its rebounds.
+
+    The indenter moves along its axis and does not rotate.  The inertia of the half-space is left out: its waves must
+    be much faster than the contact.
+
+    Parameters
+    ----------
+    material : Material
+        A table of moduli is described by modes fitted to it.
+    indenter : Indenter
+        Ball, Cone, or another body of revolution.
+    mass : float, str or pint.Quantity
+        Of the indenter, kg.
+    speed : float, str or pint.Quantity
+        At the first touch, above zero, m/s.
+    gravity : float, str or pint.Quantity
+        Acceleration towards the half-space, not below zero, m/s².
+    rebounds : int
+        Most contacts to follow; beyond the first, they need gravity.
+    temperature : float, str or pint.Quantity, optional
+        K if a plain number.  May be left out for a material without a shift law.
+    accuracy : float
+        Largest error of the restitution, absolute.
+    indenter_modulus : float, str or pint.Quantity, optional
+        Young's modulus of an elastic indenter, Pa; rigid without it.
+    indenter_poisson_ratio : float
+        Of an elastic indenter.
+
+    Returns
+    -------
+    ImpactSolution
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, the indenter is no body of revolution, or the contact would be wider than it.
+    ConvergenceError
+        If the accuracy is not reached, or the contact is not one disc.
+
+    Notes
+    -----
+    Solved by the method of dimensionality reduction (see `solve_transient`) with the equation of motion of the
+    indenter.  For one contact it agrees with T. C. T. Ting's solution, and for small losses with [1]_.
+
+    References
+    ----------
+    .. [1] R. Ramírez, T. Pöschel, N. V. Brilliantov, T. Schwager, Phys. Rev. E 60 (1999) 4465,
+       doi:10.1103/PhysRevE.60.4465
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    >>> hit = vf.solve_impact(rubber, vf.Ball("10 mm"), mass="33 g", speed="0.1 m/s")
+    >>> f"{hit.restitution:.3f}, {1e3 * hit.contact_time:.2f} ms, {hit.peak_force:.3f} N"
+    '0.661, 9.95 ms, 0.977 N'
+    """
+    kilograms, touching = positive(mass, "kg", "mass"), positive(speed, "m/s", "speed")
+    pull = to_si(gravity, "m/s**2", "gravity")
+    if pull < 0.0:
+        raise InputError(
+            f"gravity = {brief(gravity)}: must not be below zero; it points into the half-space.", code="negative"
+        )
+    most = whole_number(rebounds, "rebounds", 1, _MOST_CONTACTS)
+    _check_accuracy(accuracy)
+    falling = _Falling.of(material, indenter, kilograms, pull, indenter_modulus, indenter_poisson_ratio, accuracy)
+    return falling.solve(touching, most, temperature)
+
+
+@one_blas_thread
+def restitution_curve(
+    material: Material,
+    indenter: Indenter,
+    *,
+    speeds: Quantities,
+    temperatures: Quantities | None = None,
+    mass: Quantity,
+    gravity: Quantity = 0.0,
+    accuracy: float = 1e-4,
+    indenter_modulus: Quantity | None = None,
+    indenter_poisson_ratio: float = 0.3,
+) -> RestitutionCurve:
+    """Compute the restitution of an indenter over speeds and temperatures.
+
+    Parameters
+    ----------
+    material : Material
+    indenter : Indenter
+        Ball, Cone, or another body of revolution.
+    speeds : (n,) array of float, str or pint.Quantity
+        At the touch, m/s.
+    temperatures : (m,) array of float, str or pint.Quantity, optional
+        K if plain numbers.  May be left out for a material without a shift law.
+    mass : float, str or pint.Quantity
+        Of the indenter, kg.
+    gravity : float, str or pint.Quantity
+        Acceleration towards the half-space, not below zero, m/s².
+    accuracy : float
+        Largest error of the restitution, absolute.
+    indenter_modulus : float, str or pint.Quantity, optional
+        Young's modulus of an elastic indenter, Pa; rigid without it.
+    indenter_poisson_ratio : float
+        Of an elastic indenter.
+
+    Returns
+    -------
+    RestitutionCurve
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As for `solve_impact`.
+
+    Examples
+    --------
+    The restitution has a minimum between glass and rubber:
+
+    >>> import viscofric as vf
+    >>> rubber = vf.synthetic_fluoroelastomer()
+    >>> ball = vf.Ball("5 mm")
+    >>> curve = vf.restitution_curve(
+    ...     rubber, ball, speeds=["1 m/s"], temperatures=["-40 degC", "0 degC", "60 degC"], mass="4 g"
+    ... )
+    >>> curve.restitution[:, 0].round(2).tolist()
+    [1.0, 0.65, 0.95]
+    """
+    each = to_si_array(speeds, "m/s", "speeds")
+    kelvin = None if temperatures is None else to_si_array(temperatures, "K", "temperatures")
+    if not len(each) or (kelvin is not None and not len(kelvin)):
+        raise InputError("speeds and temperatures: must hold one value at least.", code="empty")
+    hits = [
+        [
+            solve_impact(
+                material, indenter, mass=mass, speed=float(v), gravity=gravity, accuracy=accuracy,
+                temperature=None if T is None else float(T), indenter_modulus=indenter_modulus,
+                indenter_poisson_ratio=indenter_poisson_ratio,
+            )
+            for v in each
+        ]
+        for T in ([None] if kelvin is None else kelvin)
+    ]  # fmt: skip
+
+    def table(name: str) -> Array:
+        return np.array([[getattr(hit, name) for hit in row] for row in hits], dtype=float)
+
+    notes = tuple(dict.fromkeys(note for row in hits for hit in row for note in hit.warnings))
+    return RestitutionCurve(
+        speed=each, temperature=kelvin, restitution=table("restitution"), restitution_error=table("restitution_error"),
+        contact_time=table("contact_time"), peak_force=table("peak_force"),
+        largest_indentation=table("largest_indentation"), warnings=notes,
+    )  # fmt: skip
+
+
+def _check_accuracy(accuracy: float) -> None:
+    if not TIGHTEST <= number(accuracy, "accuracy") <= LOOSEST:
+        raise InputError(
+            f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-4.",
+            code="out-of-range",
+        )
+
+
+class _Falling(NamedTuple):
+    """An indenter of some mass above a material."""
+
+    material: Material
+    indenter: Indenter
+    mass: float
+    gravity: float
+    counterface: float  # compliance of the indenter, 1/Pa
+    accuracy: float
+
+    @classmethod
+    def of(
+        cls,
+        material: Material,
+        indenter: Indenter,
+        mass: float,
+        gravity: float,
+        modulus: Quantity | None,
+        poisson_ratio: float,
+        accuracy: float,
+    ) -> _Falling:
+        insist_on_material(material)
+        insist_on_indenter(indenter)
+        if not is_body_of_revolution(indenter):
+            raise InputError(
+                f"indenter: a {indenter.noun} is no body of revolution; available: a ball, a cone or another body of "
+                "revolution that falls along its axis.",
+                code="not-available",
+            )
+        return cls(material, indenter, mass, gravity, indenter_compliance(modulus, poisson_ratio), accuracy)
+
+    def solve(self, speed: float, rebounds: int, temperature: Quantity | None) -> ImpactSolution:
+        indenter, spectrum = self.indenter, self.material.modes_at(temperature)
+        plane_strain = 1.0 - self.material.poisson_ratio**2
+        glassy = plane_strain / spectrum.E_inf + self.counterface
+        relaxed = glassy + plane_strain * float(spectrum.C.sum())
+        hard, soft = (
+            impact_radius(indenter, 0.5 * self.mass * speed**2, self.mass * self.gravity, 1.0 / one)
+            for one in (glassy, relaxed)
+        )
+        # A punch touches all at once: its depth is that of its stiffness.
+        depth = float(profile(indenter, np.array(hard))) or speed * math.sqrt(0.5 * self.mass * glassy / hard)
+        shortest = _RESOLVED * depth / speed
+        longest = 10.0 * shortest / _RESOLVED * (relaxed / glassy) ** 0.5
+        modes = Modes.of(spectrum)
+        if rebounds == 1:
+            modes = Modes.for_history(spectrum, shortest, longest, error=_MERGING * self.accuracy)
+        count = min(max(_SPRINGS, math.ceil(_SPRINGS * math.sqrt(1e-4 / self.accuracy))), _MOST_SPRINGS)
+        s, g, weights = row(indenter, _MARGIN * soft, count)
+        instantaneous = plane_strain * modes.instantaneous + self.counterface
+        springs = Springs(g, s, weights, instantaneous, plane_strain * modes.C, modes.tau)
+        first = Bounce(springs, self.mass, self.gravity, _FIRST * depth / speed).run(speed, rebounds)
+        coarse = None
+        for division in _DIVISIONS:
+            fine = Bounce(springs, self.mass, self.gravity, 0.0, first.taken, division, recorded=coarse is not None)
+            fine.run(speed, rebounds)
+            if coarse is not None:
+                contacts = _extrapolated(coarse.contacts, fine.contacts)
+                if contacts and max(one.restitution_error for one in contacts) <= self.accuracy:
+                    return self._solution(contacts, coarse, fine, temperature)
+            coarse = fine
+        raise ConvergenceError(
+            f"the restitution has not converged to {self.accuracy:g}; ask for a larger accuracy, or fewer rebounds.",
+            code="steps-not-converged",
+        )
+
+    def _solution(
+        self, contacts: tuple[ImpactContact, ...], coarse: Bounce, fine: Bounce, temperature: Quantity | None
+    ) -> ImpactSolution:
+        time, depth, velocity, force, radius, stored, dissipated = np.array(fine.rows).T
+        widest, deepest = float(radius.max()), float(depth.max())
+        self.indenter.check(Extent(widest, widest, widest), f"at {contacts[0].speed:g} m/s")
+        notes = [self.indenter.strain_warning(Extent(widest, widest, widest), deepest)]
+        if contacts[-1].restitution == 0.0:
+            notes.append(Note("no-rebound", "The indenter does not leave the surface again: it comes to rest on it."))
+        kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
+        # By Newton's law, without the springs: the kinetic energy that is gone, and the work of gravity.
+        work = 0.5 * self.mass * (velocity[0] ** 2 - velocity**2) + self.mass * self.gravity * (depth - depth[0])
+        still = np.zeros_like(time)
+        peaks = [max(one.peak_force for one in run.contacts) for run in (coarse, fine)]
+        depths = [max(one.largest_depth for one in run.contacts) for run in (coarse, fine)]
+        lost = self.mass * contacts[0].speed ** 2 * max(one.restitution_error for one in contacts)
+        errors = TransientErrors(
+            load=still + abs(peaks[1] - peaks[0]) / 3.0,
+            indentation=still + abs(depths[1] - depths[0]) / 3.0,
+            friction_force=still,
+            energy=still + lost,
+            balance=work - stored - dissipated,
+        )
+        run = TransientSolution(
+            time=time, load=force, indentation=depth, position=np.zeros((len(time), 2)),
+            temperature=None if kelvin is None else still + kelvin, friction_force=still, lateral_force=still,
+            contact_area=np.pi * radius**2, contact_radius=radius, front=None, rear=None, half_width=None, work=work,
+            stored=stored, dissipated=dissipated, errors=errors, steps=len(time) - 1, rejected_steps=0,
+            interrupted=False, method="springs", geometry="point", direction=(1.0, 0.0),
+            warnings=(*filter(None, notes), *self.material.notes_on_modes),
+        )  # fmt: skip
+        return ImpactSolution(contacts, run, velocity, self.mass, self.gravity, kelvin, run.warnings)
+
+
+def _extrapolated(coarse: list[Contact], fine: list[Contact]) -> tuple[ImpactContact, ...]:
+    """Return the contacts of two runs, one with half the steps of the other; none if they are not the same ones."""
+    if [one.separates for one in coarse] != [one.separates for one in fine]:
+        return ()
+    found = []
+    for one, two in zip(coarse, fine, strict=True):
+        columns = [new + (new - old) / 3.0 for old, new in zip(one[:8], two[:8], strict=True)]
+        start, duration, speed_in, speed_out, peak, deepest, when, last = columns
+        before, after = one.speed_out / one.speed_in, two.speed_out / two.speed_in
+        lasting = duration if two.separates else math.inf
+        values = (min(speed_out / speed_in, 1.0), lasting, peak, deepest, when, last, abs(after - before) / 3.0)
+        found.append(ImpactContact(start, speed_in, *values))
+    return tuple(found)

@@ -1,0 +1,219 @@
+"""Impacts: Ting's solution, asymptotes for small losses, energy, scales, rebounds under gravity."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+import viscofric as vf
+from refusals import refused
+from viscofric.notes import codes
+
+BALL = vf.Ball("10 mm")
+MASS, SPEED = 0.03267256359733385, 0.1  # kg, m/s
+
+
+def rubber(tau, E0=1e6, E_inf=1e7):
+    return vf.Material.standard_linear_solid(E0=E0, E_inf=E_inf, tau=tau)
+
+
+#: tau (s) -> restitution, contact time, largest indentation, peak force, separation indentation, time of the largest
+#: indentation: independent solution (Ting's closed form as an ordinary differential equation), good to 1e-6.
+TING = {
+    1e-5: (0.995160686471316, 0.01030740006897339, 0.000349657994307089, 1.1623741609352352, 8.956447546843926e-07,
+           0.005151826677746865),
+    1e-4: (0.9533716689531873, 0.01027150063274756, 0.00034369993747298866, 1.133631486159823, 8.58033909992177e-06,
+           0.00511730402197443),
+    1e-3: (0.6601652799332051, 0.009907517647036405, 0.0002961894706328782, 0.9707336584350278, 5.940375525784494e-05,
+           0.004794365451386769),
+    1e-2: (0.2793460125184263, 0.00461823509022671, 0.00016918139709124212, 1.715668999904165, 0.00013155298646644743,
+           0.0027669054850617534),
+    1e-1: (0.8519936909229843, 0.0040610109659726485, 0.00014206969501338876, 2.7295035684855873, 2.844622008165259e-05,
+           0.0021094353429179724),
+    1e0: (0.9837556102554637, 0.004099583379246513, 0.00013972769079019506, 2.9070410814333405, 3.1787154104543205e-06,
+          0.0020580762155153454),
+    1e1: (0.9983597576277792, 0.004104481400953733, 0.0001394973202138627, 2.926107406570115, 3.216112065626186e-07,
+          0.00205307334915745),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("tau", TING)
+def test_an_impact_is_that_of_tings_solution(tau):
+    hit = vf.solve_impact(rubber(tau), BALL, mass=MASS, speed=SPEED)
+    restitution, duration, deepest, peak, separation, when = TING[tau]
+    assert hit.restitution == pytest.approx(restitution, abs=3e-5)  # a third of the accuracy asked for
+    assert hit.restitution_error < 1e-4
+    # largest values lie between steps: second order, 100 steps a contact
+    first = hit.contacts[0]
+    assert (hit.contact_time, first.time_of_largest) == pytest.approx((duration, when), rel=3e-5)
+    assert (hit.largest_indentation, hit.peak_force) == pytest.approx((deepest, peak), rel=5e-5)
+    assert first.separation_indentation == pytest.approx(separation, rel=1e-4)
+    assert hit.run.energy_imbalance < 1e-4
+
+
+def test_small_losses_of_long_contacts_are_those_of_ramirez():
+    """1 − e to first order in the times; the next order is as large as 1 − e itself, 5e-4 of it."""
+    tau, E0, R = 1e-6, 1e6, 0.01
+    kappa = 4.0 * math.sqrt(R) / (3.0 * 0.75)
+    depth = (5.0 * MASS * SPEED**2 / (4.0 * kappa * E0)) ** 0.4
+    beta = math.gamma(0.6) * math.gamma(1.5) / math.gamma(2.1)
+    loss = 3.0 * kappa * E0 * (E0 * 9e-7 * tau) * SPEED * depth**1.5 * 0.4 * beta / (MASS * SPEED**2)
+    hit = vf.solve_impact(rubber(tau), BALL, mass=MASS, speed=SPEED, accuracy=3e-6)
+    assert 1.0 - hit.restitution == pytest.approx(loss, rel=5e-3)
+
+
+def test_an_elastic_impact_is_that_of_hertz():
+    """T = 2.94328 δ/v, with δ by the energy."""
+    hit = vf.solve_impact(rubber(1e9), BALL, mass=MASS, speed=SPEED, accuracy=1e-5)
+    depth = (15.0 * 0.75 * MASS * SPEED**2 / (16.0 * 1e7 * 0.1)) ** 0.4
+    assert hit.restitution == pytest.approx(1.0, abs=1e-5)
+    assert hit.largest_indentation == pytest.approx(depth, rel=1e-5)
+    assert hit.contact_time == pytest.approx(2.94328 * depth / SPEED, rel=1e-5)
+
+
+def ting(spectrum, radius, mass, speed):
+    """Return the restitution by T. C. T. Ting, J. Appl. Mech. 33 (1966) 845, as ordinary differential equations."""
+    prony = spectrum.to_relaxation()
+    E0, E, rate, n = prony.E0, prony.E, 1.0 / prony.tau, len(prony)
+
+    def elastic(depth):
+        return 4.0 / 3.0 * math.sqrt(radius) / 0.75 * max(depth, 0.0) ** 1.5
+
+    def approach(_, y):  # δ, v, relaxing depths M and relaxing loads Q
+        depth, v, M, Q = y[0], y[1], y[2 : n + 2], y[n + 2 :]
+        pressing = 2.0 * math.sqrt(radius * max(depth, 0.0)) / 0.75 * v
+        return [v, -(E0 * elastic(depth) + E @ Q) / mass, *(v - rate * M), *(pressing - rate * Q)]
+
+    def turned(_, y):
+        return y[1]
+
+    turned.terminal, turned.direction = True, -1.0
+    tight = {"rtol": 1e-7, "atol": 1e-13}
+    there = solve_ivp(approach, (0.0, 1.0), [0.0, speed, *np.zeros(2 * n)], events=turned, dense_output=True, **tight)
+    top, past = there.t[-1], there.sol
+
+    def earlier(t, depth, M):
+        """Return the time at which the contact was as wide while it grew."""
+
+        def strain(t1):
+            old = past(t1)
+            return E0 * (depth - old[0]) + E @ (M - np.exp(-rate * (t - t1)) * old[2 : n + 2])
+
+        return 0.0 if strain(0.0) <= 0.0 else brentq(strain, 0.0, top, xtol=1e-16) if strain(top) < 0.0 else top
+
+    def retreat(t, y):
+        t1 = earlier(t, y[0], y[2:])
+        old = past(t1)
+        force = E0 * elastic(old[0]) + E @ (np.exp(-rate * (t - t1)) * old[n + 2 :])
+        return [y[1], -force / mass, *(y[1] - rate * y[2:])]
+
+    def left(t, y):
+        return E0 * y[0] + E @ y[2:]
+
+    left.terminal, left.direction = True, -1.0
+    back = solve_ivp(retreat, (top, top + 1.0), there.y[: n + 2, -1], events=left, **tight)
+    return -back.y[1, -1] / speed
+
+
+def broad(count):
+    """Return a spectrum of many modes from 0.1 ms to 10 s, E∞/E0 = 10."""
+    tau = np.geomspace(1e-4, 1e1, count)
+    weight = np.exp(-0.5 * (np.log10(tau / 1e-2) / 1.2) ** 2)
+    return vf.RetardationSpectrum(1e6, 1e7, 9e-7 * weight / weight.sum(), tau)
+
+
+@pytest.mark.slow
+def test_forty_modes_agree_with_tings_solution():
+    spectrum = broad(40)
+    hit = vf.solve_impact(vf.Material(spectrum), BALL, mass=MASS, speed=SPEED)
+    assert hit.restitution == pytest.approx(ting(spectrum, 0.01, MASS, SPEED), abs=1e-4)
+    assert hit.run.energy_imbalance < 1e-4
+
+
+def test_scales_do_not_matter():
+    """Times alike; moduli by 1e6, lengths by 1e-3 and times by 1e9: the same restitution."""
+    hit = vf.solve_impact(rubber(1e-3), BALL, mass=MASS, speed=SPEED)
+    slow = vf.solve_impact(rubber(1.0), BALL, mass=1e6 * MASS, speed=1e-3 * SPEED)
+    assert slow.restitution == pytest.approx(hit.restitution, abs=1e-9)
+    assert slow.contact_time == pytest.approx(1e3 * hit.contact_time, rel=1e-9)
+    E, L, T = 1e6, 1e-3, 1e9
+    other = vf.solve_impact(
+        rubber(1e-3 * T, 1e6 * E, 1e7 * E), vf.Ball(0.01 * L), mass=MASS * E * L * T**2, speed=SPEED * L / T
+    )
+    assert other.restitution == pytest.approx(hit.restitution, abs=1e-9)
+    assert other.peak_force == pytest.approx(E * L**2 * hit.peak_force, rel=1e-9)
+
+
+def test_a_cone_of_an_elastic_body_bounces_back_as_fast():
+    """F = (2 E*/π tan θ) δ², so that m v²/2 = (2 E*/3π tan θ) δ³."""
+    angle, stiffness = 0.1, 1e7 / 0.75
+    hit = vf.solve_impact(rubber(1e9), vf.Cone(angle), mass=MASS, speed=SPEED)
+    depth = (0.75 * math.pi * math.tan(angle) * MASS * SPEED**2 / stiffness) ** (1.0 / 3.0)
+    assert hit.restitution == pytest.approx(1.0, abs=1e-4)
+    assert hit.largest_indentation == pytest.approx(depth, rel=1e-4)
+
+
+def test_an_elastic_ball_adds_its_compliance():
+    """With E_i* = E∞*, depths are those of half the modulus."""
+    hit = vf.solve_impact(
+        rubber(1e9), BALL, mass=MASS, speed=SPEED, indenter_modulus=1e7, indenter_poisson_ratio=0.5, accuracy=1e-5
+    )
+    depth = (15.0 * 0.75 * MASS * SPEED**2 / (16.0 * 0.5e7 * 0.1)) ** 0.4
+    assert hit.largest_indentation == pytest.approx(depth, rel=1e-5)
+
+
+@pytest.mark.slow
+def test_rebounds_under_gravity_go_on_until_the_ball_rests():
+    hit = vf.solve_impact(rubber(1e-3), BALL, mass=0.03, speed=1.0, gravity=9.81, rebounds=8)
+    each = hit.contacts
+    assert len(each) == 5
+    assert each[-1].restitution == 0.0
+    assert math.isinf(each[-1].contact_time)
+    assert "no-rebound" in codes(hit.warnings)
+    assert hit.run.energy_imbalance < 1e-4
+    for one, following in itertools.pairwise(each):
+        leaving = one.restitution * one.speed
+        pause = following.start - one.start - one.contact_time
+        assert pause == pytest.approx(2.0 * leaving / 9.81, rel=0.1)  # the dent is shallower at the next touch
+        # It falls from where it left at v g t: the speed at the touch is that of the parabola.
+        assert following.speed == pytest.approx(9.81 * pause - leaving, rel=1e-4)
+        assert following.speed < leaving
+
+
+@pytest.mark.slow
+def test_a_slow_ball_sinks_in_and_stays():
+    hit = vf.solve_impact(rubber(1e-2), BALL, mass=0.03, speed=1e-3, gravity=9.81)
+    assert hit.restitution == 0.0
+    still = (0.75 * 0.75 * 0.03 * 9.81 / (1e6 * 0.1)) ** (2.0 / 3.0)
+    assert 0.9 * still < hit.largest_indentation < 2.0 * still  # it oscillates about it
+
+
+@pytest.mark.slow
+def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
+    warm = vf.Material(broad(12), shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))
+    kelvin = [260.0, 300.0, 400.0]
+    curve = vf.restitution_curve(warm, BALL, speeds=[0.05, 0.1], temperatures=kelvin, mass="30 g")
+    assert curve.restitution.shape == (3, 2)
+    assert np.argmin(curve.restitution[:, 0]) == 1
+    one = vf.solve_impact(warm, BALL, speed=0.1, temperature=300.0, mass="30 g")
+    assert curve.restitution[1, 1] == one.restitution
+    data = curve.to_dataset()
+    assert data.restitution.dims == ("temperature", "speed")
+    assert data.peak_force.units == "N"
+    assert one.to_dataset().velocity.size == one.velocity.size
+
+
+def test_what_cannot_fall_is_refused():
+    with refused("not-available"):
+        vf.solve_impact(rubber(1e-3), vf.Ellipsoid("1 mm", "2 mm"), mass=1.0, speed=1.0)
+    with refused("negative"):
+        vf.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, gravity=-9.81)
+    with refused("beyond-indenter"):
+        vf.solve_impact(rubber(1e-3), BALL, mass=100.0, speed=10.0)
+    with refused("out-of-range"):
+        vf.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, accuracy=0.5)
