@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, overload
+
+import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
@@ -76,6 +78,22 @@ class Superposition:
             f"Superposition({len(shifts.temperatures)} isotherms, {shown(float(shifts.temperatures[0]))} to "
             f"{shown(float(shifts.temperatures[-1]))}, reference {shown(shifts.reference)}, overlap misfit "
             f"{self.quality.joint:.4f} decades)"
+        )
+
+    @property
+    def reduced_isotherms(self) -> tuple[Isotherm, ...]:
+        """The isotherms as they lie on the master curve: moduli over b(T) at α(T) ω."""
+        b = np.ones(len(self.isotherms))
+        if self.vertical_shift is not None:
+            b = 10.0 ** np.asarray(self.vertical_shift.log10(self.shift_factors.temperatures))
+        return tuple(
+            replace(
+                one,
+                angular_frequency=10.0**shift * one.angular_frequency,
+                storage_modulus=one.storage_modulus / factor,
+                loss_modulus=one.loss_modulus / factor,
+            )
+            for one, shift, factor in zip(self.isotherms, self.shift_factors.log10_values, b, strict=True)
         )
 
     def to_dataset(self) -> xarray.Dataset:

@@ -153,23 +153,16 @@ def _vertical(shift: VerticalShift | None, measured: Array | None) -> dict[str, 
 
 
 def _shifted(fit: Superposition, held: Mapping[float, float]) -> list[dict[str, Any]]:
-    """Return the isotherms moved onto each other: reduced frequency, and moduli free of the vertical shift."""
-    temperatures = fit.shift_factors.temperatures
-    log10_b = np.zeros(len(temperatures))
-    if fit.vertical_shift is not None:
-        log10_b = np.asarray(fit.vertical_shift.log10(temperatures))
+    """Return the isotherms on the master curve, as their data sets name them, with the shift of each."""
+    factors = fit.shift_factors
     return [
-        {
-            "temperature": plain(one.temperature),
+        record(one.to_dataset(), _DIGITS)
+        | {
             "log10_shift": plain(float(shift)),
             "held": is_held,
-            "is_reference": abs(one.temperature - fit.shift_factors.reference) < 1e-6 * one.temperature,
-            "reduced_frequency": plain(10.0**shift * one.angular_frequency),
-            "storage_modulus": plain(one.storage_modulus / 10.0**by),
-            "loss_modulus": plain(one.loss_modulus / 10.0**by),
-            "loss_tangent": plain(one.loss_modulus / one.storage_modulus),
+            "is_reference": abs(one.temperature - factors.reference) < 1e-6 * one.temperature,
         }
-        for one, shift, by, is_held in zip(
-            fit.isotherms, fit.shift_factors.log10_values, log10_b, places_held(temperatures, held), strict=True
+        for one, shift, is_held in zip(
+            fit.reduced_isotherms, factors.log10_values, places_held(factors.temperatures, held), strict=True
         )
     ]

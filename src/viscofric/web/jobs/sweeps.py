@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from viscofric.datasets import plain
+from viscofric.datasets import plain, record
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import listed
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.web.jobs.context import Context, JobError
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
-from viscofric.web.jobs.spectrum_numbers import moduli
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
 _MOST_FLAGGED = 2_000
 #: A reference is proposed near this temperature, where the sweeps have one.
 _USUAL_REFERENCE = 303.15  # K
+_DIGITS = 6
 #: What stands in for a reference that is not chosen yet: reading needs none.
 _ANY_REFERENCE = "30 degC"
 
@@ -101,14 +101,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> 
         "deformation": sweeps.deformation,
         "files": [_file(one) for one in traced.readings],
         "left_open": _left_open(table, traced.readings),
-        "isotherms": [
-            {
-                "temperature": plain(one.temperature),
-                **moduli(one.angular_frequency, one.storage_modulus + 1j * one.loss_modulus),
-                "strain_amplitude": None if one.strain_amplitude is None else plain(one.strain_amplitude),
-            }
-            for one in sweeps.isotherms
-        ],
+        "isotherms": [record(one.to_dataset(), _DIGITS) for one in sweeps.isotherms],
         "flagged": [*_left_out(traced), *_outliers(traced)],
         "left_out": int(traced.left_out.size),
         **listed("notes", notes_without_folder(sweeps.notes, context)),
@@ -151,14 +144,7 @@ def _left_open(table: MaterialTable, readings: Sequence[Readings]) -> list[str]:
 def _left_out(traced: TracedSweeps) -> list[dict[str, Any]]:
     points = traced.points
     return [
-        {
-            "why": "left out",
-            "place": points.places[row],
-            "temperature": plain(float(points.temperature[row])),
-            "angular_frequency": plain(float(points.angular_frequency[row])),
-            "storage_modulus": plain(float(points.storage_modulus[row])),
-            "loss_modulus": plain(float(points.loss_modulus[row])),
-        }
+        _flagged("left out", points.places[row], points, row, float(points.temperature[row]))
         for row in traced.left_out[:_MOST_FLAGGED].tolist()
     ]
 
@@ -166,20 +152,21 @@ def _left_out(traced: TracedSweeps) -> list[dict[str, Any]]:
 def _outliers(traced: TracedSweeps) -> list[dict[str, Any]]:
     found = []
     for name in ("storage", "loss"):
-        for number, place in outliers(traced.sweeps.isotherms, name):
-            one, rows = traced.sweeps.isotherms[number], traced.isotherms
-            origins = next(each for each in rows if each.isotherm is one).origins[place]
+        for number, row in outliers(traced.sweeps.isotherms, name):
+            one = traced.sweeps.isotherms[number]
+            origins = next(each for each in traced.isotherms if each.isotherm is one).origins[row]
+            place = traced.points.named(origins.tolist())
             found.append(
-                {
-                    "why": f"far off its neighbours ({name} modulus), kept",
-                    "place": traced.points.named(origins.tolist()),
-                    "temperature": plain(one.temperature),
-                    "angular_frequency": plain(float(one.angular_frequency[place])),
-                    "storage_modulus": plain(float(one.storage_modulus[place])),
-                    "loss_modulus": plain(float(one.loss_modulus[place])),
-                }
+                _flagged(f"far off its neighbours ({name} modulus), kept", place, one, row, float(one.temperature))
             )
     return found
+
+
+def _flagged(why: str, place: str, columns: Any, row: int, temperature: float) -> dict[str, Any]:
+    """Return one reading with the reason why it is flagged; `columns` has its frequency and moduli."""
+    names = ("angular_frequency", "storage_modulus", "loss_modulus")
+    values = {name: plain(float(getattr(columns, name)[row])) for name in names}
+    return {"why": why, "place": place, "temperature": plain(temperature), **values}
 
 
 def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dict[str, Any]:

@@ -132,7 +132,7 @@ export function shiftedCard(app) {
     moveTrace(
       handle,
       traceOf(chosen),
-      app.units.number(one.reduced_frequency, "angular_frequency"),
+      app.units.number(one.angular_frequency, "angular_frequency"),
       Number(slider.value),
     );
     exact.value = (one.log10_shift + Number(slider.value)).toFixed(3);
@@ -187,7 +187,7 @@ export function shiftedCard(app) {
         name: named(one.temperature, app),
         legend: fewEnough(temperatures),
         temperature: one.temperature,
-        x: one.reduced_frequency,
+        x: one.angular_frequency,
         y: one[quantity],
         mode: "lines+markers",
         dash: "solid",
