@@ -13,7 +13,7 @@ import viscofric as vf
 from viscofric.errors import ConvergenceError
 from viscofric.study import StudyResults, run_study
 from viscofric.study.cases.record import Record
-from viscofric.study.rubber import make_rubber
+from viscofric.study.make_rubber import make_rubber
 from viscofric.study.run_file.study import load_study
 
 DMA = (Path(str(files("viscofric"))) / "example" / "dma.csv").as_posix()

@@ -13,7 +13,8 @@ from refusals import refused
 from viscofric.errors import DataFileError, InputError, LiquidError
 from viscofric.friction.identification.conclusions import with_origin
 from viscofric.notes import codes
-from viscofric.study.rubber import make_rubber, rubber_groups
+from viscofric.study.make_rubber import make_rubber
+from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.rubber_results import run_material
 from viscofric.study.run_file.study import material_of
 

@@ -11,7 +11,8 @@ from click.testing import CliRunner
 import viscofric as vf
 from refusals import refused
 from viscofric.cli import main
-from viscofric.study.rubber import make_rubber, rubber_groups
+from viscofric.study.make_rubber import make_rubber
+from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.study import material_of
 
 

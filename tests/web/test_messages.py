@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import viscofric as vf
-from viscofric.study.rubber import make_rubber
+from viscofric.study.make_rubber import make_rubber
 from viscofric.study.run_file.errors import keys
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import TABLES

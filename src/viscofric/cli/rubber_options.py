@@ -159,7 +159,7 @@ def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
 
 
 def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
-    from viscofric.study.rubber import make_rubber
+    from viscofric.study.make_rubber import make_rubber
     from viscofric.study.run_file.study import material_of
 
     if parameters["reference"] is None:
@@ -177,7 +177,7 @@ def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
 
 def _named(name: str) -> NamedRubber:
     if Path(name).suffix.lower() == ".toml":
-        from viscofric.study.rubber import make_rubber
+        from viscofric.study.make_rubber import make_rubber
         from viscofric.study.run_file.study import load_study
 
         study = load_study(name)

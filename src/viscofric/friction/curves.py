@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Literal
 
@@ -12,14 +10,18 @@ import numpy as np
 from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, check_choice
+from viscofric.friction.intervals import consistency_check, half_widths
+from viscofric.friction.solved_columns import columns_of
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
-from viscofric.notes import note_of
 from viscofric.units import Quantity, positive, share, shown_celsius
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import xarray
 
     from viscofric.arrays import Array, Integers, Mask
+    from viscofric.checks import Check
     from viscofric.contact.solution import ContactSolution
 
 
@@ -62,18 +64,6 @@ _LABELS = {
 }
 _COORDINATES = ("speed", "temperature", "load", "slip")
 _LOADS = {"N": "normal load", "N/m": "normal load per length"}
-
-
-def half_widths(freedom: Array | None, size: int, level: float) -> Array:
-    """Return the half-widths (size,) of confidence intervals in standard errors; normal where `freedom` is unknown."""
-    from scipy.special import ndtri, stdtrit
-
-    above = 0.5 + 0.5 * level
-    widths = np.full(size, float(ndtri(above)))
-    if freedom is not None:
-        student = np.isfinite(freedom) & (freedom > 0.0)
-        widths[student] = stdtrit(freedom[student], above)
-    return widths
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,6 +191,13 @@ class FrictionCurves:
         """The different speeds, m/s, ascending."""
         return np.unique(self.speed)
 
+    @property
+    def consistency_check(self) -> Check | None:
+        """Whether the sign configurations of the test agree within their errors; None where that is unknown."""
+        if self.consistency is None or self.consistency_error is None:
+            return None
+        return consistency_check(self.consistency, self.consistency_error, self.viscoelastic_freedom)
+
     @classmethod
     def from_solutions(cls, solutions: Iterable[ContactSolution], *, source: str = "predicted") -> FrictionCurves:
         """Collect the friction of solved contacts.
@@ -222,42 +219,7 @@ class FrictionCurves:
         InputError
             If a solution has no temperature, its speed is zero or infinite, or point and line contacts are mixed.
         """
-        from viscofric.contact.solution import ContactSolution
-
-        given: object = solutions
-        solved = tuple(given) if isinstance(given, Iterable) and given is not np.ma.masked else (given,)
-        for solution in solved:
-            if not isinstance(solution, ContactSolution):
-                raise InputError(
-                    f"solutions must be ContactSolutions, as solve_steady() gives them, not {type(solution).__name__}.",
-                    code="not-solutions",
-                )
-            if solution.temperature is None:
-                raise InputError(
-                    "temperature of a contact solution is missing; friction curves need one.", code="no-temperature"
-                )
-            if solution.speed == 0.0 or not math.isfinite(solution.speed):
-                raise InputError(
-                    f"speed = {solution.speed:g} m/s of a solution must be finite and not zero.", code="no-speed"
-                )
-        units = {"N/m" if solution.geometry == "line" else "N" for solution in solved}
-        if len(units) > 1:
-            raise InputError(
-                "solutions of point contacts and of line contacts, whose loads are per length, do not form one curve.",
-                code="mixed-geometries",
-            )
-        return cls(
-            speed=np.array([abs(solution.speed) for solution in solved]),
-            temperature=np.array([solution.temperature for solution in solved], dtype=float),
-            load=np.array([solution.load for solution in solved]),
-            viscoelastic=np.array([math.copysign(1.0, s.speed) * s.friction_coefficient for s in solved]),
-            viscoelastic_error=np.array([solution.diagnostics.friction_error for solution in solved]),
-            viscoelastic_scatter=np.zeros(len(solved)),
-            replicates=np.ones(len(solved), dtype=np.int64),
-            source=source,
-            notes=_warnings(solved),
-            load_unit=units.pop() if units else "N",
-        )
+        return cls(**columns_of(solutions), source=source)
 
     def interval(
         self, level: float = 0.95, *, of: Literal["viscoelastic", "coulomb"] = "viscoelastic"
@@ -402,21 +364,3 @@ def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
     elif not np.all(np.isfinite(column)):
         raise InputError(f"{name} of friction curves must be finite everywhere.", code="not-finite")
     return column
-
-
-def _warnings(solutions: tuple[ContactSolution, ...]) -> tuple[str, ...]:
-    """Return the warnings of many solutions, each once."""
-    warned = [solution for solution in solutions if solution.warnings]
-    if not warned:
-        return ()
-    counted = {"contacts": len(warned), "of": len(solutions)}
-    different = {warning for solution in warned for warning in solution.warnings}
-    if len(different) <= 1:
-        return (note_of(warned[0].warnings[0]).at(f"In {len(warned)} of {len(solutions)} contacts").valued(**counted),)
-    worst = max(warned, key=lambda solution: solution.half_width)
-    return tuple(
-        note_of(warning)
-        .at(f"In {len(warned)} of {len(solutions)} contacts there are warnings; that of the widest one")
-        .valued(**counted)
-        for warning in worst.warnings
-    )

@@ -11,9 +11,10 @@ import numpy as np
 from viscofric.errors import InputError, StudyError
 from viscofric.study.cases.case import moved
 from viscofric.study.cases.surfaces import surface_of
+from viscofric.study.make_rubber import make_rubber
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
-from viscofric.study.rubber import make_rubber, shift_of
+from viscofric.study.rubber import shift_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

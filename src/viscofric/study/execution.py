@@ -18,7 +18,7 @@ from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
 from viscofric.study.results.tree import field_groups, master_prediction, material_groups, prediction, setting
-from viscofric.study.rubber import rubber_groups
+from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.study import parse_study, read_study_text
 from viscofric.study.running.folder import study_folder
 from viscofric.study.running.running import Event, choose_executor, run_plan, silent

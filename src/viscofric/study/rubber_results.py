@@ -15,9 +15,10 @@ from viscofric.files import write_atomically
 from viscofric.notes import records
 from viscofric.rheology.cards import CardFormat, CardLaw, write_card
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.study.make_rubber import make_rubber
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, input_hashes, provenance
-from viscofric.study.rubber import make_rubber, rubber_groups
+from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.study_rubber import draw_rubber
 from viscofric.units import CELSIUS_ZERO, celsius, shown_celsius
 

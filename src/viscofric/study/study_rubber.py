@@ -13,7 +13,8 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES, sample_materials
-from viscofric.study.rubber import Rubber, make_rubber, shift_of
+from viscofric.study.make_rubber import make_rubber
+from viscofric.study.rubber import Rubber, shift_of
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ import numpy as np
 from viscofric.checks import Check
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.friction.assumption_check import assumption_checks_of
+from viscofric.friction.intervals import consistency_check
 from viscofric.notes import Note
 from viscofric.report.results import (
-    SAME_TEMPERATURE,
     group,
     interpolated,
     is_extrapolated,
@@ -25,20 +25,17 @@ from viscofric.report.results import (
     numbers,
     reach,
     rubbers,
-    sentences,
     values,
 )
 from viscofric.report.sweeps import solved_cases
-from viscofric.report.texts.friction import consistency
-from viscofric.report.texts.numbers import degrees, percent, several, significant
+from viscofric.report.texts.numbers import percent, several, significant
+from viscofric.report.texts.rubber_checks import rubber_checks
 from viscofric.study.results.results import beyond_accuracy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import xarray as xr
-
-    from viscofric.arrays import Array
 
 
 def all_checks(tree: xr.DataTree) -> list[Check]:
@@ -56,125 +53,6 @@ def counted(checks: list[Check]) -> str:
     plural = {"warning": "warnings"}
     parts = ", ".join(f"{n} {plural.get(label, label) if n > 1 else label}" for n, label in found if n)
     return f"{len(checks)} check{'' if len(checks) == 1 else 's'}: {parts}." if checks else ""
-
-
-# Largest values that are good
-_OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
-_FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
-_LAW = 0.1  # decades of α, rms
-
-
-def rubber_checks(tree: xr.DataTree) -> Iterator[Check]:
-    """Yield every check of the rubber that the results allow."""
-    for part in (_isotherms, _superposition, _spectrum):
-        yield from part(tree)
-
-
-def _decades(rms: float) -> str:
-    """Say an rms of log10 as a percentage."""
-    return percent(10.0**rms - 1.0)
-
-
-def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
-    factors = group(tree, "shift_factors")
-    if factors is None:
-        return
-    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
-    if not (math.isfinite(given) and math.isfinite(used)):
-        return  # results of an older viscofric
-    if used >= given:
-        yield Check("Isotherms used", "passed", f"All {given:.0f} isotherms are joined into the master curve.")
-        return
-    kept = values(factors, "temperature")
-    left = [
-        degrees(kelvin)
-        for kelvin in numbers(factors.attrs, "temperatures_given")
-        if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE
-    ]
-    which = f"those at {several(left)} are left out" if len(left) > 1 else f"the one at {''.join(left)} is left out"
-    if len(left) != given - used:
-        which = "the others are left out"
-    yield Check(
-        "Isotherms used",
-        "warning",
-        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve; {which} (reasons: notes on the input).",
-    )
-
-
-def _superposition(tree: xr.DataTree) -> Iterator[Check]:
-    factors = group(tree, "shift_factors")
-    if factors is None:
-        return
-    storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
-    pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
-    if math.isfinite(storage) and math.isfinite(loss):
-        yield Check.of(
-            "Overlap of the isotherms",
-            max(storage, loss) <= _OVERLAP and not apart > 0,
-            f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
-            f"{_decades(loss)} in the loss modulus (rms; good if ≤ {_decades(_OVERLAP)})."
-            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
-            max(storage, loss),
-            _OVERLAP,
-        )
-    step = number(factors.attrs, "overlap_rms_log10")
-    if math.isfinite(step):
-        yield Check.of(
-            "Overlap of the isotherms",
-            step <= _OVERLAP and not apart > 0,
-            f"Where shifted tests overlap they differ by {_decades(step)} (rms; good if ≤ {_decades(_OVERLAP)})."
-            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
-            step,
-            _OVERLAP,
-        )
-    yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
-    whole = group(tree, "superposition")
-    if whole is not None:
-        words = " ".join(sentences(whole.attrs, "sentences"))
-        holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
-        fails = whole.attrs.get("verdict", "roughly" if roughly else "fails") == "fails"
-        yield Check("Superposition", "passed" if holds else "failed" if fails else "warning", words)
-        if whole.attrs.get("causality"):
-            belong = number(whole.attrs, "consistent") == 1.0
-            yield Check.of("Storage against loss modulus", belong, str(whole.attrs["causality"]))
-
-
-def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
-    law = group(tree, "shift_law")
-    rms = math.nan if law is None else number(law.attrs, "rms")
-    if law is None or not math.isfinite(rms):
-        return
-    far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
-    if measured_used:
-        words = f"{far}; the measured shift factors are used, not this law."
-        yield Check("Shift law", "noted", words)
-    else:
-        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (good if ≤ {_LAW:g}).", rms, _LAW)
-
-
-def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
-    steps = group(tree, "step_master_curve")
-    if steps is not None and math.isfinite(step := number(steps.attrs, "rms_log10_step")):
-        yield Check.of(
-            "Fit of the spectrum",
-            step <= _FIT,
-            f"The spectrum lies {_decades(step)} from the measured response (rms; good if ≤ {_decades(_FIT)}).",
-            step,
-            _FIT,
-        )
-    curve = group(tree, "master_curve")
-    if curve is None:
-        return
-    storage, loss = (number(curve.attrs, f"rms_log10_{name}") for name in ("storage", "loss"))
-    if math.isfinite(storage) and math.isfinite(loss):
-        yield Check.of(
-            "Fit of the spectrum",
-            max(storage, loss) <= _FIT,
-            f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
-            f"measured loss modulus (rms; good if ≤ {_decades(_FIT)}).",
-            max(storage, loss),
-            _FIT,
-        )
 
 
 #: What a comparison with friction is worth where the rubber comes from friction.
@@ -314,16 +192,13 @@ def _measurement(tree: xr.DataTree) -> Iterator[Check]:
     freedom = values(measurement, "viscoelastic_freedom") if "viscoelastic_freedom" in measurement else None
     check = consistency_check(values(measurement, "consistency"), values(measurement, "consistency_error"), freedom)
     if check is not None:
-        yield check
+        yield consistency_shown(check)
 
 
-def consistency_check(left_over: Array, error: Array, freedom: Array | None) -> Check | None:
-    """Judge whether the sign configurations of a traction test agree, as `consistency` says; None where unknown."""
-    words, holds = consistency(left_over, error, freedom)
-    if not words:
-        return None
-    name = "Consistency of the four configurations"
-    return Check.of(name, holds, f"The residual of the four sign configurations, which should vanish, is {words}.")
+def consistency_shown(check: Check) -> Check:
+    """Return the check of `FrictionCurves.consistency_check` in a whole sentence."""
+    words = f"The residual of the four sign configurations, which should vanish, is {check}."
+    return replace(check, name="Consistency of the four configurations", sentence=words)
 
 
 def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:

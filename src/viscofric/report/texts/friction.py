@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.datasets import record
-from viscofric.friction.curves import half_widths
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
@@ -20,10 +19,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.traction import TractionRuns
-
-
-_OUTSIDE = 0.05  # share of consistent points outside their 95 % interval
-_CHANCE = 0.01  # probability below which that many points outside are not chance
 
 
 def friction_table(curves: FrictionCurves) -> list[str]:
@@ -54,30 +49,9 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
         lines.append(("zero of the force cell", span))
     if curves.assumption:
         lines.append(("assumed", curves.assumption))
-    if curves.consistency is not None and curves.consistency_error is not None:
-        words, _ = consistency(curves.consistency, curves.consistency_error, curves.viscoelastic_freedom)
-        if words:
-            lines.append(("residual", words))
+    if (check := curves.consistency_check) is not None:
+        lines.append(("residual", str(check)))
     return lines
-
-
-def consistency(left_over: Array, error: Array, freedom: Array | None) -> tuple[str, bool]:
-    """Return how far the four sign configurations agree, in words, and whether more of them may differ by chance.
-
-    `left_over` (n,) is the combination of them that should vanish, relative to the load; `error` its standard error
-    with `freedom` degrees of freedom (normal where unknown). The words are empty where no error is known.
-    """
-    from scipy.special import bdtrc
-
-    known = np.isfinite(left_over) & np.isfinite(error)
-    count = int(known.sum())
-    if not count:
-        return "", True
-    limit = half_widths(freedom, left_over.size, 1.0 - _OUTSIDE) * error
-    outside = int(np.sum(np.abs(left_over[known]) > limit[known]))
-    largest = significant(float(np.max(np.abs(left_over[known]))), 2)
-    words = f"within its 95 % interval at {count - outside} of {count} points; {largest} of the load at most"
-    return words, outside == 0 or float(bdtrc(outside - 1, count, _OUTSIDE)) >= _CHANCE
 
 
 def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:

@@ -85,12 +85,10 @@ def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
 
 def _checks(curves: FrictionCurves) -> list[dict[str, Any]]:
     """Judge whether the four sign configurations agree with each other."""
-    from viscofric.report.texts.checks import consistency_check
+    from viscofric.report.texts.checks import consistency_shown
 
-    if curves.consistency is None or curves.consistency_error is None:
-        return []
-    check = consistency_check(curves.consistency, curves.consistency_error, curves.viscoelastic_freedom)
-    return [] if check is None else [check.record("page")]
+    check = curves.consistency_check
+    return [] if check is None else [consistency_shown(check).record("page")]
 
 
 def _written(curves: FrictionCurves, context: Context) -> str:

@@ -14,7 +14,7 @@ from pydantic import Field, ValidationError
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_bytes, write_atomically
 from viscofric.notes import Note, note_of
-from viscofric.study.rubber import Rubber, make_rubber
+from viscofric.study.make_rubber import make_rubber
 from viscofric.study.run_file.errors import wrong_tables
 from viscofric.study.run_file.material import MaterialTable, files_of
 from viscofric.study.run_file.settings import UncertaintyTable
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
+    from viscofric.study.rubber import Rubber
     from viscofric.study.study_rubber import FrictionBands, StudyRubber
 
 Made = TypeVar("Made")

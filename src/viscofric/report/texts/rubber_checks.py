@@ -1,0 +1,143 @@
+"""Checks of the rubber in a study's results: isotherms, superposition, shift law and spectrum."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.checks import Check
+from viscofric.report.results import (
+    SAME_TEMPERATURE,
+    group,
+    number,
+    numbers,
+    sentences,
+    values,
+)
+from viscofric.report.texts.numbers import degrees, percent, several, significant
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import xarray as xr
+
+
+# Largest values that are good
+_OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
+_FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
+_LAW = 0.1  # decades of α, rms
+
+
+def rubber_checks(tree: xr.DataTree) -> Iterator[Check]:
+    """Yield every check of the rubber that the results allow."""
+    for part in (_isotherms, _superposition, _spectrum):
+        yield from part(tree)
+
+
+def _decades(rms: float) -> str:
+    """Say an rms of log10 as a percentage."""
+    return percent(10.0**rms - 1.0)
+
+
+def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
+    if not (math.isfinite(given) and math.isfinite(used)):
+        return  # results of an older viscofric
+    if used >= given:
+        yield Check("Isotherms used", "passed", f"All {given:.0f} isotherms are joined into the master curve.")
+        return
+    kept = values(factors, "temperature")
+    left = [
+        degrees(kelvin)
+        for kelvin in numbers(factors.attrs, "temperatures_given")
+        if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE
+    ]
+    which = f"those at {several(left)} are left out" if len(left) > 1 else f"the one at {''.join(left)} is left out"
+    if len(left) != given - used:
+        which = "the others are left out"
+    yield Check(
+        "Isotherms used",
+        "warning",
+        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve; {which} (reasons: notes on the input).",
+    )
+
+
+def _superposition(tree: xr.DataTree) -> Iterator[Check]:
+    factors = group(tree, "shift_factors")
+    if factors is None:
+        return
+    storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
+    pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield Check.of(
+            "Overlap of the isotherms",
+            max(storage, loss) <= _OVERLAP and not apart > 0,
+            f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
+            f"{_decades(loss)} in the loss modulus (rms; good if ≤ {_decades(_OVERLAP)})."
+            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
+            max(storage, loss),
+            _OVERLAP,
+        )
+    step = number(factors.attrs, "overlap_rms_log10")
+    if math.isfinite(step):
+        yield Check.of(
+            "Overlap of the isotherms",
+            step <= _OVERLAP and not apart > 0,
+            f"Where shifted tests overlap they differ by {_decades(step)} (rms; good if ≤ {_decades(_OVERLAP)})."
+            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
+            step,
+            _OVERLAP,
+        )
+    yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
+    whole = group(tree, "superposition")
+    if whole is not None:
+        words = " ".join(sentences(whole.attrs, "sentences"))
+        holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
+        fails = whole.attrs.get("verdict", "roughly" if roughly else "fails") == "fails"
+        yield Check("Superposition", "passed" if holds else "failed" if fails else "warning", words)
+        if whole.attrs.get("causality"):
+            belong = number(whole.attrs, "consistent") == 1.0
+            yield Check.of("Storage against loss modulus", belong, str(whole.attrs["causality"]))
+
+
+def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
+    law = group(tree, "shift_law")
+    rms = math.nan if law is None else number(law.attrs, "rms")
+    if law is None or not math.isfinite(rms):
+        return
+    far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
+    if measured_used:
+        words = f"{far}; the measured shift factors are used, not this law."
+        yield Check("Shift law", "noted", words)
+    else:
+        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (good if ≤ {_LAW:g}).", rms, _LAW)
+
+
+def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
+    steps = group(tree, "step_master_curve")
+    if steps is not None and math.isfinite(step := number(steps.attrs, "rms_log10_step")):
+        yield Check.of(
+            "Fit of the spectrum",
+            step <= _FIT,
+            f"The spectrum lies {_decades(step)} from the measured response (rms; good if ≤ {_decades(_FIT)}).",
+            step,
+            _FIT,
+        )
+    curve = group(tree, "master_curve")
+    if curve is None:
+        return
+    storage, loss = (number(curve.attrs, f"rms_log10_{name}") for name in ("storage", "loss"))
+    if math.isfinite(storage) and math.isfinite(loss):
+        yield Check.of(
+            "Fit of the spectrum",
+            max(storage, loss) <= _FIT,
+            f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
+            f"measured loss modulus (rms; good if ≤ {_decades(_FIT)}).",
+            max(storage, loss),
+            _FIT,
+        )

@@ -1,0 +1,323 @@
+"""From [material] to a material model: sweeps read, superposed and fitted, or a predefined material."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, cast, overload
+
+from viscofric.data import IsothermalSweeps
+from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
+from viscofric.notes import Note, note_of
+from viscofric.readers import read_dma, read_step_tests
+from viscofric.readers.dma.master_curves import read_master_curve
+from viscofric.readers.dma.ramps import read_ramps
+from viscofric.rheology.cards import open_card
+from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
+from viscofric.rheology.material import Material
+from viscofric.rheology.ramps.assumed import assumed_of
+from viscofric.rheology.ramps.superpose import superpose_ramps
+from viscofric.rheology.shifts.shift_files import read_shift_factors
+from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
+from viscofric.rheology.superposition.joint import JointSuperposition
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.rheology.superposition.superpose import superpose
+from viscofric.step_tests import StepMasterCurve
+from viscofric.study.rubber import Rubber
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from viscofric.data import MasterCurve
+    from viscofric.rheology.ramps.superpose import RampLaw
+    from viscofric.rheology.shifts.law_comparison import LawComparison
+    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
+    from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.step_tests import StepTests
+    from viscofric.study.run_file.material import MaterialTable
+
+
+def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
+    """Return the material of [material] of a run file, whose paths are resolved.
+
+    With `liquids`, a liquid, which has no spectrum for contacts, becomes a table of its master curve, with a note.
+
+    Raises
+    ------
+    LiquidError
+        If it is a liquid, unless `liquids` is true.
+    DataFileError, SuperpositionError, InputError
+        If a file cannot be used or does not state tension or shear, or the fit fails.
+    """
+    if table.dma is not None:
+        return _from_both(table, liquids) if table.steps else _from_sweeps(table, liquids)
+    if table.steps:
+        return _from_step_tests(table)
+    if table.ramps is not None:
+        return _from_ramps(table, liquids)
+    return _predefined(table) if table.master_curve is None else _from_master_curve(table, table.master_curve, liquids)
+
+
+def _predefined(table: MaterialTable) -> Rubber:
+    notes: tuple[str, ...] = ()
+    synthetic = False
+    if table.file is None:
+        entry = catalogue_entry(str(table.catalogue))
+        material, synthetic, source = catalogue_material(entry.name), entry.kind != "published", "the catalogue"
+    else:
+        card = open_card(table.file)
+        material, notes, source = card.material, tuple(card.notes), f"the file {table.file.name}"
+    if table.reference_temperature is not None:
+        material = material.at_reference(table.reference_temperature)
+    if table.name:
+        material = replace(material, name=table.name)
+    return Rubber(material, notes=notes, source=source, synthetic=synthetic)
+
+
+@contextmanager
+def _errors_of(files: tuple[Path, ...]) -> Iterator[None]:
+    """Name the files in errors about their data; those about a file name it already."""
+    try:
+        yield
+    except DataFileError:
+        raise
+    except InputError as error:
+        more = f" and {len(files) - 1} more" if len(files) > 1 else ""
+        raise error.at(f"{files[0]}{more}") from error
+
+
+def _material(
+    table: MaterialTable,
+    spectrum: RetardationSpectrum | ModulusTable,
+    shift: ShiftLaw | None,
+    vertical: VerticalShift | None = None,
+) -> Material:
+    return Material(spectrum, shift=shift, poisson_ratio=table.poisson_ratio, name=table.name, vertical_shift=vertical)
+
+
+def _from_step_tests(table: MaterialTable) -> Rubber:
+    """Superpose creep or relaxation tests, and fit their spectrum."""
+    tests = _read_steps(table)
+    with _errors_of(table.steps):
+        fit = _superposed(table, tests)
+        shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
+        spectrum = fit_retardation_spectrum(fit, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
+    if spectrum.fit is not None and not fit.check.holds:
+        doubts = (fit.check.sentences[0], *spectrum.fit.notes)
+        spectrum = replace(spectrum, fit=replace(spectrum.fit, notes=doubts))
+    return Rubber(
+        _material(table, spectrum, shift, fit.vertical_shift),
+        step_tests=tests,
+        step_fit=fit,
+        laws=laws,
+        shift_used=used,
+        shift_origin=_origin(table),
+        notes=(*fit.notes, *_undecided(laws, table.shift)),
+    )
+
+
+def _read_steps(table: MaterialTable) -> StepTests:
+    return read_step_tests(
+        *table.steps,
+        kind="creep" if table.creep is not None else "relaxation",
+        deformation=table.deformation,
+        temperature=table.temperature,
+        response_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
+    )
+
+
+def _from_both(table: MaterialTable, liquids: bool) -> Rubber:
+    """Superpose sweeps and step tests together, and fit one spectrum to both."""
+    sweeps, tests = _read_sweeps(table), _read_steps(table)
+    with _errors_of((*(table.dma or ()), *table.steps)):
+        joint = superpose(
+            [sweeps, tests], _reference(table), by=table.shift_by, weights=table.shift_weights, **_how(table)
+        )
+        shift, laws, used = _law_or_table(table.shift, joint.shift_factors)
+    fit, step_fit = joint.parts
+    assert isinstance(fit, Superposition)
+    assert isinstance(step_fit, StepSuperposition)
+    verdict = (*_verdict(fit), *(() if step_fit.check.holds else step_fit.check.sentences[:1]))
+    spectrum, flowing = _spectrum(table, joint, verdict, liquids)
+    return Rubber(
+        _material(table, spectrum, shift, joint.vertical_shift),
+        sweeps=sweeps,
+        fit=fit,
+        step_tests=tests,
+        step_fit=step_fit,
+        joint=joint,
+        laws=laws,
+        shift_used=used,
+        notes=(*joint.notes, *flowing, *_undecided(laws, table.shift)),
+    )
+
+
+def _origin(table: MaterialTable) -> str:
+    return "given" if table.shift_factors else "held" if table.fixed_shift_factors else "found"
+
+
+def _read_sweeps(table: MaterialTable) -> IsothermalSweeps:
+    return read_dma(
+        *(table.dma or ()),
+        deformation=table.deformation,
+        temperature=table.temperature,
+        modulus_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
+    )
+
+
+def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
+    sweeps = _read_sweeps(table)
+    with _errors_of(table.dma or ()):
+        fit = _superposed(table, sweeps)
+        shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
+    spectrum, flowing = _spectrum(table, fit.master_curve, _verdict(fit), liquids)
+    return Rubber(
+        _material(table, spectrum, shift, fit.vertical_shift),
+        sweeps=sweeps,
+        fit=fit,
+        laws=laws,
+        shift_used=used,
+        shift_origin=_origin(table),
+        notes=(*fit.notes, *flowing, *_undecided(laws, table.shift)),
+    )
+
+
+def _from_ramps(table: MaterialTable, liquids: bool) -> Rubber:
+    """Superpose temperature ramps by a law, fitted or assumed, and fit the spectrum."""
+    files, reference = table.ramps or (), _reference(table)
+    ramps = read_ramps(
+        *files,
+        deformation=table.deformation,
+        modulus_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
+    )
+    with _errors_of(files[:1]):
+        fit = superpose_ramps(
+            ramps,
+            reference,
+            cast("RampLaw", "wlf" if table.shift == "measured" else table.shift),
+            assumed=None if table.assumed_shift is None else assumed_of(table.assumed_shift, reference),
+            poisson_ratio=table.poisson_ratio,
+            vertical="density" if table.vertical_shift == "density" else None,
+        )
+    verdict = tuple(note for note in fit.notes if note_of(note).code in _DOUBTS_OF_RAMPS)
+    spectrum, flowing = _spectrum(table, fit.master_curve, verdict, liquids)
+    material = _material(table, spectrum, fit.shift, fit.vertical_shift)
+    used = "assumed" if fit.assumption else getattr(fit.shift, "kind", "")
+    return Rubber(material, master_curve=fit.master_curve, ramps=fit, shift_used=used, notes=(*fit.notes, *flowing))
+
+
+#: Notes on ramps that stay with the spectrum.
+_DOUBTS_OF_RAMPS = {"ramps-do-not-superpose", "shift-assumed", "assumption-contradicted"}
+
+
+def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubber:
+    """Use a given master curve, with its shift factors if they are given."""
+    reference = _reference(table)
+    curve = read_master_curve(
+        path,
+        reference,
+        deformation=table.deformation,
+        poisson_ratio=table.poisson_ratio,
+        modulus_unit=table.modulus_unit,
+        columns=table.columns,
+        sheet=table.sheet,
+    )
+    shift: ShiftLaw | None = None
+    if table.shift_factors is not None:
+        factors = _given_factors(table, table.shift_factors, reference)
+        shift, laws, used = _law_or_table(table.shift, factors)
+    else:
+        laws, used = None, ""
+    spectrum, flowing = _spectrum(table, curve, (), liquids)
+    material = _material(table, spectrum, shift)
+    notes = (*flowing, *_undecided(laws, table.shift))
+    return Rubber(material, master_curve=curve, laws=laws, shift_used=used, notes=notes)
+
+
+def _undecided(laws: LawComparison | None, choice: str) -> tuple[str, ...]:
+    """Return notes about an undecided choice among laws, if the best law is used."""
+    if laws is None or choice != "best":
+        return ()
+    return tuple(note for note in laws.notes if note.code == "laws-undecided")
+
+
+def _spectrum(
+    table: MaterialTable, curve: MasterCurve | JointSuperposition, verdict: tuple[str, ...], liquids: bool
+) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
+    """Fit the spectrum; warnings about the master curve go into it, so that they stay in its file.
+
+    A liquid becomes a table, with a note, or is refused.
+    """
+    try:
+        spectrum = fit_retardation_spectrum(curve, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
+    except LiquidError as error:
+        if not liquids:
+            raise
+        moduli = curve.parts[0].master_curve if isinstance(curve, JointSuperposition) else curve
+        assert not isinstance(moduli, StepMasterCurve)  # sweeps come first
+        return ModulusTable.from_master_curve(moduli), (Note("liquid", f"No spectrum: {error}"),)
+    if spectrum.fit is None or not verdict:
+        return spectrum, ()
+    return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes))), ()
+
+
+def _verdict(fit: Superposition) -> tuple[str, ...]:
+    check = fit.check
+    failed = [] if check.holds else [check.sentences[0]]
+    return tuple(failed if check.consistent else [*failed, check.sentences[-1]])
+
+
+@overload
+def _superposed(table: MaterialTable, tests: IsothermalSweeps) -> Superposition: ...
+@overload
+def _superposed(table: MaterialTable, tests: StepTests) -> StepSuperposition: ...
+def _superposed(table: MaterialTable, tests: IsothermalSweeps | StepTests) -> Superposition | StepSuperposition:
+    reference = _reference(table)
+    common = _how(table) | {
+        "shift": None if table.shift_factors is None else _given_factors(table, table.shift_factors),
+        "fixed": table.fixed_shift_factors or None,
+    }
+    if isinstance(tests, IsothermalSweeps):
+        return superpose(tests, reference, by=table.shift_by, weights=table.shift_weights, **common)
+    return superpose(tests, reference, **common)
+
+
+def _reference(table: MaterialTable) -> float:
+    if table.reference_temperature is None:
+        raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
+    return table.reference_temperature
+
+
+def _how(table: MaterialTable) -> dict[str, Any]:
+    vertical = None if table.vertical_shift == "none" else table.vertical_shift
+    return {"poisson_ratio": table.poisson_ratio, "vertical": vertical}
+
+
+def _given_factors(table: MaterialTable, path: Path, reference: float | None = None) -> ShiftFactors:
+    return read_shift_factors(path, reference, columns=table.shift_factor_columns, sheet=table.shift_factor_sheet)
+
+
+def _law_or_table(choice: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:
+    """Return α(T) as requested, the comparison of laws, and the choice."""
+    try:
+        laws = factors.compare_laws()
+    except InputError:  # no law describes the factors
+        laws = None
+        if choice == "best":
+            raise
+    if choice == "measured":
+        return factors, laws, choice
+    if choice == "best" and laws is not None:
+        return laws.best, laws, laws.chosen.kind
+    return factors.law(choice), laws, choice
