@@ -9,12 +9,15 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from viscofric.report.figures.animation import save_animation
     from viscofric.report.figures.friction import (
         plot_coulomb_friction,
         plot_friction_curves,
         plot_friction_master_curve,
     )
     from viscofric.report.figures.identified import plot_identified_modulus
+    from viscofric.report.figures.motion import plot_friction_loop, plot_transient
+    from viscofric.report.figures.pressures import plot_pressure_profiles, pressure_strip, transient_figure
     from viscofric.report.figures.ramps import plot_amplitude_sweep, plot_temperature_ramps
     from viscofric.report.figures.rubber import (
         plot_isotherms,
@@ -62,6 +65,12 @@ _HOME = {
     "plot_van_gurp_palmen": "viscofric.report.figures.superposition",
     "plot_vertical_shift": "viscofric.report.figures.shift_factors",
     "plot_wicket": "viscofric.report.figures.superposition",
+    "plot_friction_loop": "viscofric.report.figures.motion",
+    "plot_transient": "viscofric.report.figures.motion",
+    "plot_pressure_profiles": "viscofric.report.figures.pressures",
+    "pressure_strip": "viscofric.report.figures.pressures",
+    "transient_figure": "viscofric.report.figures.pressures",
+    "save_animation": "viscofric.report.figures.animation",
     "write_figures_and_report": "viscofric.report.html",
     "write_report": "viscofric.report.html",
 }
@@ -73,21 +82,27 @@ __all__ = [
     "plot_cole_cole",
     "plot_coulomb_friction",
     "plot_friction_curves",
+    "plot_friction_loop",
     "plot_friction_master_curve",
     "plot_identified_modulus",
     "plot_isotherms",
     "plot_kramers_kronig",
     "plot_law_residuals",
     "plot_master_curve",
+    "plot_pressure_profiles",
     "plot_relaxation_spectrum",
     "plot_residuals",
     "plot_retardation_spectrum",
     "plot_shift_comparison",
     "plot_shift_factors",
     "plot_temperature_ramps",
+    "plot_transient",
     "plot_van_gurp_palmen",
     "plot_vertical_shift",
     "plot_wicket",
+    "pressure_strip",
+    "save_animation",
+    "transient_figure",
     "write_figures_and_report",
     "write_report",
 ]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import matplotlib
 import numpy as np
 from scipy.ndimage import uniform_filter
 
-from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, new_figure
+from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, Unit, new_figure, unit_for
 from viscofric.report.texts.numbers import prefixed, significant
 from viscofric.units import shown_celsius
 
@@ -29,23 +29,8 @@ _MOST_CELLS = 256
 _SHARE_SHOWN = 0.98
 
 
-class Unit(NamedTuple):
-    """A unit of an axis: its size in SI, and what it is called."""
-
-    size: float
-    name: str
-
-
-def _unit(largest: float, base: str) -> Unit:
-    """Return the unit in which the largest of some numbers is neither very small nor very large."""
-    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ")):
-        if largest >= 0.5 * size:
-            return Unit(size, prefix + base)
-    return Unit(1e-9, "n" + base)
-
-
 def _along(solution: ContactSolution) -> Unit:
-    return _unit(float(np.abs(solution.x).max()), "m")
+    return unit_for(float(np.abs(solution.x).max()), "m")
 
 
 def _label_along(solution: ContactSolution) -> str:
@@ -58,7 +43,7 @@ def _label_along(solution: ContactSolution) -> str:
 
 def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
     """Draw the pressure of a point contact seen from above, with the outline of the contact."""
-    unit, pressure_unit = _along(solution), _unit(solution.max_pressure, "Pa")
+    unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
     every = math.ceil(max(solution.pressure.shape) / _MOST_CELLS)
     x, y = solution.x[::every] / unit.size, solution.y[::every] / unit.size
     pressure = solution.pressure[::every, ::every].T / pressure_unit.size
@@ -98,7 +83,7 @@ def _draw_motion(axes: Axes, solution: ContactSolution) -> None:
 
 def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
     """Draw the pressure along the centre line of a contact."""
-    unit, pressure_unit = _along(solution), _unit(solution.max_pressure, "Pa")
+    unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
     x, pressure = solution.x / unit.size, _centre(solution.pressure) / pressure_unit.size
     axes.fill_between(x, pressure, color=BLUE, alpha=0.15, linewidth=0.0)
     axes.plot(x, pressure, color=BLUE)
@@ -119,7 +104,7 @@ def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indent
     unit = _along(solution)
     surface = -_centre(solution.displacement)
     rigid = _beneath(solution, indenter)
-    depth_unit = _unit(max(float(np.abs(surface).max()), abs(solution.indentation)), "m")
+    depth_unit = unit_for(max(float(np.abs(surface).max()), abs(solution.indentation)), "m")
     x, shown = solution.x / unit.size, np.isfinite(rigid)
     top = max(float(surface.max()), 0.35 * solution.indentation) / depth_unit.size
     bottom = min(float(surface.min()), -solution.indentation) / depth_unit.size
@@ -162,7 +147,7 @@ def contact_figure(solution: ContactSolution, indenter: Indenter, title: str = "
         above = left.subplots()
         beyond = "neither" if solution.diagnostics.peak_resolved else "max"
         bar = left.colorbar(plot_pressure_map(above, solution), ax=above, shrink=0.85, pad=0.02, extend=beyond)
-        bar.set_label(f"pressure $p$ ({_unit(solution.max_pressure, 'Pa').name})")
+        bar.set_label(f"pressure $p$ ({unit_for(solution.max_pressure, 'Pa').name})")
         profile, surface = right.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
     plot_pressure_profile(profile, solution)
     profile.set_xlabel("")

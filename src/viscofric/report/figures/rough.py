@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
 
-from viscofric.report.figures.style import INK, decade_ticks, looks, new_figure, speed_ticks
+from viscofric.report.figures.style import INK, Unit, decade_ticks, looks, new_figure, speed_ticks, unit_for
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -33,20 +33,7 @@ _MOST_POINTS = 512
 _SHARE_SHOWN = 0.995
 
 
-class _Unit(NamedTuple):
-    size: float
-    name: str
-
-
-def _unit(largest: float, base: str = "m") -> _Unit:
-    """Return the unit in which the largest of some numbers is neither very small nor very large."""
-    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ")):
-        if largest >= 0.5 * size:
-            return _Unit(size, prefix + base)
-    return _Unit(1e-9, "n" + base)
-
-
-def _axes_of_map(axes: Axes, unit: _Unit) -> None:
+def _axes_of_map(axes: Axes, unit: Unit) -> None:
     axes.set_aspect("equal")
     axes.grid(visible=False)
     axes.set_xlabel(f"$x$ ({unit.name})")
@@ -57,7 +44,7 @@ def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
     """Draw the heights of a surface seen from above; points without a reading stay blank."""
     every = math.ceil(max(topography.shape) / _MOST_POINTS)
     z = topography.heights[::every, ::every] - np.nanmean(topography.heights)
-    unit, depth = _unit(max(topography.size)), _unit(float(np.nanmax(np.abs(z))) or 1.0)
+    unit, depth = unit_for(max(topography.size)), unit_for(float(np.nanmax(np.abs(z))) or 1.0)
     mesh = axes.pcolormesh(
         topography.x[::every] / unit.size,
         topography.y[::every] / unit.size,
@@ -73,7 +60,7 @@ def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
 def plot_line_scan(axes: Axes, topography: Topography) -> None:
     """Draw the heights of a line scan, or of the first line along x of a map, over their position."""
     z = topography.heights[:, 0] - np.nanmean(topography.heights[:, 0])
-    unit, depth = _unit(topography.size[0]), _unit(float(np.nanmax(np.abs(z))) or 1.0)
+    unit, depth = unit_for(topography.size[0]), unit_for(float(np.nanmax(np.abs(z))) or 1.0)
     axes.plot(topography.x / unit.size, z / depth.size, color=INK, linewidth=0.9)
     axes.set_xlabel(f"$x$ ({unit.name})")
     axes.set_ylabel(f"height ({depth.name})")
@@ -109,8 +96,8 @@ def plot_pressure_of_period(
     shape = tuple(n // every for n in pressure.shape)
     merged = pressure[: shape[0] * every, : shape[1] * every]
     merged = merged.reshape(shape[0], every, shape[1], every).max(axis=(1, 3))
-    unit, ends = _unit(float(x[-1])), highest_shown(merged) if highest is None else highest
-    size = _unit(float(pressure.max()) if highest is None else highest, "Pa")
+    unit, ends = unit_for(float(x[-1])), highest_shown(merged) if highest is None else highest
+    size = unit_for(float(pressure.max()) if highest is None else highest, "Pa")
     mesh = axes.pcolormesh(
         x[: shape[0] * every : every] / unit.size,
         y[: shape[1] * every : every] / unit.size,
@@ -256,7 +243,7 @@ def surface_view(topography: Topography, *, stretch: float = 0.15) -> Figure:
     """Draw a surface in three dimensions, its heights exaggerated."""
     every = math.ceil(max(topography.shape) / 200)
     z = topography.complete()[::every, ::every]
-    unit, depth = _unit(max(topography.size)), _unit(float(np.ptp(z)))
+    unit, depth = unit_for(max(topography.size)), unit_for(float(np.ptp(z)))
     x, y = np.meshgrid(topography.x[::every] / unit.size, topography.y[::every] / unit.size, indexing="ij")
     figure = new_figure(6.2, 4.3)
     axes = figure.add_subplot(projection="3d")

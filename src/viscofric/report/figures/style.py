@@ -77,6 +77,21 @@ STYLE: Mapping[Any, Any] = {
 }
 
 
+class Unit(NamedTuple):
+    """A unit of an axis: its size in SI, and what it is called."""
+
+    size: float
+    name: str
+
+
+def unit_for(largest: float, base: str = "m") -> Unit:
+    """Return the unit in which the largest of some numbers is neither very small nor very large."""
+    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ")):
+        if largest >= 0.5 * size:
+            return Unit(size, prefix + base)
+    return Unit(1e-9, "n" + base)
+
+
 class Look(NamedTuple):
     """Colour, mark and dashes of one temperature."""
 

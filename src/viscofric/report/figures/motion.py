@@ -1,0 +1,188 @@
+"""Figures of contacts over time: forces, depth and contact against time or distance, friction loops."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.errors import check_choice
+from viscofric.report.figures.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION, Unit, unit_for
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+    from viscofric.arrays import Array
+
+
+class _Line(NamedTuple):
+    """A column of the data set, its colour and its entry in the legend."""
+
+    column: str
+    colour: str
+    words: str = ""
+
+
+#: Quantity -> label of its axis, and what is drawn of it where the data set has it.
+_QUANTITIES: dict[str, tuple[str, tuple[_Line, ...]]] = {
+    "load": ("normal load $F$", (_Line("load", INK),)),
+    "indentation": (r"indentation $\delta$", (_Line("indentation", GREEN),)),
+    "friction_force": ("friction force $T$", (_Line("friction_force", VERMILION),)),
+    "friction_coefficient": (r"friction coefficient $\mu$", (_Line("friction_coefficient", VERMILION),)),
+    "contact": (
+        "contact",
+        (
+            _Line("contact_radius", BLUE, "radius"),
+            _Line("front", BLUE, "ahead of the axis"),
+            _Line("rear", ORANGE, "behind the axis"),
+            _Line("half_width", PURPLE, "half-width across"),
+        ),
+    ),
+    "energy": (
+        "energy",
+        (
+            _Line("work", INK, "work on the material"),
+            _Line("stored", BLUE, "stored"),
+            _Line("dissipated", VERMILION, "dissipated"),
+        ),
+    ),
+}
+_AREA = ("contact area", (_Line("contact_area", BLUE),))
+#: Labels of a periodic contact, whose loads are mean pressures.
+_PER_AREA = {"load": r"mean pressure $\bar p$", "friction_force": r"mean traction $\bar\tau$"}
+QUANTITIES = tuple(_QUANTITIES)
+AGAINST = ("time", "distance")
+#: Arrows along a friction loop.
+_ARROWS = 4
+
+
+def plot_transient(axes: Axes, data: xr.Dataset, quantity: str = "friction_coefficient", against: str = "time") -> None:
+    """Draw one quantity of a contact against time or distance.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    data : xarray.Dataset
+        As `TransientSolution.to_dataset` returns it.
+    quantity : str
+        ``"load"``, ``"indentation"``, ``"friction_force"``, ``"friction_coefficient"``, ``"contact"`` (its radius, or
+        its edges; the area of a periodic contact) or ``"energy"``.
+    against : str
+        ``"time"``, or ``"distance"`` along the path.
+
+    Raises
+    ------
+    InputError
+        If `quantity` or `against` is none of these.
+    """
+    check_choice(quantity, "quantity", *QUANTITIES)
+    check_choice(against, "against", *AGAINST)
+    along, label = _along(data, against)
+    title, lines = _drawn(data, quantity)
+    unit = _unit_of(data, [line.column for line in lines])
+    for line in lines:
+        values = np.asarray(data[line.column]) / unit.size
+        error = data.get(f"{line.column}_error")
+        if error is not None:
+            bound = np.asarray(error) / unit.size
+            axes.fill_between(along, values - bound, values + bound, color=line.colour, alpha=0.2, linewidth=0.0)
+        axes.plot(along, values, color=line.colour, label=line.words)
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    axes.set_xlabel(label)
+    axes.set_ylabel(f"{title} ({unit.name})" if unit.name else title)
+    if len(lines) > 1:
+        axes.legend(loc="best")
+
+
+def plot_friction_loop(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the friction force against the position along its direction, with arrows in the order of time.
+
+    The area of a closed loop is the work of friction.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    data : xarray.Dataset
+        As `TransientSolution.to_dataset` returns it.
+    """
+    position = position_along(data)
+    where = unit_for(float(np.abs(position).max()))
+    unit = _unit_of(data, ["friction_force"])
+    x, y = position / where.size, np.asarray(data["friction_force"]) / unit.size
+    axes.plot(x, y, color=VERMILION)
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    for place in _arrow_places(x):
+        axes.annotate(
+            "",
+            xy=(float(x[place + 1]), float(y[place + 1])),
+            xytext=(float(x[place]), float(y[place])),
+            arrowprops={"arrowstyle": "->", "color": VERMILION, "linewidth": 1.2},
+        )
+    axes.set_xlabel(f"position along the motion ({where.name})")
+    axes.set_ylabel(f"{_title(data, 'friction_force')} ({unit.name})")
+
+
+def position_along(data: xr.Dataset) -> Array:
+    """Return the position along the direction of the friction force, (n,) in m."""
+    x, y = np.asarray(data.attrs["direction"], dtype=float)
+    return np.asarray(x * data["position_x"] + y * data["position_y"])
+
+
+def distance(data: xr.Dataset) -> Array:
+    """Return the distance along the path since the start, (n,) in m."""
+    steps = np.hypot(np.diff(np.asarray(data["position_x"])), np.diff(np.asarray(data["position_y"])))
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def moves(data: xr.Dataset) -> bool:
+    """Return whether the position ever changes."""
+    return bool(distance(data)[-1] > 0.0)
+
+
+def returns(data: xr.Dataset) -> bool:
+    """Return whether the indenter comes back along its path, so that friction against position is a loop."""
+    steps = np.diff(position_along(data))
+    return bool(np.any(steps > 0.0) and np.any(steps < 0.0))
+
+
+def _along(data: xr.Dataset, against: str) -> tuple[Array, str]:
+    """Return the values of the axis across, and its label."""
+    values, base = (np.asarray(data["time"]), "s") if against == "time" else (distance(data), "m")
+    unit = unit_for(float(np.abs(values).max()), base)
+    return values / unit.size, f"{against} {'$t$' if against == 'time' else '$s$'} ({unit.name})"
+
+
+def _drawn(data: xr.Dataset, quantity: str) -> tuple[str, tuple[_Line, ...]]:
+    """Return the label of a quantity and the columns that there are."""
+    _, lines = _QUANTITIES[quantity]
+    found = tuple(line for line in lines if line.column in data)
+    if not found:
+        return _AREA
+    return _title(data, quantity), found
+
+
+def _title(data: xr.Dataset, quantity: str) -> str:
+    per_area = data.attrs.get("geometry") == "periodic"
+    return _PER_AREA.get(quantity, "") if per_area and quantity in _PER_AREA else _QUANTITIES[quantity][0]
+
+
+def _unit_of(data: xr.Dataset, columns: list[str]) -> Unit:
+    """Return the unit in which some columns are drawn."""
+    base = str(data[columns[0]].attrs["units"])
+    if base == "1":
+        return Unit(1.0, "")
+    largest = max(float(np.abs(np.asarray(data[name])).max(initial=0.0)) for name in columns)
+    if base == "m2":
+        return Unit(1e-6, "mm²") if largest < 1e-2 else Unit(1.0, "m²")
+    return unit_for(largest, base.replace("m2", "m²"))
+
+
+def _arrow_places(x: Array) -> list[int]:
+    """Return intervals spread evenly over the distance, in each of which the position changes."""
+    steps = np.abs(np.diff(x))
+    if not np.any(steps > 0.0):
+        return []
+    way = np.cumsum(steps)
+    marks = (np.arange(_ARROWS) + 0.5) / _ARROWS * way[-1]
+    return sorted({int(np.searchsorted(way, mark)) for mark in marks})

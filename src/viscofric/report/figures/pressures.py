@@ -1,0 +1,226 @@
+"""Pressures of a contact at several times: profiles, a strip of maps, and one figure of the whole history."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import matplotlib
+import numpy as np
+
+from viscofric.report.figures.motion import moves, plot_friction_loop, plot_transient, returns
+from viscofric.report.figures.style import BLUE, INK, Unit, new_figure, sequential_looks, unit_for
+from viscofric.report.texts.numbers import prefixed
+from viscofric.units import to_si_array
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
+    from viscofric.motion.solution import TransientSolution
+    from viscofric.units import Quantities
+
+#: Pressures that are drawn without times of the user's choice.
+_FRAMES = 5
+#: More cells along an edge than this do not show; maps draw every n-th.
+_MOST_CELLS = 256
+#: Share of the touched length that is shown beside it.
+_MARGIN = 0.15
+
+
+class Frames(NamedTuple):
+    """Pressures at several times, with the scales that all have in common."""
+
+    times: list[float]
+    fields: list[xr.DataArray]
+    length: Unit
+    pressure: Unit
+    highest: float  # in its unit
+    reach: tuple[tuple[float, float], tuple[float, float]]  # along x and y, in the unit of length
+
+    @property
+    def are_maps(self) -> bool:
+        """Whether the pressure lies along two axes."""
+        return self.fields[0].ndim == 2
+
+
+def frames_of(run: TransientSolution, times: Quantities | None = None, count: int = _FRAMES) -> Frames:
+    """Return the pressures of a solution at times, or at as many of its own, evenly spread."""
+    shown = spread_times(run, count) if times is None else [float(one) for one in to_si_array(times, "s", "times")]
+    fields = [run.pressure_at(time) for time in shown]
+    largest = max(float(field.max()) for field in fields)
+    reach = _reach(fields)
+    size = unit_for(max(abs(end) for ends in reach for end in ends))
+    unit = unit_for(largest, "Pa")
+    (left, right), (low, high) = reach
+    scaled = ((left / size.size, right / size.size), (low / size.size, high / size.size))
+    return Frames(shown, fields, size, unit, largest / unit.size or 1.0, scaled)
+
+
+def spread_times(run: TransientSolution, count: int) -> list[float]:
+    """Return at most so many of a solution's times, those nearest to evenly spaced ones."""
+    wanted = np.linspace(float(run.time[0]), float(run.time[-1]), count)
+    near = {float(run.time[int(np.abs(run.time - time).argmin())]) for time in wanted}
+    return sorted(near)
+
+
+def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities | None = None) -> None:
+    """Draw the pressure along the motion through the indenter's axis at several times, from dark (early) to light.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    run : TransientSolution
+    times : (m,) array of float, str or pint.Quantity, optional
+        Of those that the solution has; five of them without.
+
+    Raises
+    ------
+    InputError
+        If the pressure of a time was not kept.
+    """
+    frames = frames_of(run, times)
+    for time, field, look in zip(frames.times, frames.fields, sequential_looks(len(frames.times)), strict=True):
+        x, pressure = _centre_line(field)
+        words = prefixed(time, None, "s")
+        axes.plot(x / frames.length.size, pressure / frames.pressure.size, color=look.colour, label=words)
+    axes.set_xlim(*frames.reach[0])
+    axes.set_ylim(0.0, 1.05 * frames.highest)
+    axes.set_xlabel(f"along the motion $x$ ({frames.length.name})")
+    axes.set_ylabel(f"pressure $p$ ({frames.pressure.name})")
+    axes.legend(loc="best", title="time")
+
+
+def plot_pressure_frame(axes: Axes, frames: Frames, place: int) -> QuadMesh | None:
+    """Draw the pressure at one of several times, on the scales that all have in common.
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh or None
+        Colours of a map, for a colour bar; none of a profile.
+    """
+    field = frames.fields[place]
+    axes.set_xlim(*frames.reach[0])
+    axes.set_xlabel(f"$x$ ({frames.length.name})")
+    if not frames.are_maps:
+        x, pressure = _centre_line(field)
+        along, values = x / frames.length.size, pressure / frames.pressure.size
+        axes.fill_between(along, values, color=BLUE, alpha=0.15, linewidth=0.0)
+        axes.plot(along, values, color=BLUE)
+        axes.set_ylim(0.0, 1.05 * frames.highest)
+        axes.set_ylabel(f"pressure $p$ ({frames.pressure.name})")
+        return None
+    every = math.ceil(max(field.shape) / _MOST_CELLS)
+    x, y = (np.asarray(field[name])[::every] / frames.length.size for name in field.dims)
+    shown = np.ma.masked_equal(np.asarray(field)[::every, ::every].T / frames.pressure.size, 0.0)
+    colours = matplotlib.colormaps["viridis"]
+    mesh: QuadMesh = axes.pcolormesh(
+        x, y, shown, cmap=colours, vmin=0.0, vmax=frames.highest, shading="nearest", rasterized=True
+    )
+    axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    axes.set_ylim(*frames.reach[1])
+    axes.set_ylabel(f"$y$ ({frames.length.name})")
+    return mesh
+
+
+def pressure_strip(run: TransientSolution, times: Quantities | None = None, title: str = "") -> Figure:
+    """Return a figure with the pressure at several times side by side: maps, or profiles of line and round contacts.
+
+    Parameters
+    ----------
+    run : TransientSolution
+    times : (m,) array of float, str or pint.Quantity, optional
+        Of those that the solution has; five of them without.
+    title : str
+
+    Raises
+    ------
+    InputError
+        If the pressure of a time was not kept.
+    """
+    frames = frames_of(run, times)
+    figure = new_figure(2.2 * len(frames.times) + 1.2, 2.8)
+    panels = figure.subplots(1, len(frames.times), squeeze=False, sharey=True)[0]
+    mesh = None
+    for place, panel in enumerate(panels):
+        mesh = plot_pressure_frame(panel, frames, place)
+        panel.set_title(prefixed(frames.times[place], None, "s"), fontsize=9.5)
+        if place:
+            panel.set_ylabel("")
+    if mesh is not None:
+        bar = figure.colorbar(mesh, ax=list(panels), shrink=0.85, pad=0.01)
+        bar.set_label(f"pressure $p$ ({frames.pressure.name})")
+    if title:
+        figure.suptitle(title, fontsize=10.5)
+    return figure
+
+
+def transient_figure(run: TransientSolution, title: str = "") -> Figure:
+    """Return a figure of a contact over time: load, indentation, friction, contact, pressures, and the loop.
+
+    Parameters
+    ----------
+    run : TransientSolution
+    title : str
+    """
+    data = run.to_dataset()
+    slides = moves(data)
+    rows = ["load", "indentation", *(["friction_coefficient"] if slides else []), "contact"]
+    figure = new_figure(9.6, 1.7 * len(rows) + 0.6)
+    left, right = figure.subfigures(1, 2, width_ratios=[1.15, 1.0], squeeze=False)[0]
+    panels: Any = left.subplots(len(rows), 1, sharex=True)
+    for panel, quantity in zip(panels, rows, strict=True):
+        plot_transient(panel, data, quantity)
+        panel.set_xlabel(panel.get_xlabel() if quantity == rows[-1] else "")
+    above, below = right.subplots(2, 1)
+    plot_pressure_profiles(above, run)
+    if slides and returns(data):
+        plot_friction_loop(below, data)
+    else:
+        plot_transient(below, data, "energy")
+    if title:
+        figure.suptitle(title, fontsize=10.5)
+    return figure
+
+
+def _centre_line(field: xr.DataArray) -> tuple[Array, Array]:
+    """Return places along the motion and the pressure there, through the indenter's axis."""
+    values = np.asarray(field)
+    if field.dims == ("r",):
+        r = np.asarray(field["r"])
+        return np.concatenate([-r[::-1], r]), np.concatenate([values[::-1], values])
+    if field.ndim == 2:
+        values = values[:, int(np.abs(np.asarray(field[field.dims[1]])).argmin())]
+    return np.asarray(field[field.dims[0]]), values
+
+
+def _reach(fields: Sequence[xr.DataArray]) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ends along x and y of what is loaded at any of the times, with a margin."""
+    ends = []
+    for axis in (0, 1):
+        loaded = [_loaded(field, axis) for field in fields]
+        low, high = min(one[0] for one in loaded), max(one[1] for one in loaded)
+        margin = _MARGIN * ((high - low) or 1.0)
+        ends.append((low - margin, high + margin))
+    return ends[0], ends[1]
+
+
+def _loaded(field: xr.DataArray, axis: int) -> tuple[float, float]:
+    """Return the ends of the loaded part along an axis; of the whole field without a load."""
+    round_one = field.dims == ("r",)
+    if axis >= field.ndim and not round_one:
+        return 0.0, 0.0
+    places = np.asarray(field[field.dims[0 if round_one else axis]])
+    highest = np.asarray(field).max(axis=1 - axis) if field.ndim == 2 else np.asarray(field)
+    pressed = highest > 0.0
+    if not pressed.any():
+        return 0.0, 0.0
+    low, high = float(places[pressed].min()), float(places[pressed].max())
+    return (-high, high) if round_one else (low, high)
