@@ -137,7 +137,11 @@ def _mover(problem: Problem, history: History) -> tuple[Mover[Any], str]:
 
         if is_body_of_revolution(indenter):
             return NormalMotion.of(problem), "springs"
-    noun = indenter.noun if isinstance(indenter, Indenter) else "periodic surface"
+    if isinstance(indenter, PeriodicSurface):
+        from viscofric.motion.periodic import PeriodicMover
+
+        return PeriodicMover(problem), "waves"
+    noun = indenter.noun
     moving = "in sliding motion" if history.moves else "in normal motion"
     where = "a layer" if problem.layer is not None else "a half-space"
     raise InputError(

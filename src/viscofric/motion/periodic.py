@@ -1,0 +1,313 @@
+"""Rough periodic surfaces under a pressure or a gap, along any path: steps in the indenter's frame, wave by wave.
+
+Each step is the contact problem of an elastic or steadily sliding solid with another transfer function and a height to
+which the displacement left by the past is added.  The memory is exact for every wave, so that steady sliding is met
+exactly with steps of any length, and speed and direction may change from step to step.
+
+Inside, depths are in rms heights and compliances in that of the most compliant wave after an infinite time.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.complementarity import solve_complementarity
+from viscofric.contact.extension import Extension, lag
+from viscofric.contact.periodic.one_grid import OneGrid, Stage
+from viscofric.contact.periodic.operator import PeriodicOperator
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.errors import ConvergenceError
+from viscofric.motion.memory import Modes
+from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.wave_memory import StepResponse, advance
+from viscofric.motion.waves import Waves
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array, ComplexArray
+    from viscofric.contact.complementarity import ComplementaritySolution
+    from viscofric.motion.problem import Problem
+    from viscofric.motion.schedule import Instant
+
+
+# Of the solver that starts from the pressure of the step before; see `viscofric.contact.periodic.one_grid`.
+_PATIENCE, _DIRECTIONS, _DOUBT, _FEW_PRODUCTS = 6, 12, 2.0, 200
+_MOST_PRODUCTS = 10_000
+# Complementarity of a step, as a part of the accuracy, over the displacement (from the least one on, in rms heights).
+_TIGHTNESS, _LEAST_DISPLACEMENT = 1e-3, 1e-5
+# Friction coefficient, over the rms slope of the surface, that is resolved to the accuracy.
+_LEAST_FRICTION = 0.1
+# Steps whose transfer functions are kept: one, and its halves.
+_KEPT = 2
+# Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval.
+_MERGING, _SHORTEST = 2e-2, 1e-5
+# Points from which on residuals are extended, which saves products but costs time.
+_EXTENDED = 10_000
+_SAME = 1e-12  # relative difference up to which steps are the same
+
+
+def merged_modes(problem: Problem) -> Modes:
+    """Return the modes that a history on a grid needs."""
+    schedule, surface = problem.schedule, problem.indenter
+    assert isinstance(surface, PeriodicSurface)
+    cell, shortest = min(surface.spacing), math.inf
+    for start, end in itertools.pairwise(schedule.kinks.tolist()):
+        clock = schedule.at(end, after=False).clock - schedule.at(start).clock
+        speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
+        passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
+        shortest = min(shortest, _SHORTEST * clock, passing)
+    return Modes.for_history(schedule.spectrum, shortest, schedule.duration, _MERGING * problem.accuracy)
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodicState:
+    """Contact at one time, without units."""
+
+    pressure: Array  # (nx, ny)
+    waves: ComplexArray  # (rows, columns) of the pressure
+    memory: ComplexArray = field(repr=False)  # (n, rows, columns) delayed pressure of each mode
+    depth: float
+    friction: tuple[float, float]  # per area, along x and y
+    stored: float  # per area
+    dissipated: float
+    trend: Array | None = None  # (nx, ny) rate of change of the pressure in the step before, 1/s
+
+
+class _Step(NamedTuple):
+    """What steps of one length along one path share."""
+
+    response: StepResponse
+    exact: PeriodicOperator
+    single: PeriodicOperator
+    extension: Extension | None
+    toward: tuple[float, float]
+
+
+class _Target(NamedTuple):
+    """What a step is solved for: the sum of the pressures or the indentation, and the tolerance of the gap."""
+
+    load: float | None
+    indentation: float | None
+    tolerance: float
+
+
+class PeriodicMover:
+    """A periodic surface that moves through a schedule."""
+
+    def __init__(self, problem: Problem, modes: Modes | None = None) -> None:
+        surface, schedule = problem.indenter, problem.schedule
+        assert isinstance(surface, PeriodicSurface)
+        self.schedule, self.surface = schedule, surface
+        self.grid = Waves(surface.shape, surface.spacing, problem.material.poisson_ratio, problem.layer)
+        self.backend = Backend()
+        spectrum = merged_modes(problem) if modes is None else modes
+        # Units: m, m/Pa, Pa.
+        self.depth_unit = surface.rms_height
+        self.response_unit = float(self.grid.response.max())
+        self.compliance_unit = self.response_unit * spectrum.relaxed
+        self.pressure_unit = self.depth_unit / self.compliance_unit
+        self.modes = Modes(spectrum.instantaneous / spectrum.relaxed, spectrum.C / spectrum.relaxed, spectrum.tau)
+        self._shape = self.grid.response / self.response_unit
+        self._rigid = self.grid.rigid_factor * (problem.counterface / self.compliance_unit)
+        self.height = (surface.z.max() - surface.z) / self.depth_unit
+        self.mean_height = float(self.height.mean())
+        self._tightness = _TIGHTNESS * problem.accuracy
+        self.products = 0
+        self._steps: dict[tuple[float, ...], _Step] = {}
+
+    @property
+    def scales(self) -> Scales:
+        """Sizes that errors are compared with."""
+        highest = self.schedule.largest
+        pressure = self.pressure_unit if self.schedule.control == "gap" else highest
+        slope = max(float(self.surface.slope(axis).std()) for axis in ((1.0, 0.0), (0.0, 1.0)))
+        return Scales(pressure, self.depth_unit, _LEAST_FRICTION * slope * pressure, pressure * self.depth_unit)
+
+    def begin(self) -> PeriodicState:
+        """Return the state just before the start."""
+        schedule, modes = self.schedule, self.modes
+        nothing = np.zeros(self.surface.shape)
+        waves = self.grid.of(nothing)
+        first = schedule.at(schedule.start, after=False)
+        if schedule.before == "untouched":
+            memory = np.zeros((len(modes), *waves.shape), complex)
+            depth = 0.0 if first.gap is None else self.mean_height - first.gap / self.depth_unit
+            return PeriodicState(nothing, waves, memory, depth, (0.0, 0.0), 0.0, 0.0)
+        moving = schedule.velocity(schedule.start) if schedule.before == "sliding" else np.zeros(2)
+        turn = self.grid.turn(moving)
+        # A steady wave has q = p/(1 − iτ q·v).
+        shares = [1.0 / (1.0 - 1j * time * turn) if moving.any() else np.ones((1, 1)) for time in modes.tau]
+        compliance = np.full(turn.shape, modes.instantaneous, complex if moving.any() else float)
+        for C, share in zip(modes.C, shares, strict=True):
+            compliance += C * share
+        problem = self._made(StepResponse(np.zeros(0), turn, None, np.zeros((1, 1)), compliance), moving)
+        past = np.zeros(turn.shape, complex)
+        pressure, depth = self._solved(problem, past, first, None)
+        waves = self.grid.of(pressure)
+        memory = np.array([share * waves for share in shares]).reshape(len(modes), *waves.shape)
+        stored = sum(0.5 * C * self._norm(self._shape, one) for C, one in zip(modes.C, memory, strict=True))
+        return self._state(pressure, waves, memory, problem.response, past, depth, (stored, 0.0), None)
+
+    def step(self, state: PeriodicState, start: Instant, end: Instant) -> PeriodicState:
+        """Return the state at the end of a step, or on the other side of a jump."""
+        path = np.asarray(end.position) - np.asarray(start.position)
+        clock_step = end.clock - start.clock
+        problem = self._step_of(clock_step, path)
+        past = problem.response.known(self.modes, state.memory, state.waves)
+        guess = state.pressure
+        if state.trend is not None and clock_step > 0.0:
+            guess = guess + clock_step * state.trend
+        pressure, depth = self._solved(problem, past, end, guess)
+        waves = self.grid.of(pressure)
+        after = advance(problem.response, self.modes, state.memory, state.waves, waves, self.grid.weights * self._shape)
+        trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
+        energies = after.stored, state.dissipated + after.dissipated
+        return self._state(pressure, waves, after.memory, problem.response, past, depth, energies, trend)
+
+    def accept(self, state: PeriodicState, instant: Instant) -> None:
+        """Do nothing: the method holds for every state."""
+
+    def observe(self, state: PeriodicState) -> Observation:
+        """Return what is seen of a state, per area."""
+        work = self.pressure_unit * self.depth_unit
+        loaded = np.count_nonzero(state.pressure > 0.0)
+        return Observation(
+            load=self.pressure_unit * float(state.pressure.mean()),
+            depth=self.depth_unit * state.depth,
+            friction_force=(work * state.friction[0], work * state.friction[1]),
+            area=float(loaded) / state.pressure.size,
+            stored=work * state.stored,
+            dissipated=work * state.dissipated,
+            extents={},
+        )
+
+    def pressure(self, state: PeriodicState) -> Field:
+        """Return the pressure of a state, Pa, on the surface's own points."""
+        return Field({"x": self.surface.x, "y": self.surface.y}, self.pressure_unit * state.pressure)
+
+    def ticks(self, start: Instant, end: Instant) -> None:
+        """Return None: a step may end at any time."""
+        return
+
+    def _state(
+        self,
+        pressure: Array,
+        waves: ComplexArray,
+        memory: ComplexArray,
+        response: StepResponse,
+        past: ComplexArray,
+        depth: float,
+        energies: tuple[float, float],
+        trend: Array | None,
+    ) -> PeriodicState:
+        """Return a solved state, given the energy that its modes store and all that has been dissipated."""
+        displacement = self._shape * (response.end * waves + past)
+        depth += float(displacement[0, 0].real) / pressure.size
+        # The mean of −p ∂u/∂x, to which an elastic indenter adds nothing.
+        work = self.grid.weights * (np.conj(waves) * displacement).imag
+        qx, qy = self.grid.numbers
+        friction = float(work.sum(axis=1) @ qx[:, 0]), float(work.sum(axis=0) @ qy[0])
+        elastic = self.modes.instantaneous * self._shape + self._rigid
+        stored = 0.5 * self._norm(elastic, waves) + energies[0]
+        return PeriodicState(pressure, waves, memory, depth, friction, stored, energies[1], trend)
+
+    def _norm(self, factor: Array, waves: ComplexArray) -> float:
+        return float(np.vdot(self.grid.weights * factor, np.square(waves.real) + np.square(waves.imag)))
+
+    def _step_of(self, clock_step: float, path: Array) -> _Step:
+        """Return the problem of a step, kept from one that differs by rounding only."""
+        for (step, x, y), problem in self._steps.items():
+            far = math.hypot(x - path[0], y - path[1])
+            if abs(step - clock_step) <= _SAME * step and far <= _SAME * math.hypot(x, y):
+                return problem
+        response = StepResponse.of(self.modes, clock_step, self.grid.turn(path))
+        while len(self._steps) >= _KEPT:
+            del self._steps[next(iter(self._steps))]
+        problem = self._made(response, path)
+        self._steps[clock_step, float(path[0]), float(path[1])] = problem
+        return problem
+
+    def _made(self, response: StepResponse, path: Array) -> _Step:
+        transfer = self.grid.folded(self._shape * response.end + self._rigid)
+        transfer[0, 0] = 0.0  # the mean moves no point relative to another
+        shape, spacing = self.surface.shape, self.surface.spacing
+        exact = PeriodicOperator(transfer, shape, backend=self.backend)
+        single = exact.for_corrections()
+        toward = (path[0] / spacing[0], path[1] / spacing[1]) if path.any() else (1.0, 0.0)
+        extension = None
+        if math.prod(shape) >= _EXTENDED:
+            late = lag(transfer, shape[1], toward)
+            extension = Extension(self.backend, shape, single.dtype, toward, late)
+        return _Step(response, exact, single, extension, toward)
+
+    def _solved(self, problem: _Step, past: ComplexArray, end: Instant, guess: Array | None) -> tuple[Array, float]:
+        """Return the pressure and the depth, without the mean displacement, at the end of a step."""
+        known = self._shape * past
+        known[0, 0] = 0.0  # a mean displacement is added to the depth afterwards
+        height = self.height + self.grid.field(known)
+        load = indentation = None
+        if end.gap is None:
+            load = end.pressure / self.pressure_unit * height.size  # type: ignore[operator]
+            if load == 0.0:
+                return np.zeros(height.shape), float(height.min())
+        else:
+            indentation = self.mean_height - end.gap / self.depth_unit
+            if indentation <= float(height.min()):
+                return np.zeros(height.shape), indentation
+        target = _Target(load, indentation, self._tolerance(end, guess))
+        before = problem.exact.products + problem.single.products
+        result = self._quickly(problem, height, target, guess)
+        if result is None or not result.converged:
+            result = self._surely(problem, height, target, guess if result is None else result.pressure)
+        self.products += problem.exact.products + problem.single.products - before
+        return result.pressure, result.indentation
+
+    def _tolerance(self, end: Instant, guess: Array | None) -> float:
+        """Return a tolerance of the gap in rms heights, which a light load makes tighter."""
+        if guess is None or end.gap is not None:
+            return self._tightness
+        displacement = self.modes.instantaneous * self._shape * np.abs(self.grid.of(guess))
+        displacement[0, 0] = 0.0
+        rms = math.sqrt(float(np.vdot(self.grid.weights, np.square(displacement))))
+        return self._tightness * min(1.0, max(_LEAST_DISPLACEMENT, rms))
+
+    def _quickly(
+        self, problem: _Step, height: Array, target: _Target, guess: Array | None
+    ) -> ComplementaritySolution | None:
+        """Solve from a good guess."""
+        if guess is None or not np.any(guess > 0.0):
+            return None
+        return solve_complementarity(
+            problem.exact, height, target.load, guess, indentation=target.indentation, tolerance=target.tolerance,
+            most_products=_FEW_PRODUCTS, depth=1.0, inner=problem.single, patience=_PATIENCE, tighten="near the end",
+            directions=_DIRECTIONS, extension=problem.extension, doubt=_DOUBT,
+        )  # fmt: skip
+
+    def _surely(self, problem: _Step, height: Array, target: _Target, guess: Array | None) -> ComplementaritySolution:
+        """Solve as a steady contact is solved, from any guess."""
+        mean = None if target.load is None else target.load / height.size
+        gap = None if target.indentation is None else float(height.mean()) - target.indentation
+        transfer = problem.exact.transfer
+        stage = Stage(height, transfer, lambda: self._elastic, problem.toward)
+        one = OneGrid(stage, mean, gap, target.tolerance, _MOST_PRODUCTS, self.backend)
+        result = one.solve(guess)
+        self.products += one.products
+        if not result.converged:
+            raise ConvergenceError(
+                f"a step of the contact did not converge: a gap of {result.complementarity:.2g} rms heights was left; "
+                "ask for less accuracy.",
+                code="not-converged",
+            )
+        return result
+
+    @property
+    def _elastic(self) -> Array:
+        """Transfer function of an elastic solid, with the mean at zero and the largest value one."""
+        found = self.grid.folded(self._shape).copy()
+        found[0, 0] = 0.0
+        return np.asarray(found / found.max())

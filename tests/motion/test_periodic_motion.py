@@ -1,0 +1,255 @@
+"""Rough periodic surfaces in motion: steady ends, closed forms, a second solver, energies, invariances."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from motion.dense_wave import displacement_matrix, marched
+from viscofric.contact.reference import westergaard
+from viscofric.motion.memory import Modes
+from viscofric.motion.periodic import PeriodicMover, merged_modes
+from viscofric.motion.problem import Problem
+from viscofric.motion.wave_memory import StepResponse, advance
+
+if TYPE_CHECKING:
+    from viscofric.motion.mover import Observation
+
+LENGTH = 1e-3
+SLS = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+TWO_MODES = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [4e-7, 5e-7], [1e-3, 4e-3]))
+
+
+def profile(points: int) -> vf.PeriodicSurface:
+    x = 2.0 * np.pi * np.arange(points) / points
+    return vf.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(3.0 * x + 1.0)), LENGTH / points)
+
+
+def crossed(points: int = 16) -> vf.PeriodicSurface:
+    x = 2.0 * np.pi * np.arange(points) / points
+    z = np.cos(x)[:, None] + 0.7 * np.cos(x + 0.4) + 0.3 * np.cos(x[:, None] + 2.0 * x)
+    return vf.PeriodicSurface(1e-6 * z, LENGTH / points)
+
+
+def mover(material: vf.Material, surface: vf.PeriodicSurface, history: vf.History, **more: Any) -> PeriodicMover:
+    layer = more.pop("layer", None)
+    problem = Problem(material, surface, history.schedule(material, "periodic"), 1e-4, layer, 0.0)
+    return PeriodicMover(problem, **more)
+
+
+def stepped(one: PeriodicMover, times: list[float]) -> list[Observation]:
+    """Take given steps."""
+    schedule = one.schedule
+    state = one.begin()
+    seen = []
+    if schedule.before == "untouched":
+        first = schedule.at(times[0], after=False)
+        state = one.step(state, first, first)
+    seen.append(one.observe(state))
+    for start, end in itertools.pairwise(times):
+        state = one.step(state, schedule.at(start), schedule.at(end, after=False))
+        seen.append(one.observe(state))
+    return seen
+
+
+@pytest.mark.parametrize("kappa", [1e-7, 1e-2, 2.0, 50.0])
+def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float) -> None:
+    # The closed form of what a mode dissipates, against Simpson's rule on 400 exact parts of the step.
+    generator = np.random.default_rng(3)
+    turn = np.array([[0.0, 1e-5, 0.3, -4.0]])
+    q0, p0, p1 = generator.normal(size=(3, 1, 4)) + 1j * generator.normal(size=(3, 1, 4))
+    modes, weights = Modes(1.0, np.array([2.0]), np.array([1.0])), np.array([[1.0, 0.3, 2.0, 0.7]])
+    whole = advance(StepResponse.of(modes, kappa, turn), modes, q0[None], p0, p1, weights)
+    parts = 400
+    small = StepResponse.of(modes, kappa / parts, turn / parts)
+    q, squares = q0[None], []
+    for i in range(parts + 1):
+        p = p0 + (p1 - p0) * i / parts
+        squares.append(float((weights * np.abs(p - q[0]) ** 2).sum()))
+        q = advance(small, modes, q, p, p0 + (p1 - p0) * (i + 1) / parts, weights).memory if i < parts else q
+    simpson = squares[0] + squares[-1] + 4.0 * sum(squares[1::2]) + 2.0 * sum(squares[2:-1:2])
+    assert whole.memory == pytest.approx(q, rel=1e-9, abs=1e-9)
+    assert whole.dissipated == pytest.approx(2.0 * kappa * simpson / (3 * parts), rel=1e-4)
+    assert whole.stored == pytest.approx(float((weights * np.abs(q[0]) ** 2).sum()), rel=1e-9)
+
+
+@pytest.mark.parametrize("cells", [1, 8, 32])
+def test_steady_sliding_is_met_exactly_by_coarse_steps(cells: int) -> None:
+    # One wave, vτ = λ/8: 12 λ later the start is forgotten to e⁻⁹⁶; the tolerance is that of the contact solver.
+    points = 128
+    wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(points) / points), LENGTH / points)
+    speed, pressure = LENGTH / 8.0 / 1e-3, 1e3
+    steady = vf.solve_periodic(SLS, wave, speed=speed, pressure=pressure, tolerance=1e-10)
+    one = mover(SLS, wave, vf.History([0.0, 12.0 * LENGTH / speed], pressure=pressure, speed=speed))
+    times = np.linspace(0.0, 12.0 * LENGTH / speed, 1 + 12 * points // cells // 4 * 4)
+    seen = stepped(one, times[:: 4 if cells == 1 else 1].tolist())[-1]
+    assert seen.friction_force[0] / pressure == pytest.approx(steady.friction_coefficient, rel=3e-6)
+    assert seen.depth == pytest.approx(steady.indentation, rel=3e-6)
+
+
+@pytest.mark.parametrize("control", [{"pressure": 2e3}, {"gap": "1.1 um"}])
+@pytest.mark.parametrize("layer", [None, vf.Layer("0.2 mm")])
+def test_end_of_a_turn_is_steady_sliding_in_the_new_direction(control: dict[str, Any], layer: vf.Layer | None) -> None:
+    material, speed = vf.Material(TWO_MODES.spectrum, poisson_ratio=0.45), 0.1
+    first = [0.005 * speed, 0.0]
+    path = [[0.0, 0.0], first, [first[0] + 0.6 * 0.2 * speed, 0.8 * 0.2 * speed]]
+    history = vf.History([0.0, 0.005, 0.205], position=path, **control)
+    seen = stepped(
+        mover(material, crossed(17), history, layer=layer),
+        [*np.linspace(0.0, 0.005, 6), *np.linspace(0.005, 0.205, 16)[1:]],
+    )[-1]
+    steady = vf.solve_periodic(
+        material, crossed(17), speed=speed, direction=(0.6, 0.8), layer=layer, tolerance=1e-9, **control
+    )
+    along, across = np.array([[0.6, 0.8], [-0.8, 0.6]]) @ seen.friction_force
+    # An odd number of points has no Nyquist waves, whose friction the steady solution leaves out.
+    assert along / steady.mean_pressure == pytest.approx(steady.friction_coefficient, rel=1e-5)
+    assert across / steady.mean_pressure == pytest.approx(
+        steady.lateral_friction_coefficient, abs=1e-5 * steady.friction_coefficient
+    )
+    assert seen.load == pytest.approx(steady.mean_pressure, rel=1e-5)
+    assert seen.depth == pytest.approx(steady.indentation, rel=1e-5)
+    assert seen.area == pytest.approx(steady.contact_area_fraction)
+
+
+@pytest.mark.parametrize("before", ["at rest", "sliding"])
+def test_what_was_there_before_goes_on(before: str) -> None:
+    speed = 0.1 if before == "sliding" else 0.0
+    one = mover(TWO_MODES, crossed(), vf.History([0.0, 1.0], pressure=2e3, speed=speed, before=before))
+    first, *others = stepped(one, [0.0, 1e-5, 2e-3, 1.0])
+    for later in others:
+        assert later.friction_force == pytest.approx(first.friction_force, rel=1e-5, abs=1e-6)
+        assert later.depth == pytest.approx(first.depth, rel=1e-5)
+        assert later.stored == pytest.approx(first.stored, rel=1e-5)
+    # Sliding dissipates friction times path, rest nothing.
+    assert others[-1].dissipated == pytest.approx(first.friction_force[0] * speed, rel=1e-4, abs=1e-12)
+
+
+def test_growing_contact_is_elastic_with_the_creep_compliance() -> None:
+    # E. H. Lee, J. R. M. Radok, J. Appl. Mech. 27 (1960) 438: while a contact grows, depth and extent under a constant
+    # load are those of an elastic solid with the modulus 1/J(t); Westergaard's wave among them.
+    points, pressure = 96, 2e3
+    wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(points) / points), LENGTH / points)
+    times = [1e-4, 1e-3, 1e-2]
+    run = vf.solve_transient(TWO_MODES, wave, vf.History([0.0, 1e-2], pressure=pressure), times=times)
+    for i, time in enumerate(times):
+        modulus = 1.0 / float(TWO_MODES.spectrum.creep_compliance(time))
+        elastic = vf.Material.standard_linear_solid(modulus, 1.001 * modulus, "1 s")
+        same = vf.solve_periodic(elastic, wave, speed=0.0, pressure=pressure)
+        assert run.indentation[i] == pytest.approx(same.indentation, rel=1e-3)
+        closed = westergaard(pressure, "1 um", LENGTH, modulus, 0.5)
+        assert run.contact_area[i] == pytest.approx(closed.area_fraction, abs=1.5 / points)  # an edge is within a point
+
+
+def test_sliding_of_a_second_solver() -> None:
+    # There and back under a rising pressure.  The second solver moves by whole points; its error falls as their square.
+    speed, errors = 0.1, []
+    for points in (48, 96):
+        surface = profile(points)
+        step, half, count = LENGTH / points / speed, points // 2, 3 * points // 4
+        time = step * np.arange(count + 1)
+        shift = np.arange(count + 1)
+        shift[half:] = 2 * half - shift[half:]
+        pressure = 1e3 * (1.0 + np.arange(count + 1) / count)
+        matrix = displacement_matrix(points, surface.spacing[0], 0.5)
+        found, depth = marched(
+            surface.z.max() - surface.z[:, 0], matrix, TWO_MODES.spectrum.creep_compliance, time, shift, pressure
+        )
+        position = LENGTH / points * shift[[0, half, -1]]
+        history = vf.History(time[[0, half, -1]], pressure=pressure[[0, half, -1]], position=position)
+        one = mover(TWO_MODES, surface, history)
+        seen = stepped(one, (0.5 * step * np.arange(2 * count + 1)).tolist())[::2]
+        slope = surface.slope((1.0, 0.0))[:, 0]
+        forces = -(found * slope).mean(axis=1)
+        friction = np.array([each.friction_force[0] for each in seen])
+        errors.append(np.abs(forces - friction)[points // 8 :].max() / np.abs(friction).max())
+        assert np.abs([each.depth for each in seen] - depth).max() < (48 / points) ** 2 * 6e-3 * depth.max()
+    assert errors[0] < 0.05
+    assert errors[1] < 0.4 * errors[0]
+
+
+def test_normal_motion_of_a_second_solver() -> None:
+    # Loading, unloading to nothing and loading again, at rest: the same assumption within steps, another memory.
+    points, surface = 48, profile(48)
+    time = np.linspace(0.0, 6e-3, 31)
+    pressure = 1e3 * np.interp(time, [0.0, 2e-3, 3e-3, 4e-3, 6e-3], [0.5, 2.0, 1e-6, 1e-6, 1.5])
+    matrix = displacement_matrix(points, surface.spacing[0], 0.5)
+    found, depth = marched(
+        surface.z.max() - surface.z[:, 0],
+        matrix,
+        TWO_MODES.spectrum.creep_compliance,
+        time,
+        0 * np.arange(31),
+        pressure,
+    )
+    one = mover(TWO_MODES, surface, vf.History(time, pressure=pressure), modes=Modes.of(TWO_MODES.spectrum))
+    seen = stepped(one, time.tolist())
+    assert [each.depth for each in seen] == pytest.approx(depth, rel=2e-6, abs=2e-6 * depth.max())
+    assert [each.area for each in seen] == pytest.approx((found > 0.0).mean(axis=1), abs=1e-9)
+
+
+def test_pressure_may_go_and_come_back() -> None:
+    history = vf.History([0.0, 1e-3, 2e-3, 3e-3, 8e-3], pressure=[1e3, 1e3, 0.0, 0.0, 1e3], speed=0.05)
+    run = vf.solve_transient(TWO_MODES, profile(48), history, times=[1e-3, 2.5e-3, 8e-3], accuracy=1e-2)
+    assert run.contact_area[1] == 0.0
+    assert run.friction_force[1] == 0.0
+    assert run.friction_coefficient[[0, 2]].min() > 0.0
+    assert 0.0 < run.indentation[1] < run.indentation[0]  # the dent has not recovered
+
+
+def test_work_is_stored_or_dissipated() -> None:
+    # From rest into sliding, aside, and to rest: work, stored and dissipated energy are computed independently.
+    path = [[0.0, 0.0], [2e-4, 0.0], [3e-4, 1e-4], [3e-4, 1e-4]]
+    history = vf.History([0.0, 2e-3, 4e-3, 6e-3], pressure=[1e3, 2e3, 1e3, 1e3], position=path, before="at rest")
+    run = vf.solve_transient(TWO_MODES, crossed(12), history, accuracy=3e-3, times=[0.0, 2e-3, 4e-3, 6e-3])
+    assert run.energy_imbalance < 1e-4
+    assert run.dissipated[-1] > 0.3 * run.work[-1] > 0.0
+
+
+def test_units_do_not_matter() -> None:
+    # Another length, time and modulus: the same problem, and the same steps.
+    times, seen = np.linspace(0.0, 4e-3, 9), []
+    for length, second, modulus in ((1.0, 1.0, 1.0), (1e3, 1e-4, 1e2)):
+        spectrum = TWO_MODES.spectrum
+        scaled = vf.RetardationSpectrum(
+            spectrum.E0 * modulus, spectrum.E_inf * modulus, spectrum.C / modulus, spectrum.tau * second
+        )
+        one = profile(32)
+        surface = vf.PeriodicSurface(one.z * length, (one.spacing[0] * length, one.spacing[1] * length))
+        history = vf.History(times[[0, -1]] * second, pressure=1e3 * modulus, speed=0.1 * length / second)
+        last = stepped(mover(vf.Material(scaled), surface, history), (times * second).tolist())[-1]
+        work = modulus * length
+        seen.append([last.friction_force[0] / modulus, last.depth / length, last.dissipated / work, last.stored / work])
+    assert seen[1] == pytest.approx(seen[0], rel=1e-6)
+
+
+def test_few_modes_do_for_a_broad_spectrum() -> None:
+    tau = np.geomspace(1e-9, 1e7, 40)
+    C = tau**0.1 / (tau**0.1).sum() * (1e-6 - 1e-8)
+    broad = vf.Material(vf.RetardationSpectrum("1 MPa", "100 MPa", C, tau))
+    history = vf.History([0.0, 0.05], pressure=2e3, speed=0.1, before="sliding")
+    problem = Problem(broad, profile(32), history.schedule(broad, "periodic"), 1e-3, None, 0.0)
+    few = merged_modes(problem)
+    assert len(few) <= 30
+    times = np.linspace(0.0, 0.05, 4).tolist()
+    every = PeriodicMover(problem, Modes.of(broad.spectrum))
+    merged = PeriodicMover(problem, few)
+    for one, other in zip(stepped(every, times), stepped(merged, times), strict=True):
+        assert other.friction_force[0] == pytest.approx(one.friction_force[0], rel=1e-3)
+        assert other.depth == pytest.approx(one.depth, rel=1e-3)
+
+
+def test_memory_is_finite_for_instant_steps() -> None:
+    response = StepResponse.of(Modes(1.0, np.array([1.0]), np.array([1.0])), 0.0, np.array([[0.0, 0.5]]))
+    memory = np.array([[[1.0 + 0.0j, 2.0]]])
+    found = advance(
+        response, Modes(1.0, np.array([1.0]), np.array([1.0])), memory, *np.zeros((2, 1, 2)), np.ones((1, 2))
+    )
+    assert found.memory[0, 0] == pytest.approx([1.0, 2.0 * np.exp(0.5j)])
+    assert found.dissipated == 0.0
+    assert math.isclose(found.stored, 2.5)
