@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from viscofric.data import MasterCurve
+    from viscofric.ramps import TemperatureRamps
     from viscofric.rheology.ramps.superpose import RampLaw
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ShiftLaw
@@ -102,7 +103,7 @@ def _material(
 
 def _from_step_tests(table: MaterialTable) -> Rubber:
     """Superpose creep or relaxation tests, and fit their spectrum."""
-    tests = _read_steps(table)
+    tests = read_steps_of(table)
     with _errors_of(table.steps):
         fit = _superposed(table, tests)
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
@@ -121,7 +122,8 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
     )
 
 
-def _read_steps(table: MaterialTable) -> StepTests:
+def read_steps_of(table: MaterialTable) -> StepTests:
+    """Read the creep or relaxation tests of [material]."""
     return read_step_tests(
         *table.steps,
         kind="creep" if table.creep is not None else "relaxation",
@@ -135,7 +137,7 @@ def _read_steps(table: MaterialTable) -> StepTests:
 
 def _from_both(table: MaterialTable, liquids: bool) -> Rubber:
     """Superpose sweeps and step tests together, and fit one spectrum to both."""
-    sweeps, tests = _read_sweeps(table), _read_steps(table)
+    sweeps, tests = _read_sweeps(table), read_steps_of(table)
     with _errors_of((*(table.dma or ()), *table.steps)):
         joint = superpose(
             [sweeps, tests], _reference(table), by=table.shift_by, weights=table.shift_weights, **_how(table)
@@ -191,16 +193,21 @@ def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
     )
 
 
-def _from_ramps(table: MaterialTable, liquids: bool) -> Rubber:
-    """Superpose temperature ramps by a law, fitted or assumed, and fit the spectrum."""
-    files, reference = table.ramps or (), _reference(table)
-    ramps = read_ramps(
-        *files,
+def read_ramps_of(table: MaterialTable) -> TemperatureRamps:
+    """Read the temperature ramps of [material]."""
+    return read_ramps(
+        *(table.ramps or ()),
         deformation=table.deformation,
         modulus_unit=table.modulus_unit,
         columns=table.columns,
         sheet=table.sheet,
     )
+
+
+def _from_ramps(table: MaterialTable, liquids: bool) -> Rubber:
+    """Superpose temperature ramps by a law, fitted or assumed, and fit the spectrum."""
+    files, reference = table.ramps or (), _reference(table)
+    ramps = read_ramps_of(table)
     with _errors_of(files[:1]):
         fit = superpose_ramps(
             ramps,

@@ -31,6 +31,7 @@ KINDS: dict[str, Kind] = {
     # the study
     "check": Kind("viscofric.web.jobs.check", seconds=60.0, memory=2 * _GB),
     # sweeps and what is made of them
+    "recognise": Kind("viscofric.web.jobs.recognise", seconds=60.0, memory=2 * _GB),
     "sweeps": Kind("viscofric.web.jobs.sweeps", seconds=60.0, memory=2 * _GB),
     "rubber": Kind("viscofric.web.jobs.rubber", seconds=300.0, memory=3 * _GB),
     "moduli": Kind("viscofric.web.jobs.moduli", seconds=300.0, memory=3 * _GB),

@@ -44,8 +44,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``name``, ``synthetic``, ``source``; ``notes`` (but those on files, which the job ``sweeps`` returns); ``shift``
-        (`shift_numbers`), ``check`` (`check_numbers`; None without sweeps), ``spectrum`` (`spectrum_numbers`) and
-        ``band`` (`band_numbers`; None where the material's uncertainty is unknown, and ``no_band`` then says why).
+        (`shift_numbers`), ``check`` (`check_numbers`; of ramps and step tests alone its verdict; else None),
+        ``spectrum`` (`spectrum_numbers`) and ``band`` (`band_numbers`; None where the material's uncertainty is
+        unknown, and ``no_band`` then says why).
 
     Raises
     ------
@@ -53,11 +54,17 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         If the rubber cannot be made.
     """
     table, wanted = checked_tables(study, context)
-    context.progress(0, 2, "shifting the isotherms" if table.dma else "reading the rubber")
+    context.progress(
+        0, 2, "shifting the isotherms" if table.dma or table.steps or table.ramps else "reading the rubber"
+    )
     rubber = made_rubber(study, context)
     reply = _without_bands(rubber, table.fixed_shift_factors, context)
-    if not options.bands or wanted.draws == 0 or rubber.fit is None:
-        why = "" if rubber.fit is not None else "only a material fitted to DMA sweeps has a known uncertainty"
+    if not options.bands or wanted.draws == 0 or rubber.superposed is None:
+        why = (
+            ""
+            if rubber.superposed is not None
+            else "only a material fitted to sweeps or step tests has a known uncertainty"
+        )
         return reply | {"band": None, "no_band": why}
     context.part(reply)
     context.progress(1, 2, f"drawing the rubber {wanted.draws} times for its 95 % bands")
@@ -69,7 +76,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -> dict[str, Any]:
     # notes on reading are those of the job `sweeps`
-    read = () if rubber.sweeps is None else rubber.sweeps.notes
+    tests = (rubber.sweeps, rubber.step_tests, None if rubber.ramps is None else rubber.ramps.ramps)
+    read = [note for one in tests if one is not None for note in one.notes]
     return {
         "name": rubber.material.name,
         "source": without_folder(rubber.source, context),
@@ -78,9 +86,25 @@ def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -
         "deformation": None if rubber.sweeps is None else rubber.sweeps.deformation,
         **listed("notes", notes_without_folder((one for one in rubber.notes if one not in read), context)),
         "shift": shift_numbers(rubber, held),
-        "check": None if rubber.fit is None else check_numbers(rubber.fit),
+        "check": _check(rubber),
         "spectrum": spectrum_numbers(rubber),
     }
+
+
+def _check(rubber: Rubber) -> dict[str, Any] | None:
+    if rubber.fit is not None:
+        return check_numbers(rubber.fit)
+    if rubber.step_fit is not None:
+        check = rubber.step_fit.check
+        return _verdict(check.verdict, list(check.sentences)) | {"figure_of_merit": plain(check.figure_of_merit)}
+    if rubber.ramps is not None and rubber.ramps.check is not None:
+        return _verdict("holds" if rubber.ramps.check.holds else "fails", [rubber.ramps.check.sentence])
+    return None
+
+
+def _verdict(verdict: str, sentences: list[str]) -> dict[str, Any]:
+    short = _VERDICTS[verdict]
+    return {"verdict": verdict, "short": short, "headline": f"Superposition {short}", "sentences": sentences}
 
 
 # What superposition does, in the words of the page.
@@ -106,10 +130,7 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
     """
     check, found = fit.check, fit.check.kramers_kronig
     return {
-        "verdict": check.verdict,
-        "short": _VERDICTS[check.verdict],
-        "headline": f"Superposition {_VERDICTS[check.verdict]}",
-        "sentences": list(check.sentences),
+        **_verdict(check.verdict, list(check.sentences)),
         "figure_of_merit": plain(check.figure_of_merit),
         "neighbours": [
             {

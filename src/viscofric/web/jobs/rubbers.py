@@ -20,6 +20,7 @@ from viscofric.study.run_file.material import MaterialTable, files_of
 from viscofric.study.run_file.settings import UncertaintyTable
 from viscofric.study.run_file.study import TABLES
 from viscofric.study.run_file.tables import Table
+from viscofric.web.study_files import FILE_KEYS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -81,7 +82,7 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
         tables = _RubberTables.model_validate(values)
     except ValidationError as error:
         raise wrong_tables(error, values, {**TABLES, "": _RubberTables}) from None
-    for key in ("dma", "master_curve", "file", "shift_factors"):
+    for key in FILE_KEYS["material"]:
         insist_on_uploads(f"material.{key}", getattr(tables.material, key), folders.files)
     return tables.material.relative_to(folders.files), tables.uncertainty
 
@@ -189,8 +190,9 @@ def _made(table: MaterialTable, folders: Folders) -> Rubber:
         rubber = make_rubber(table, liquids=True)
     except InputError as error:
         raise named_without_folder(error, folders) from None
-    if rubber.fit is not None:
-        _ = rubber.fit.check  # found once, and kept with the rest
+    for fit in (rubber.fit, rubber.step_fit):
+        if fit is not None:
+            _ = fit.check  # found once, and kept with the rest
     return rubber
 
 

@@ -11,6 +11,7 @@ from viscofric.report.data import law_line, law_residuals, shift_table
 from viscofric.rheology.shifts.parametric_law import LEVEL_95, ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,6 +53,7 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
     if law is None:
         return None
     fit, factors = rubber.fit, _factors(rubber)
+    quality = getattr(rubber.fit or rubber.step_fit, "quality", None)
     measured = None if factors is None else factors.temperatures
     laws = () if rubber.laws is None else rubber.laws.rows
     return {
@@ -67,8 +69,27 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
         },
         "vertical": _vertical(rubber.material.vertical_shift, measured),
         "isotherms": [] if fit is None else _shifted(fit, held),
-        "misfit": None if fit is None else plain({"joint": fit.quality.joint, "points": fit.quality.points}),
+        "joint": rubber.joint is not None,
+        "steps": _steps(rubber),
+        "misfit": None if quality is None else plain({"joint": quality.joint, "points": quality.points}),
     }
+
+
+def _steps(rubber: Rubber) -> dict[str, Any] | None:
+    """Return creep or relaxation tests over reduced time with the fitted response, by temperature."""
+    fit, spectrum = rubber.step_fit, rubber.material.spectrum
+    if fit is None or not isinstance(spectrum, RetardationSpectrum):
+        return None
+    curve = fit.master_curve
+    fitted = spectrum.creep_compliance(curve.time) if curve.kind == "creep" else spectrum.relaxation_modulus(curve.time)
+    kelvin = fit.shift_factors.temperatures
+    place = np.abs(curve.temperature[:, None] - kelvin).argmin(axis=1)
+    curves = [
+        {"temperature": plain(float(one)), "time": plain(curve.time[rows]), "response": plain(curve.response[rows])}
+        for at, one in enumerate(kelvin)
+        if (rows := place == at).any()
+    ]
+    return {"kind": curve.kind, "curves": curves, "fit": {"time": plain(curve.time), "response": plain(fitted)}}
 
 
 def with_bars(factors: xarray.Dataset) -> dict[str, Any]:
@@ -80,8 +101,8 @@ def with_bars(factors: xarray.Dataset) -> dict[str, Any]:
 
 
 def _factors(rubber: Rubber) -> ShiftFactors | None:
-    if rubber.fit is not None:
-        return rubber.fit.shift_factors
+    if rubber.superposed is not None:
+        return rubber.superposed.shift_factors
     return rubber.material.shift if isinstance(rubber.material.shift, ShiftFactors) else None
 
 

@@ -62,6 +62,7 @@ _OF_A_FIT = (
     "method",
     "rms_storage",
     "rms_loss",
+    "rms_step",
     "frequency_range",
     "tau_ratio",
     "regularisation",

@@ -13,7 +13,9 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.notes import listed
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
+from viscofric.study.make_rubber import read_steps_of
 from viscofric.web.jobs.context import Context, JobError
+from viscofric.web.jobs.other_tests import read_other, step_curves
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
 
 if TYPE_CHECKING:
@@ -28,6 +30,8 @@ _MOST_FLAGGED = 2_000
 #: A reference is proposed near this temperature, where the sweeps have one.
 _USUAL_REFERENCE = 303.15  # K
 _DIGITS = 6
+#: Keys of [material] for tests.
+_TESTS = {"dma", "ramps", "creep", "relaxation"}
 #: What stands in for a reference that is not chosen yet: reading needs none.
 _ANY_REFERENCE = "30 degC"
 
@@ -49,10 +53,11 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``source``: "dma", "master_curve", "file" or "catalogue".  Of sweeps ``files`` (what each was taken for),
-        ``left_open`` (keys of [material] that the files leave open), ``isotherms``, ``flagged`` readings, ``notes`` and
-        ``reference`` (a temperature that would do, K).  Of other sources ``about`` (words), ``synthetic`` and
-        ``notes``.
+        ``source``: "dma", "ramps", "creep", "relaxation", "master_curve", "file" or "catalogue".  Of sweeps ``files``
+        (what each was taken for), ``left_open`` (keys of [material] that the files leave open), ``isotherms``,
+        ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K) and ``steps`` (`step_curves`) of
+        tests beside them; of ramps and step tests see `read_other`.  Of other sources ``about`` (words), ``synthetic``
+        and ``notes``.
 
     Raises
     ------
@@ -60,9 +65,12 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         If a file cannot be used; with the key of [material] that would say what is missing.
     """
     table, _ = checked_tables(_with_reference(study), context)
-    if table.dma is None:
+    if table.dma is None and not (table.ramps or table.steps):
         return _other(table, study, context)
     try:
+        if table.dma is None:
+            return read_other(table, context, _USUAL_REFERENCE)
+        beside = {"steps": step_curves(read_steps_of(table))} if table.steps else {}
         traced = trace_dma(
             *table.dma,
             deformation=table.deformation,
@@ -73,12 +81,12 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         )
     except InputError as error:
         raise _asking(named_without_folder(error, context)) from None
-    return _of_sweeps(table, traced, context)
+    return _of_sweeps(table, traced, context) | beside
 
 
 def _with_reference(study: dict[str, Any]) -> dict[str, Any]:
     material = study.get("material")
-    if isinstance(material, dict) and "dma" in material:
+    if isinstance(material, dict) and _TESTS & material.keys():
         return {**study, "material": {"reference_temperature": _ANY_REFERENCE, **material}}
     return study
 

@@ -10,10 +10,16 @@ const WAIT = 150; // ms after the last change
 
 export const SOURCES = [
   ["dma", "Sweeps of a DMA or rheometer"],
+  ["creep", "Creep tests"],
+  ["relaxation", "Relaxation tests"],
+  ["ramps", "Temperature ramps"],
   ["master_curve", "A master curve"],
   ["file", "A material file or a card"],
   ["catalogue", "The catalogue"],
 ];
+
+/** Sources that are tests; files of them are sorted by what they hold, and sweeps and step tests go together. */
+export const TESTS = ["dma", "creep", "relaxation", "ramps"];
 
 /** The reference of sweeps until the user, or the sweeps themselves, say another. */
 export const FIRST_REFERENCE = "30 degC";

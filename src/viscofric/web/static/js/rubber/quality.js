@@ -68,7 +68,7 @@ export function qualityCards(app) {
   third.append(sentence);
   const draw = () => {
     const check = result?.check;
-    if (!check) return;
+    if (!check?.diagrams) return;
     const [title, x, y] = DIAGRAMS[diagram];
     const curves = check.diagrams[diagram];
     const temperatures = curves.map((one) => one.temperature);
@@ -141,7 +141,7 @@ export function qualityCards(app) {
     cards: [first, second, third],
     show(next) {
       result = next;
-      for (const one of [first, second, third]) one.hidden = !next?.check;
+      for (const one of [first, second, third]) one.hidden = !next?.check?.diagrams;
       draw();
     },
   };

@@ -4,6 +4,7 @@ import { shows } from "../inputs.js";
 import { decades, follow, sourceOf, synthetic } from "./made.js";
 import { qualityCards } from "./quality.js";
 import { shiftedCard } from "./shifted.js";
+import { stepFigure } from "./sweeps_figures.js";
 import { alphaFigure, lawTable, limitsInWords, residualTraces, verticalFigure } from "./shift_figures.js";
 
 const SHIFTS = [
@@ -53,6 +54,8 @@ export function mount(section, app) {
   const explanation = h("p", { class: "help" });
   const table = h("div", { class: "words" });
   laws.append(explanation, table);
+  const over = h("div", { class: "card" });
+  const steps = figures.figure(over, { id: "shifted-steps", title: "Creep and relaxation tests over reduced time", x: {}, y: {}, traces: [] });
   const left = card("Residuals of each law");
   const residual = figures.figure(left, {
     id: "law-residuals",
@@ -79,7 +82,7 @@ export function mount(section, app) {
     nothing,
     h("div", { class: "columns" }, h("div", {}, form), h("div", {}, verdict, notes)),
     h("div", { class: "columns" }, h("div", {}, shifted.controls), h("div", {}, shifted)),
-    h("div", { class: "grid" }, factors, left),
+    h("div", { class: "grid" }, over, factors, left),
     laws,
     h("div", { class: "grid thirds" }, ...quality.cards, vertical),
   );
@@ -98,11 +101,13 @@ export function mount(section, app) {
     shifted.show(result, now);
     factors.hidden = !shift;
     laws.hidden = left.hidden = !shift?.laws.length;
+    over.hidden = !shift?.steps;
     vertical.hidden = !shift?.vertical;
     quality.show(result);
     notes.set(result?.notes ?? []);
     if (!shift) return;
     alpha.update({ of: result, ...alphaFigure(result, app) });
+    if (shift.steps) steps.update({ of: result, ...stepFigure(shift.steps, synthetic(result, app), app) });
     limits.textContent = limitsInWords(shift, app);
     explanation.textContent = shift.explanation;
     table.replaceChildren(lawTable(shift, app));
@@ -204,19 +209,27 @@ function verdictCard({ fields }) {
     headline.dataset.kind = KIND[check.verdict];
     sentences.set(check.sentences, { error: "error", warning: "warning" }[KIND[check.verdict]] ?? "note");
     const { misfit, used, origin } = result.shift;
-    const held = result.shift.factors.held.filter(Boolean).length;
+    const held = (result.shift.factors?.held ?? []).filter(Boolean).length;
     numbers.set([
-      { label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` },
-      { label: "figure of merit", value: check.figure_of_merit.toPrecision(2), remark: "good if ≤ 1" },
-      {
-        label: "E′ against E″",
-        value: check.kramers_kronig ? (check.kramers_kronig.holds ? "agree" : "do not agree") : "not tested",
-        remark: "Kramers–Kronig",
-      },
+      ...(misfit
+        ? [{ label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` }]
+        : []),
+      ...(check.figure_of_merit !== undefined
+        ? [{ label: "figure of merit", value: check.figure_of_merit.toPrecision(2), remark: "good if ≤ 1" }]
+        : []),
+      ...(check.diagrams
+        ? [
+            {
+              label: "E′ against E″",
+              value: check.kramers_kronig ? (check.kramers_kronig.holds ? "agree" : "do not agree") : "not tested",
+              remark: "Kramers–Kronig",
+            },
+          ]
+        : []),
       {
         label: "α(T) used",
         value: used === "measured" ? "as measured" : used,
-        remark: origin === "given" ? "from a file" : held ? `${held} fixed manually` : "fitted to the sweeps",
+        remark: origin === "given" ? "from a file" : held ? `${held} fixed manually` : "fitted to the measurements",
       },
     ]);
   };

@@ -1,6 +1,6 @@
 // What the figures and the table of shift factors and their laws show.
 
-import { named, synthetic } from "./made.js";
+import { TESTS, named, synthetic } from "./made.js";
 
 export function alphaFigure(result, app) {
   const { shift } = result;
@@ -105,7 +105,7 @@ export function lawTable({ laws }, app) {
     const use =
       row.refusal ||
       row.used ||
-      (state.get("material.shift_factors") === undefined && state.get("material.dma") === undefined)
+      (state.get("material.shift_factors") === undefined && !TESTS.some((key) => state.get(`material.${key}`) !== undefined))
         ? null
         : button({ label: `Use ${row.title}`, kind: "small", onClick: () => state.set("material.shift", row.kind) });
     const valid = row.limits

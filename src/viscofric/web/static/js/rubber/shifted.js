@@ -207,8 +207,13 @@ export function shiftedCard(app) {
     element.toggleAttribute("aria-busy", Boolean(running));
     if (isotherms.length === 0) return;
     const given = result.shift.origin === "given";
-    why.textContent = given ? "The shift factors are from a file; fit them to the sweeps to correct one." : "";
-    parts.hidden = given;
+    const { joint } = result.shift;
+    why.textContent = given
+      ? "The shift factors are from a file; fit them to the sweeps to correct one."
+      : joint
+        ? "The shift factors are those of sweeps and step tests together; correct one with the sweeps alone."
+        : "";
+    parts.hidden = given || joint;
     freeAll.disabled = !isotherms.some((one) => one.held);
     if (!same) {
       select.replaceChildren(
@@ -226,7 +231,7 @@ export function shiftedCard(app) {
         isotherms.find((one) => !one.is_reference) ?? isotherms[0],
       );
       chosen = null;
-      if (!given) choose(near.temperature);
+      if (!given && !joint) choose(near.temperature);
     }
     draw();
   };

@@ -28,6 +28,8 @@ export function keyNumbers({ spectrum, band }, { units }) {
       value: `${fit.rms_storage.toFixed(3)}, ${fit.rms_loss.toFixed(3)}`,
       remark: "decades, rms",
     });
+  if (fit && fit.rms_step !== null && fit.rms_step !== undefined)
+    all.splice(3, 0, { label: "misfit of the step tests", value: fit.rms_step.toFixed(3), remark: "decades, rms" });
   return all;
 }
 

@@ -2,9 +2,10 @@
 
 import { shows } from "../inputs.js";
 import { FIRST_REFERENCE, follow, named, sourceOf } from "./made.js";
-import { fileTable, flaggedTable, isothermFigure, keyNumbers } from "./sweeps_figures.js";
+import * as shownBy from "./sweeps_figures.js";
 import { sourceForm } from "./sweeps_form.js";
 
+const MEASURED = ["dma", "ramps"]; // sources whose moduli are shown as measured
 const MODULI = [
   ["storage_modulus", "storage modulus", "′"],
   ["loss_modulus", "loss modulus", "″"],
@@ -43,12 +44,15 @@ export function mount(section, app) {
       handle: app.figures.figure(place, {
         id: `isotherms-${key.replace("_", "-")}`,
         title: label[0].toUpperCase() + label.slice(1),
-        x: { label: "frequency", kind: "angular_frequency", log: true },
+        x: shownBy.OVER_FREQUENCY,
         y: { label, log: true },
         traces: [],
       }),
     };
   });
+  const stepCard = h("div", { class: "card" });
+  pictures.prepend(stepCard);
+  const steps = app.figures.figure(stepCard, { id: "step-tests", title: "Creep and relaxation tests", x: {}, y: {}, traces: [] });
 
   let running = null;
   const read = async () => {
@@ -79,25 +83,28 @@ export function mount(section, app) {
   const show = (result) => {
     form.show(result);
     for (const one of [numbers, files, flagged, notes]) shows(one, result);
-    numbers.set(result ? keyNumbers(result, app) : []);
+    numbers.set(result ? shownBy.keyNumbers(result, app) : []);
     notes.set(result ? [...(result.about ?? []), ...result.notes] : []);
-    files.replaceChildren(...fileTable(result, app));
-    flagged.replaceChildren(...flaggedTable(result, app));
+    files.replaceChildren(...shownBy.fileTable(result, app));
+    flagged.replaceChildren(...shownBy.flaggedTable(result, app));
     onward.hidden = !result;
-    const sweeps = result?.source === "dma";
+    const draw = { dma: shownBy.isothermFigure, ramps: shownBy.rampFigure }[result?.source];
     pictures.hidden = !result;
     for (const { handle, key, label, primes, place } of figures) {
-      if (sweeps) handle.update({ of: result, ...isothermFigure(result, { key, label, primes }, app) });
-      place.hidden = !sweeps && key === "loss_tangent";
+      if (draw) handle.update({ of: result, ...draw(result, { key, label, primes }, app) });
+      place.hidden = !draw && key === "loss_tangent";
     }
-    if (result && !sweeps) showReady();
+    stepCard.hidden = !result?.steps;
+    const madeUp = state.get("data_origin") === "synthetic";
+    if (result?.steps) steps.update({ of: result, ...shownBy.stepFigure(result.steps, madeUp, app) });
+    if (result && !draw) showReady();
   };
 
   // A rubber without sweeps has its moduli at the reference to show.
   let latest = null;
   const showReady = () => {
     const result = latest?.result;
-    if (!result || state.result("sweeps")?.source === "dma") return;
+    if (!result || MEASURED.includes(state.result("sweeps")?.source)) return;
     const { modulus, reference } = result.spectrum;
     const at = reference === null ? "" : ` at ${named(reference, app)}`;
     for (const { handle, key, label } of figures) {
@@ -107,6 +114,8 @@ export function mount(section, app) {
         title: `${label[0].toUpperCase()}${label.slice(1)}${at}`,
         caption: "",
         synthetic: result.synthetic,
+        temperatures: undefined,
+        x: shownBy.OVER_FREQUENCY,
         y: { label: `${label} E${key === "storage_modulus" ? "′" : "″"}`, kind: "modulus", log: true },
         traces: [{ name: label, x: modulus.angular_frequency, y: modulus[key], legend: false }],
       });
@@ -114,7 +123,7 @@ export function mount(section, app) {
   };
   let following = false;
   const followReady = () => {
-    if (following || sourceOf(state.get("material")) === "dma") return;
+    if (following || MEASURED.includes(sourceOf(state.get("material")))) return;
     following = true;
     follow(app, (now) => {
       latest = now;
@@ -135,8 +144,9 @@ export function mount(section, app) {
 
 /** A reference and temperatures outside the isotherms, which the user never chose, give way to those that they have. */
 function followRange({ state, start, units }, result) {
-  if (result.source !== "dma" || result.isotherms.length === 0) return;
-  const all = result.isotherms.map((one) => one.temperature);
+  const curves = result.ramps ?? (result.isotherms.length ? result.isotherms : result.steps?.curves) ?? [];
+  if (curves.length === 0) return;
+  const all = curves.flatMap((one) => one.temperature);
   const inside = (kelvin) => kelvin !== null && Math.min(...all) <= kelvin && kelvin <= Math.max(...all);
   const nearest = `${Number((result.reference - 273.15).toFixed(2))} degC`;
   const given = state.get("material.reference_temperature");

@@ -3,9 +3,12 @@
 import { byTemperature, fewEnough, named } from "./made.js";
 
 const MOST_ROWS = 200;
+export const OVER_FREQUENCY = { label: "frequency", kind: "angular_frequency", log: true };
 
 export function keyNumbers(result, app) {
   const { units } = app;
+  const curves = result.ramps ?? result.steps?.curves;
+  if (result.source !== "dma" && curves) return numbersOfOther(result, curves, app);
   if (result.source !== "dma") {
     return [
       {
@@ -40,6 +43,84 @@ export function keyNumbers(result, app) {
       remark: `${result.left_out} left out, ${outliers} outliers`,
     },
   ];
+}
+
+/** Of temperature ramps, creep or relaxation tests alone. */
+function numbersOfOther({ source, ramps, steps, deformation, left_open }, curves, { units }) {
+  const span = (values, kind) => [...new Set([Math.min(...values), Math.max(...values)])].map((end) => units.show(end, kind)).join(" to ");
+  const kelvin = curves.flatMap((one) => one.temperature);
+  const remark = left_open.includes("deformation") ? "as given" : "from the file";
+  return [
+    { label: "measured in", value: deformation, remark },
+    { label: source === "ramps" ? "frequencies" : "tests", value: String(curves.length), remark: span(kelvin, "temperature") },
+    {
+      label: "points",
+      value: String(steps?.points ?? kelvin.length),
+      remark: ramps
+        ? span(ramps.map((one) => one.angular_frequency), "angular_frequency")
+        : span(curves.flatMap((one) => one.time), "time"),
+    },
+  ];
+}
+
+const COMPLIANCE = 1e6; // shown in 1/MPa
+const RESPONSES = {
+  creep: { symbol: { shear: "J" }, otherwise: "D", word: "creep compliance", label: " (1/MPa)" },
+  relaxation: { symbol: { shear: "G" }, otherwise: "E", word: "relaxation modulus", label: "", kind: "modulus" },
+};
+
+/** Creep or relaxation tests: as measured, or with `fit` over reduced time. */
+export function stepFigure({ kind, deformation, curves, fit }, madeUp, app) {
+  const { symbol, otherwise, word, label, kind: quantity } = RESPONSES[kind];
+  const scaled = (values) => (kind === "creep" ? values.map((one) => COMPLIANCE * one) : values);
+  const temperatures = curves.map((one) => one.temperature);
+  const line = fit
+    ? [{ name: "fitted", x: fit.time, y: scaled(fit.response), colour: "vermilion", width: 1.5 }]
+    : [];
+  return {
+    caption: byTemperature(temperatures, app),
+    synthetic: madeUp,
+    temperatures,
+    x: { label: fit ? "reduced time t/α" : "time", kind: "time", log: true },
+    y: { label: `${word} ${symbol[deformation] ?? otherwise}${label}`, kind: quantity, log: true },
+    traces: [
+      ...curves.map((one) => ({
+        name: named(one.temperature, app),
+        legend: fewEnough(temperatures),
+        temperature: one.temperature,
+        x: one.time,
+        y: scaled(one.response),
+        mode: fit ? "markers" : "lines+markers",
+        symbol: "circle",
+        dash: "solid",
+        size: 4,
+        width: 1.2,
+      })),
+      ...line,
+    ],
+  };
+}
+
+/** One modulus of temperature ramps. */
+export function rampFigure(result, { key, label, primes }, app) {
+  const symbol = result.deformation === "shear" ? "G" : "E";
+  const modulus = key !== "loss_tangent";
+  return {
+    title: label[0].toUpperCase() + label.slice(1),
+    caption: "",
+    synthetic: app.state.get("data_origin") === "synthetic",
+    x: { label: "temperature", kind: "temperature" },
+    y: { label: modulus ? `${label} ${symbol}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true },
+    temperatures: undefined,
+    traces: result.ramps.map((one) => ({
+      name: app.units.show(one.angular_frequency, "angular_frequency"),
+      x: one.temperature,
+      y: one[key],
+      mode: "lines+markers",
+      size: 4,
+      width: 1.2,
+    })),
+  };
 }
 
 export function fileTable(result, app) {
@@ -138,6 +219,7 @@ export function isothermFigure(result, { key, label, primes }, app) {
     title: label[0].toUpperCase() + label.slice(1),
     caption: byTemperature(temperatures, app),
     synthetic: app.state.get("data_origin") === "synthetic",
+    x: OVER_FREQUENCY,
     y: { label: modulus ? `${label} ${symbol}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true },
     temperatures,
     traces: [...traces, ...flags(true, "left out", "x"), ...flags(false, "far from its neighbours", "circle")],

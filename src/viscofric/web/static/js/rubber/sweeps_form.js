@@ -1,15 +1,16 @@
 // The form of the rubber's source: its kind, its files, and what these leave to the user.
 
 import { columnsForm } from "../columns_form.js";
-import { FIRST_REFERENCE, SOURCES, sourceOf } from "./made.js";
+import { FIRST_REFERENCE, SOURCES, TESTS, sourceOf } from "./made.js";
 
-const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "fixed_shift_factors", "shift_factors"];
+const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "assumed_shift"];
+const OF_SHIFTS = ["fixed_shift_factors", "shift_factors", "shift_factor_columns", "shift_factor_sheet"];
 const READY = ["name", "reference_temperature"];
 
 /** [material] of other files: what says how a rubber is made stays, what belonged to the old files goes. */
 function materialOf(source, value, before = {}) {
   const kept = Object.entries(before).filter(
-    ([key]) => !SOURCES.some(([one]) => one === key) && !OF_FILES.includes(key),
+    ([key]) => !SOURCES.some(([source_]) => source_ === key) && ![...OF_FILES, ...OF_SHIFTS].includes(key),
   );
   if (source === "catalogue" || source === "file") {
     return { [source]: value, ...Object.fromEntries(kept.filter(([key]) => READY.includes(key) && key === "name")) };
@@ -19,8 +20,13 @@ function materialOf(source, value, before = {}) {
     delete rest.vertical_shift;
     delete rest.shift;
   }
+  if (source !== "dma") for (const key of ["shift_by", "shift_weights"]) delete rest[key];
+  if (source === "ramps") for (const key of ["shift", "vertical_shift"]) delete rest[key];
   return { reference_temperature: FIRST_REFERENCE, ...rest, [source]: value };
 }
+
+const one = (names) => (Array.isArray(names) && names.length === 1 ? names[0] : names);
+const allOf = (material, key) => [material?.[key] ?? []].flat();
 
 const inOrder = new Intl.Collator("en", { numeric: true }).compare;
 
@@ -32,7 +38,7 @@ const named = (value) => {
 
 /** The form of the source: its kind, its files, and what these leave to the user. */
 export function sourceForm(app, onError) {
-  const { state, fields, api, start } = app;
+  const { state, fields, api, start, units } = app;
   const { h, card, button } = fields;
   let shown = sourceOf(state.get("material")) ?? "dma";
   const group = h(
@@ -56,46 +62,74 @@ export function sourceForm(app, onError) {
       onError(error);
     }
   };
-  const choose = (source, value, origin) => {
-    const single = Array.isArray(value) && value.length === 1 ? value[0] : value;
+  /** Sort uploaded files of tests by what they hold; a file that is not recognised belongs to the source that is chosen. */
+  const sorted = async (names) => {
+    const chosen = TESTS.includes(shown) ? shown : "dma";
+    try {
+      const { kinds } = await api.runJob("recognise", { study: {}, options: { files: names } });
+      if (kinds.amplitude)
+        onError(new Error(`${kinds.amplitude.join(", ")}: an amplitude sweep; viscofric material amplitude reads it.`));
+      delete kinds.amplitude;
+      return kinds;
+    } catch {
+      return { [chosen]: names }; // reading it says what is wrong
+    }
+  };
+  const takeTests = async (files) => {
+    try {
+      onError(null);
+      const kinds = await sorted((await api.uploadFiles(files)).sort(inOrder));
+      const [first, ...others] = TESTS.filter((key) => kinds[key]);
+      if (first) choose(first, kinds[first], undefined, Object.fromEntries(others.map((key) => [key, one(kinds[key])])));
+    } catch (error) {
+      onError(error);
+    }
+  };
+  const choose = (source, value, origin, beside = {}) => {
+    const single = one(value);
     const [before, ...others] = [state.get("material")].flat();
-    const material = materialOf(source, single, before);
+    const material = { ...materialOf(source, single, before), ...beside };
     // The title that the page began with is not that of another rubber.
     const title = state.get("title") === start?.study.title ? `Friction of ${named(single)}` : state.get("title");
     state.change({ material: others.length ? [material, ...others] : material, data_origin: origin, title });
   };
   const present = h("ul", { class: "files" });
   const listFiles = () => {
-    const names = [state.get("material.dma") ?? []].flat();
-    const drop = (name) => () => {
-      const left = names.filter((one) => one !== name);
-      if (left.length)
-        state.change({ "material.dma": left.length === 1 ? left[0] : left, "material.temperature": undefined });
+    const [material] = [state.get("material")].flat();
+    const all = TESTS.flatMap((key) => allOf(material, key).map((name) => [key, name]));
+    const drop = (key, name) => () => {
+      const left = allOf(material, key).filter((other) => other !== name);
+      state.change({ [`material.${key}`]: left.length ? one(left) : undefined, "material.temperature": undefined });
     };
     present.replaceChildren(
-      ...names.map((name) =>
+      ...all.map(([key, name]) =>
         h(
           "li",
           { class: "row" },
           h("span", {}, name),
-          names.length > 1
+          all.length > 1
             ? button({
                 label: h("span", { class: "unseen" }, `Remove ${name}`),
                 kind: "quiet small",
                 symbol: "close",
                 title: `Remove ${name}`,
-                onClick: drop(name),
+                onClick: drop(key, name),
               })
             : null,
         ),
       ),
     );
-    more.hidden = names.length === 0;
+    more.hidden = all.length === 0;
   };
   const addMore = async (files) => {
     try {
-      const names = await api.uploadFiles(files);
-      state.set("material.dma", [...new Set([...[state.get("material.dma") ?? []].flat(), ...names])].sort(inOrder));
+      const kinds = await sorted(await api.uploadFiles(files));
+      const [material] = [state.get("material")].flat();
+      const changes = Object.entries(kinds).map(([key, names]) => [
+        `material.${key}`,
+        one([...new Set([...allOf(material, key), ...names])].sort(inOrder)),
+      ]);
+      if (changes.length) state.change(Object.fromEntries(changes));
     } catch (error) {
       onError(error);
     }
@@ -126,11 +160,18 @@ export function sourceForm(app, onError) {
       placeholder: "MPa",
       help: "Not stated in the file.",
     }),
-    temperature: fields.quantityField({
+    temperature: fields.textField({
       path: "material.temperature",
       label: "Temperature of the sweep",
-      kind: "temperature",
-      help: "Not stated in the file.",
+      read: (text) => one(text.split(/\s*[;,]\s+/).map((part) => units.typed(part.trim(), "temperature"))),
+      write: (value) => [value ?? []].flat().join(", "),
+      help: "Not stated in the file; of several files one temperature each, in their order: 145 °C, 160 °C.",
+    }),
+    assumed_shift: fields.textField({
+      path: "material.assumed_shift",
+      label: "Assumed shift law",
+      placeholder: "250 kJ/mol",
+      help: "One frequency determines no shift factor. An activation energy (250 kJ/mol), WLF 17.44, 51.6 K, -30 degC (C₁, C₂, their reference), or universal.",
     }),
   };
   required.sheet = fields.textField({
@@ -150,19 +191,19 @@ export function sourceForm(app, onError) {
       onError(error);
     }
   };
+  const tests = h(
+    "div",
+    { class: "panel" },
+    fields.fileDrop({
+      label: "Drop tests here, or choose files",
+      help: "Frequency sweeps, temperature ramps, creep or relaxation tests: exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, delimited text; recognised by content.",
+      onFiles: takeTests,
+    }),
+    present,
+    more,
+    button({ label: "Use the synthetic example's sweeps", kind: "quiet", onClick: useExample }),
+  );
   const panels = {
-    dma: h(
-      "div",
-      { class: "panel" },
-      fields.fileDrop({
-        label: "Drop sweeps here, or choose files",
-        help: "Exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, delimited text; recognised by content.",
-        onFiles: take("dma", true),
-      }),
-      present,
-      more,
-      button({ label: "Use the synthetic example's sweeps", kind: "quiet", onClick: useExample }),
-    ),
     master_curve: h(
       "div",
       { class: "panel" },
@@ -219,7 +260,8 @@ export function sourceForm(app, onError) {
   const showPanel = (key) => {
     shown = key;
     radios.get(key).checked = true;
-    for (const [one, panel] of Object.entries(panels)) panel.hidden = one !== key;
+    for (const [name, panel] of Object.entries(panels)) panel.hidden = name !== key;
+    tests.hidden = !TESTS.includes(key);
     making.hidden = questions.hidden = key === "catalogue" || key === "file" || sourceOf(state.get("material")) !== key;
   };
   const refresh = () => {
@@ -235,7 +277,7 @@ export function sourceForm(app, onError) {
   };
   const questions = h("div", { class: "panel questions" }, ...Object.values(required));
   const several = fields.note([], "several");
-  const element = card("Material", several, group, questions, columns, ...Object.values(panels), making);
+  const element = card("Material", several, group, questions, columns, tests, ...Object.values(panels), making);
   element.require = (key, values) => {
     if (required[key]) required[key].hidden = false;
     columns.offer(required[key] ? null : values); // one question at a time

@@ -18,7 +18,9 @@ const later = (id, title, summary, module, show = "mount") => ({
 function source(state) {
   const rubbers = [state.get("material") ?? {}].flat();
   if (rubbers.length > 1) return `${rubbers.length} materials`;
-  const value = ["dma", "master_curve", "file", "catalogue"].map((key) => rubbers[0][key]).find((one) => one !== undefined);
+  const value = ["dma", "creep", "relaxation", "ramps", "master_curve", "file", "catalogue"]
+    .map((key) => rubbers[0][key])
+    .find((one) => one !== undefined);
   if (value === undefined) return "no material yet";
   return Array.isArray(value) && value.length > 1 ? `${value.length} files` : String(value);
 }
@@ -27,7 +29,7 @@ function superposition(state) {
   const result = state.result("rubber");
   if (!result) return "";
   if (!result.shift) return "no shift with temperature";
-  return result.check ? result.check.short : "from the material file";
+  return result.check?.short ?? (result.shift.used === "assumed" ? "assumed law" : "from the material file");
 }
 
 function modes(state) {

@@ -1,0 +1,45 @@
+"""Job ``recognise``: which key of [material] each uploaded file of a mechanical test belongs to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from viscofric.errors import InputError
+from viscofric.web.jobs.rubbers import insist_on_uploads, named_without_folder
+
+if TYPE_CHECKING:
+    from viscofric.web.jobs.context import Context
+
+
+class Options(BaseModel):
+    """Names of uploaded files."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    files: list[str] = Field(min_length=1, max_length=10_000)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Sort uploaded files by the kind of test that they hold.
+
+    Returns
+    -------
+    dict
+        ``kinds``: ``"dma"``, ``"ramps"``, ``"creep"``, ``"relaxation"`` or ``"amplitude"`` -> names of files.
+
+    Raises
+    ------
+    InputError
+        If a file is none of these tests.
+    """
+    from viscofric.readers.recognise import by_kind
+
+    insist_on_uploads("material", tuple(map(Path, options.files)), context.files)
+    try:
+        found = by_kind([context.files / name for name in options.files])
+    except InputError as error:
+        raise named_without_folder(error, context) from None
+    return {"kinds": {kind: [path.name for path in paths] for kind, paths in found.items()}}

@@ -1,0 +1,99 @@
+"""Creep tests, temperature ramps and amplitude sweeps dropped on the page: recognised, asked about, shown, used."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from web import other_tests as samples
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from web.browser_tab import Tab
+
+_DROP = "#step-sweeps .panel:not([hidden]) input[type=file]"
+
+
+def dropped(tab: Tab, *paths: Path) -> None:
+    tab.step("sweeps")
+    tab.page.check("input[name=material-source][value=dma]")
+    tab.page.locator(_DROP).first.set_input_files(list(paths))
+
+
+def drawn(tab: Tab, figure: str, curves: int) -> None:
+    tab.until(f"document.querySelector('#figure-{figure} .plot')?.data?.length >= {curves}")
+
+
+def friction_is_predicted(tab: Tab) -> None:
+    tab.step("contact")
+    tab.until("page.state.state.result('rubber')?.shift?.reference > 0")
+    assert tab.value("page.state.state.result('rubber').spectrum.modes !== null")
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.apart
+def test_creep_tests_are_recognised_and_asked_about(tab: Tab, tmp_path: Path) -> None:
+    dropped(tab, samples.creep(tmp_path))
+    kind = tab.page.locator("#step-sweeps").get_by_label("Measured in")
+    kind.wait_for()
+    kind.select_option(label="tension: E′, E″")
+    drawn(tab, "step-tests", 3)
+    assert tab.value("page.state.state.get('material')") == {
+        "creep": "creep.csv",
+        "reference_temperature": "20 degC",
+        "deformation": "tension",
+    }
+    tab.screenshot("creep-data")
+    tab.step("shift")
+    drawn(tab, "shifted-steps", 4)
+    assert tab.text("#step-shift .verdict") == "Superposition holds"
+    tab.screenshot("creep-shift")
+    tab.step("spectrum")
+    tab.until("page.state.state.result('rubber')?.band?.draws > 0", 60.0)
+    assert "misfit of the step tests" in tab.text("#step-spectrum .key-numbers")
+    tab.screenshot("creep-spectrum")
+    found = tab.value("page.state.state.result('rubber').shift.factors")
+    assert found["temperature"] == pytest.approx([273.15, 283.15, 293.15])
+    planted = vf.synthetic_fluoroelastomer().shift
+    # the step tests' own standard errors, 0.1 decades at most
+    expected = planted.log10(np.array(found["temperature"])) - planted.log10(293.15)
+    assert found["log10_shift_factor"] == pytest.approx(expected.tolist(), abs=0.1)
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.apart
+def test_sweeps_and_creep_dropped_together_make_one_material(tab: Tab, tmp_path: Path) -> None:
+    dropped(tab, samples.sweeps(tmp_path), samples.creep(tmp_path))
+    kind = tab.page.locator("#step-sweeps").get_by_label("Measured in")
+    kind.wait_for()
+    kind.select_option(label="tension: E′, E″")
+    drawn(tab, "isotherms-storage-modulus", 4)
+    drawn(tab, "step-tests", 3)
+    material = tab.value("page.state.state.get('material')")
+    assert (material["dma"], material["creep"]) == ("sweeps.csv", "creep.csv")
+    tab.step("shift")
+    drawn(tab, "shifted-isotherms", 4)
+    drawn(tab, "shifted-steps", 4)
+    tab.screenshot("joint-shift")
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.apart
+def test_a_ramp_at_one_frequency_asks_for_a_law(tab: Tab, tmp_path: Path) -> None:
+    dropped(tab, samples.ramp(tmp_path, 1.0))
+    drawn(tab, "isotherms-storage-modulus", 1)
+    law = tab.page.locator("#step-sweeps").get_by_label("Assumed shift law")
+    law.wait_for()
+    law.fill("universal")
+    law.press("Tab")
+    tab.until("page.state.state.result('rubber')?.shift?.used === 'assumed'")
+    assert tab.value("page.state.state.get('material')")["ramps"] == "ramp.csv"
+    tab.screenshot("ramp-data")
+    tab.step("shift")
+    drawn(tab, "shift-factors", 1)
+    tab.screenshot("ramp-shift")
+    friction_is_predicted(tab)
