@@ -11,7 +11,7 @@ from viscofric.arguments import insist_on, number, sentences, text
 from viscofric.data import DEFORMATIONS, Deformation, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.units import angular_frequency, celsius, positive
+from viscofric.units import angular_frequency, positive, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -149,7 +149,7 @@ class TemperatureRamps:
     def __repr__(self) -> str:
         low, high = self.temperature_range
         hertz = ", ".join(f"{one / (2 * np.pi):.3g}" for one in self.angular_frequencies)
-        return f"TemperatureRamps({celsius(low):z.1f} to {celsius(high):z.1f} °C at {hertz} Hz, {self.deformation})"
+        return f"TemperatureRamps({shown_celsius(low)} to {shown_celsius(high)} °C at {hertz} Hz, {self.deformation})"
 
     @property
     def angular_frequencies(self) -> Array:
@@ -172,7 +172,7 @@ class TemperatureRamps:
                 cut.append(TemperatureRamp(ramp.angular_frequency, *(column[inside] for column in columns)))
         if not cut:
             raise InputError(
-                f"no point lies between {celsius(low):z.1f} and {celsius(high):z.1f} °C.", code="no-points"
+                f"no point lies between {shown_celsius(low)} and {shown_celsius(high)} °C.", code="no-points"
             )
         return replace(self, ramps=tuple(cut))
 

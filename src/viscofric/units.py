@@ -358,8 +358,8 @@ def kelvin_hint(kelvin: float) -> str:
 def plain(number: float, digits: int = 4) -> str:
     """Return a number in the usual notation: at most so many significant digits, no power of ten up to a million."""
     if 10**digits <= abs(number) < 1e6:
-        return f"{float(f'{number:.{digits - 1}e}'):.0f}"
-    return f"{number:.{digits}g}"
+        return shown_number(float(f"{number:.{digits - 1}e}"), ".0f")
+    return shown_number(number, f".{digits}g")
 
 
 def shown_speed(speed: float, digits: int = 4) -> str:

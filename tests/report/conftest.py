@@ -308,3 +308,22 @@ def make_sweep() -> Callable[..., xr.Dataset]:
         return xr.Dataset({name: (tuple(axes), values) for name, values in columns.items()}, coordinates)
 
     return make
+
+
+@pytest.fixture
+def make_study(
+    make_tree: Callable[..., xr.DataTree], make_sweep: Callable[..., xr.Dataset]
+) -> Callable[..., xr.DataTree]:
+    """Return a maker of results with friction over any axes."""
+
+    def make(axes: dict[str, Any], failed: tuple[int, ...] = (), **attrs: Any) -> xr.DataTree:
+        tree = make_tree(measurement=False, data_origin="measured", **attrs)
+        scalars = {"load": 25.0, "temperature": 303.15, "speed": 0.1}
+        scalars = {name: value for name, value in scalars.items() if name not in axes}
+        friction = make_sweep(
+            axes or {"speed": [0.1]}, failed, **{k: v for k, v in scalars.items() if k != "speed" or axes}
+        )
+        tree["prediction"] = xr.DataTree(friction if axes else friction.isel(speed=0))
+        return tree
+
+    return make

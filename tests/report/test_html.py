@@ -18,6 +18,7 @@ from viscofric.errors import DataFileError
 from viscofric.report import html
 from viscofric.report.results import table as table_of
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
+from viscofric.report.texts.study import scope
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -201,7 +202,7 @@ def test_synthetic_data_are_announced_first(
     _, page = write(make_tree(data_origin=origin), tmp_path)
     assert ("Synthetic data" in page.text) == banner
     if banner:
-        assert page.text.index("Synthetic data:") < page.text.index("Viscoelastic friction of a material")
+        assert page.text.index("Synthetic data:") < page.text.index(scope(make_tree(data_origin=origin))[0][:30])
 
 
 @pytest.mark.slow
@@ -271,7 +272,6 @@ def test_many_speeds_are_thinned_at_a_glance_only(make_tree: Callable[..., xr.Da
     glance = friction_at_a_glance(tree)
     assert glance is not None
     assert len(glance.rows) == 10
-    assert "all of them are in the tables below" in glance.caption
 
 
 @pytest.mark.slow

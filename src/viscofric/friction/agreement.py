@@ -14,6 +14,7 @@ from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.pairing import Pairs, along_reduced_speed, point_by_point
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.notes import Remedy
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     import xarray
@@ -239,7 +240,7 @@ def _insist_on_friction(measured: FrictionCurves) -> None:
     if not np.all(measured.viscoelastic > 0.0):
         raise InputError(
             "viscoelastic of measured friction curves must be above zero everywhere for a relative difference, but "
-            f"one is {measured.viscoelastic.min():.3g}; leave such points out",
+            f"one is {shown_number(float(measured.viscoelastic.min()), '.3g')}; leave such points out",
             code="friction-not-positive",
             remedy=Remedy(" with select()", "", page="") + ".",
         )

@@ -16,7 +16,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.material import insist_on_material
-from viscofric.units import Quantities, Quantity, positive, to_si_array
+from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -108,7 +108,8 @@ def predict_friction(
             raise InputError(f"{name} must hold at least one value.", code="empty-list")
         if not np.all(values > 0.0):
             raise InputError(
-                f"{name} must be above zero everywhere, but one is {values.min():g} {unit}.", code="not-positive"
+                f"{name} must be above zero everywhere, but one is {shown_number(float(values.min()), 'g')} {unit}.",
+                code="not-positive",
             )
     drawn = None if samples is None else DrawnMaterials(samples, material)
     contacts = [

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError
 from viscofric.notes import note_of
+from viscofric.units import shown_number
 
 
 def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
@@ -29,7 +30,8 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
             )
         if solution.speed == 0.0 or not math.isfinite(solution.speed):
             raise InputError(
-                f"speed = {solution.speed:g} m/s of a solution must be finite and not zero.", code="no-speed"
+                f"speed = {shown_number(solution.speed, 'g')} m/s of a solution must be finite and not zero.",
+                code="no-speed",
             )
     units = {"N/m" if solution.geometry == "line" else "N" for solution in solved}
     if len(units) > 1:

@@ -15,7 +15,7 @@ from viscofric.friction.identification.forward import CorrectedFriction, Solved
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.units import Quantities, positive, to_si_array
+from viscofric.units import Quantities, positive, shown_number, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -133,7 +133,8 @@ def contacts(indenter: Indenter, speeds: Quantities, load: Quantities) -> tuple[
         raise InputError("speeds must hold at least one value.", code="empty-list")
     if not np.all(velocities > 0.0):
         raise InputError(
-            f"speeds must be above zero everywhere, but one is {velocities.min():g} m/s.", code="not-positive"
+            f"speeds must be above zero everywhere, but one is {shown_number(float(velocities.min()), 'g')} m/s.",
+            code="not-positive",
         )
     if forces.size not in (1, velocities.size):
         raise InputError(

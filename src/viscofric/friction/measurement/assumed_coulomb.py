@@ -11,7 +11,7 @@ from viscofric.errors import InputError, brief
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
-from viscofric.units import to_si
+from viscofric.units import shown_number, to_si
 
 if TYPE_CHECKING:
     from viscofric.friction.measurement.fit import Entry, Fit
@@ -111,7 +111,11 @@ class Assumed:
                 "is the part that varies with speed, a lower limit.",
                 values=counted,
             )
-        size = f"{self.value:g} ± {self.error:g}" if self.error else f"{self.value:g}"
+        size = (
+            f"{shown_number(self.value or 0.0, 'g')} ± {self.error:g}"
+            if self.error
+            else shown_number(self.value or 0.0, "g")
+        )
         return Note(
             "coulomb-assumed",
             f"{where(some, total)} one direction of slip was measured and a Coulomb friction coefficient of {size} is "

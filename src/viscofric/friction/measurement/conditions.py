@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.nominal import LONGEST_CHAIN, SAME_LOAD, clusters
 from viscofric.notes import Note, Remedy, setting
-from viscofric.units import shown_celsius
+from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -190,7 +190,13 @@ def conditions(
     loading = clusters(
         load,
         SAME_LOAD * load,
-        Gapless(runs, runs.load, "runs.load", lambda low, high: f"load from {low:.4g} to {high:.4g} N", gap=SAME_LOAD),
+        Gapless(
+            runs,
+            runs.load,
+            "runs.load",
+            lambda low, high: f"load from {shown_number(low, '.4g')} to {shown_number(high, '.4g')} N",
+            gap=SAME_LOAD,
+        ),
     )
     pace = clusters(
         speed,
@@ -199,7 +205,9 @@ def conditions(
             runs,
             course.speed,
             "abs(runs.disc_speed)",
-            lambda low, high: f"disc_speed from {1e3 * low:.4g} to {1e3 * high:.4g} mm/s",
+            lambda low, high: (
+                f"disc_speed from {shown_number(1e3 * low, '.4g')} to {shown_number(1e3 * high, '.4g')} mm/s"
+            ),
             speed_tolerance,
             option=SPEED_TOLERANCE,
         ),

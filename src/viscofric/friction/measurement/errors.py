@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.friction.measurement.conditions import where
 from viscofric.friction.measurement.doubts import CHANCE
 from viscofric.notes import Note
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Integers, Mask
@@ -181,8 +182,8 @@ def _of_unrepeated(fits: list[Fit], places: list[int], autocorrelation: float) -
         return []
     text = (
         f"{where([fits[place].group for place in places], len(fits))} no step was repeated: the standard errors follow "
-        f"from the scatter within steps, whose readings have an autocorrelation of {autocorrelation:.2g}, and do not "
-        "include what varies from run to run; repeat the runs."
+        "from the scatter within steps, whose readings have an autocorrelation of "
+        f"{shown_number(autocorrelation, '.2g')}, and do not include what varies from run to run; repeat the runs."
     )
     return [Note("steps-not-repeated", text)]
 

@@ -11,7 +11,7 @@ from viscofric.errors import InputError
 from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.nominal import SAME_LOAD
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import Quantities, Quantity, positive, shown_celsius, to_si_in_shape
+from viscofric.units import Quantities, Quantity, positive, shown_celsius, shown_number, to_si_in_shape
 
 if TYPE_CHECKING:
     import xarray
@@ -275,7 +275,8 @@ class FrictionMasterCurve:
             ) from None
         if not np.all(velocity > 0.0):
             raise InputError(
-                f"speed must be above zero everywhere, but one is {velocity.min():g} m/s.", code="not-positive"
+                f"speed must be above zero everywhere, but one is {shown_number(float(velocity.min()), 'g')} m/s.",
+                code="not-positive",
             )
         return velocity, kelvin, single
 

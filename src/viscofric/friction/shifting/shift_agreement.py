@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import shown_celsius
+from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     import xarray
@@ -115,7 +115,7 @@ class ShiftAgreement:
             f"The shift factors at {where}, relative to {shown_celsius(self.reference)} °C, differ by {self.rms:.2g} "
             f"decades (root mean square) and {verdict} their errors "
             f"(χ² = {self.chi2:.3g} for {self.freedom}, p = {self.p_value:.2g}): log10 α found is "
-            f"{self.slope:.3f} ± {self.slope_error:.2g} times the other."
+            f"{shown_number(self.slope, '.3f')} ± {self.slope_error:.2g} times the other."
         )
 
     def __str__(self) -> str:

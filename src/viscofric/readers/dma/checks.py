@@ -38,7 +38,10 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
     _leave_out(points, source, ~keep, notes, ("a value is missing in it", "a value is missing in each"), None)
     cold = np.flatnonzero(keep & (points.temperature <= 0.0))
     if cold.size:
-        problem = f"{points.places[cold[0]]} has a temperature of {points.temperature[cold[0]]:.4g} K; "
+        problem = (
+            f"{points.places[cold[0]]} has a temperature of {shown_number(float(points.temperature[cold[0]]), '.4g')} "
+            "K; "
+        )
         raise DataFileError(source, problem + "it must be above absolute zero.", code="not-positive")
     moduli = np.fmax(points.storage_modulus, points.loss_modulus)
     stiff = np.flatnonzero(keep & (moduli > LARGEST_MODULUS))
@@ -130,7 +133,10 @@ def insist_on_agreement(
         if 2 * np.count_nonzero(wrong) > wrong.size:
             first = int(np.argmax(wrong))
             problem = f"the {name} of {np.count_nonzero(wrong)} of {wrong.size} points is not {formula}, first "
-            problem += f"{values[known][first]:.4g} instead of {follows[known][first]:.4g}; are columns swapped, or "
+            problem += (
+                f"{shown_number(float(values[known][first]), '.4g')} instead of "
+                f"{shown_number(float(follows[known][first]), '.4g')}; are columns swapped, or "
+            )
             raise DataFileError(path, problem + "is a unit wrong?", code="columns-contradict")
 
 

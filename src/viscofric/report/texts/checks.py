@@ -157,7 +157,7 @@ def _assumptions(tree: xr.DataTree) -> Iterator[Check]:
 
 
 def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
-    counts, outside = [], 0
+    counts, outside, cases = [], 0, {}
     for name, what in (
         ("prediction", "requested cases"),
         ("measurement", "measured points"),
@@ -169,6 +169,7 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
         beyond, of = int(is_extrapolated(part).sum()), next(iter(part.sizes.values()))
         outside += beyond
         counts.append(f"{beyond} of {of} {what}")
+        cases[name] = [beyond, of]
     if not counts:
         return
     ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
@@ -182,7 +183,8 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
         )
     else:
         words = f"In all cases {meaning} lies within the {kind} range{measured}."
-    yield Check.of("Measured frequency range", outside == 0, words)
+    counted = {**cases, "range": [*numbers(tree.attrs, "frequency_range")]}
+    yield Check.of("Measured frequency range", outside == 0, Note("frequency-range", words, values=counted))
 
 
 def _measurement(tree: xr.DataTree) -> Iterator[Check]:
@@ -219,9 +221,8 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
     failures = notes(tree.attrs, "failures")
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
-        yield Check(
-            "All cases solved", "failed", f"{many} could not be solved; the reasons are listed with the results."
-        )
+        words = f"{many} could not be solved; the reasons are listed with the results."
+        yield Check("All cases solved", "failed", Note("not-solved", words, values={"cases": len(failures)}))
     else:
         yield Check("All cases solved", "passed", "Every case was solved.")
     cases, accuracy = solved_cases(tree), number(tree.attrs, "accuracy")
@@ -234,7 +235,8 @@ def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
     beyond, between = int(beyond_accuracy(cases, accuracy).sum()), int(interpolated(cases).sum())
     friction, error = (np.abs(values(cases, name)) for name in ("friction_coefficient", "friction_error"))
     known = friction > 0.0
-    worst = percent(float(np.max(error[known] / friction[known], initial=0.0)))
+    largest = float(np.max(error[known] / friction[known], initial=0.0))
+    worst = percent(largest)
     words = f"The numerical error of friction is estimated at {worst} at most; {percent(accuracy)} was requested."
     if beyond:
         why = " The points of the surface are too far apart for it." if rough else ""
@@ -245,4 +247,11 @@ def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
             "which is common to the cases of one material and load. They are marked in the tables, and their errors "
             "include that of the interpolation."
         )
-    return Check.of("Accuracy", beyond == 0, words)
+    counted = {
+        "largest": largest,
+        "requested": accuracy,
+        "beyond": beyond,
+        "interpolated": between,
+        "of": friction.size,
+    }
+    return Check.of("Accuracy", beyond == 0, Note("accuracy", words, values=counted))

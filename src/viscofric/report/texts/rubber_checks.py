@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.checks import Check
+from viscofric.notes import Note
 from viscofric.report.results import (
     SAME_TEMPERATURE,
     group,
@@ -49,22 +50,21 @@ def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
     if not (math.isfinite(given) and math.isfinite(used)):
         return  # results of an older viscofric
     if used >= given:
-        yield Check("Isotherms used", "passed", f"All {given:.0f} isotherms are joined into the master curve.")
+        words = f"All {given:.0f} isotherms are joined into the master curve."
+        yield Check("Isotherms used", "passed", Note("isotherms-used", words, values={"used": used, "given": given}))
         return
     kept = values(factors, "temperature")
-    left = [
-        degrees(kelvin)
-        for kelvin in numbers(factors.attrs, "temperatures_given")
-        if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE
-    ]
+    given_temperatures = numbers(factors.attrs, "temperatures_given")
+    apart = [kelvin for kelvin in given_temperatures if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE]
+    left = [degrees(kelvin) for kelvin in apart]
     which = f"those at {several(left)} are left out" if len(left) > 1 else f"the one at {''.join(left)} is left out"
     if len(left) != given - used:
         which = "the others are left out"
-    yield Check(
-        "Isotherms used",
-        "warning",
-        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve; {which} (reasons: notes on the input).",
+    words = (
+        f"{used:.0f} of {given:.0f} isotherms are joined into the master curve; {which} (reasons: notes on the input)."
     )
+    counted = {"used": used, "given": given, "left_out": apart}
+    yield Check("Isotherms used", "warning", Note("isotherms-used", words, values=counted))
 
 
 def _superposition(tree: xr.DataTree) -> Iterator[Check]:

@@ -9,7 +9,7 @@ import numpy as np
 from viscofric.errors import InputError, SuperpositionError, brief
 from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, ShiftLaw
-from viscofric.units import celsius, to_si
+from viscofric.units import shown_celsius, to_si
 
 if TYPE_CHECKING:
     from viscofric.ramps import TemperatureRamps
@@ -52,7 +52,7 @@ def assumed_law(
         lowest = first.temperature
         words = (
             f"WLF with the universal constants {UNIVERSAL[0]} and {UNIVERSAL[1]} K about "
-            f"{celsius(first.temperature):z.1f} °C, the peak of the loss modulus at "
+            f"{shown_celsius(first.temperature)} °C, the peak of the loss modulus at "
             f"{first.angular_frequency / (2.0 * np.pi):.3g} Hz"
         )
     else:
@@ -64,11 +64,11 @@ def assumed_law(
     kept = ramps.between(lowest, ramps.temperature_range[1])
     left = before - sum(len(one) for one in kept.ramps)
     if left:
-        said = f"{left} points below {celsius(lowest):z.1f} °C were left out, where the assumed law does not hold."
+        said = f"{left} points below {shown_celsius(lowest)} °C were left out, where the assumed law does not hold."
         notes.append(Note("points-left-out", said))
     if kelvin < kept.temperature_range[0]:
         raise InputError(
-            f"reference = {celsius(kelvin):z.1f} °C lies below {celsius(kept.temperature_range[0]):z.1f} °C, from "
+            f"reference = {shown_celsius(kelvin)} °C lies below {shown_celsius(kept.temperature_range[0])} °C, from "
             "where the assumed law holds; choose a warmer one.",
             code="outside-measured",
         )

@@ -12,7 +12,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamp
 from viscofric.rheology.superposition.shift_problem import inflation
-from viscofric.units import celsius
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -59,7 +59,7 @@ class GlassTransition:
         """Return the peak as a line of text."""
         hertz = self.angular_frequency / (2.0 * np.pi)
         name = "tan δ" if self.by == "tan delta" else "loss modulus"
-        return f"{name} at {hertz:.3g} Hz: {celsius(self.temperature):z.1f} ± {self.standard_error:.2g} °C"
+        return f"{name} at {hertz:.3g} Hz: {shown_celsius(self.temperature)} ± {self.standard_error:.2g} °C"
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the peak as single numbers.

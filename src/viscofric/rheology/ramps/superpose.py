@@ -21,7 +21,7 @@ from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.threads import one_blas_thread
-from viscofric.units import celsius, checked_poisson_ratio, kelvin_hint, positive
+from viscofric.units import checked_poisson_ratio, kelvin_hint, positive, shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -130,8 +130,8 @@ def superpose_ramps(
     low, high = tensile.temperature_range
     if not low <= kelvin <= high:
         raise InputError(
-            f"reference = {celsius(kelvin):z.1f} °C lies outside the ramps, {celsius(low):z.1f} to "
-            f"{celsius(high):z.1f} °C{kelvin_hint(kelvin)}.",
+            f"reference = {shown_celsius(kelvin)} °C lies outside the ramps, {shown_celsius(low)} to "
+            f"{shown_celsius(high)} °C{kelvin_hint(kelvin)}.",
             code="outside-measured",
         )
     b = _vertical(vertical, kelvin)
@@ -244,7 +244,7 @@ def _on_fit(ramps: TemperatureRamps, shift: ShiftLaw, check: RampCheck) -> list[
         notes.append(
             Note(
                 "pole-near",
-                f"The pole of the law, {celsius(pole):z.1f} °C, lies next to the coldest point: the glass determines "
+                f"The pole of the law, {shown_celsius(pole)} °C, lies next to the coldest point: the glass determines "
                 "it, not the transition. Fit WLF above and Arrhenius below (law 'wlf+arrhenius'), or leave the glass "
                 "out.",
             )

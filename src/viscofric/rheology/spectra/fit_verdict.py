@@ -17,6 +17,7 @@ from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.step_misfit import frequencies_of
 from viscofric.step_tests import StepMasterCurve
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -250,8 +251,9 @@ def _about_rubber(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) 
         notes.append(
             Note(
                 "plateau-doubtful",
-                f"At the lowest frequency E' falls as ω^{slopes[0]:.2f} and E'' as ω^{slopes[1]:.2f}: the measurement "
-                "cannot separate a soft rubber from a liquid (2 and 1), and whether E0 is above zero is not known.",
+                f"At the lowest frequency E' falls as ω^{shown_number(slopes[0], '.2f')} and E'' as "
+                f"ω^{shown_number(slopes[1], '.2f')}: the measurement cannot separate a soft rubber from a liquid (2 "
+                "and 1), and whether E0 is above zero is not known.",
             )
         )
     return notes

@@ -18,6 +18,7 @@ from viscofric.rheology.superposition.consistency import LARGEST_FIGURE, ONE_PAI
 from viscofric.rheology.superposition.joined_isotherms import ranges, shown
 from viscofric.rheology.superposition.overlap import LogSweep, join, own_shifts
 from viscofric.threads import one_blas_thread
+from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -228,7 +229,10 @@ def flowing(tests: Sequence[StepTest]) -> list[str]:
         return []
     warmest = max(found)
     where = ", ".join(shown(kelvin) for kelvin in found)
-    said = f"The sample flows at {where}: at the longest times J grows as t^{found[warmest]:.2f} ({shown(warmest)})"
+    said = (
+        f"The sample flows at {where}: at the longest times J grows as t^{shown_number(found[warmest], '.2f')} "
+        f"({shown(warmest)})"
+    )
     return [Note("flow", f"{said}. A liquid has no E0; contacts need a material with one.")]
 
 

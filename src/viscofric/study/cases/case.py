@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
 from viscofric.study.cases.record import Failure
-from viscofric.units import shown_celsius
+from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -99,7 +99,10 @@ class Case(ABC):
     def label(self) -> str:
         """The case in words."""
         sample = "" if self.sample is None else f", sample {self.sample}"
-        return f"{shown_celsius(self.temperature, 'z.4g')} °C, {1e3 * self.speed:.4g} mm/s{self.body_label}{sample}"
+        return (
+            f"{shown_celsius(self.temperature, 'z.4g')} °C, {shown_number(1e3 * self.speed, '.4g')} "
+            f"mm/s{self.body_label}{sample}"
+        )
 
     @property
     def body_label(self) -> str:
