@@ -21,7 +21,7 @@ from study import sweeps
 from viscofric import files
 from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_imported, shortened
 from viscofric.files import LARGEST_TABLE, insist_on_size, parse_toml
-from viscofric.notes import codes
+from viscofric.notes import codes, warned
 from viscofric.processes import LimitedProcess
 from viscofric.readers.topography import package
 from viscofric.readers.topography.tables import read_heights
@@ -36,7 +36,7 @@ LONGEST = 2.0
 
 
 def refusal(read, path):
-    """Return the sentence by which a file is refused, and insist that it is one, and soon."""
+    """Return the error by which a file is refused, and insist that it is one sentence, and soon."""
     before = os.times()
     with pytest.raises(vf.InputError) as caught:
         read(path)
@@ -46,7 +46,7 @@ def refusal(read, path):
     assert str(path.name) in said
     assert "\n" not in said
     assert len(said) <= LONGEST_SENTENCE
-    return said
+    return caught.value
 
 
 @pytest.mark.parametrize("name", hostile.run_files())
@@ -78,7 +78,7 @@ def test_arrays_that_announce_more_than_they_hold_are_refused(tmp_path: Path) ->
     def read(path: Path) -> object:
         return vf.read_topography(path, spacing="1 um")
 
-    assert "announces 1e+13 numbers" in refusal(read, hostile.array(tmp_path / "scan.npy"))
+    assert refusal(read, hostile.array(tmp_path / "scan.npy")).code == "damaged"
 
 
 def test_workbooks_are_no_surfaces(tmp_path: Path) -> None:
@@ -100,7 +100,7 @@ def test_surfaces_of_instruments_are_read_within_limits(
     monkeypatch.setattr(package, "_APART", process)
     path = tmp_path / "scan.sur"
     path.write_bytes(b"DIGITAL SURF\0" + bytes(1_000))
-    assert words in refusal(vf.read_topography, path)
+    assert words in str(refusal(vf.read_topography, path))
 
 
 @pytest.mark.slow  # a workbook of 600,000 cells takes seconds to write and to parse
@@ -114,8 +114,8 @@ def test_hdf5_that_announces_more_than_it_can_hold_is_refused(tmp_path: Path) ->
     pytest.importorskip("h5py")
     path = hostile.hdf5(tmp_path / "results.nc")
     assert path.stat().st_size < 10_000
-    assert "would unpack to 3200 MB" in refusal(vf.read_topography, path)
-    assert "announces 3200 MB" in refusal(vf.open_results, path)
+    assert refusal(vf.read_topography, path).code == "too-large"
+    assert refusal(vf.open_results, path).code == "damaged"
     with refused("too-large", DataFileError):
         insist_on_size(path.read_bytes(), path)
 
@@ -179,7 +179,7 @@ def test_a_card_of_a_whole_disk_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "card.inp"
     with path.open("wb") as file:
         file.truncate(LARGEST_CARD + 1)  # takes no room
-    assert "such a file has at most 20 MB" in refusal(vf.read_card, path)
+    assert refusal(vf.read_card, path).code == "too-large"
 
 
 @pytest.mark.parametrize(
@@ -189,7 +189,7 @@ def test_measurements_of_a_whole_disk_are_not_read(tmp_path: Path, read: object)
     path = tmp_path / "long.csv"
     with path.open("wb") as file:
         file.truncate(LARGEST_TABLE + 1)  # takes no room
-    assert "at most 50 MB; keep every tenth row" in refusal(read, path)
+    assert refusal(read, path).code == "too-large"
 
 
 def test_heights_of_a_large_surface_are_read_in_binary_form_only(
@@ -202,15 +202,16 @@ def test_heights_of_a_large_surface_are_read_in_binary_form_only(
     reads = (lambda path: vf.read_topography(path, spacing="1 m").heights, read_heights)
     for read in reads:
         np.testing.assert_array_equal(read(tmp_path / "scan.npy"), heights)
-        assert "numpy.save" in refusal(read, tmp_path / "scan.csv")
+        assert refusal(read, tmp_path / "scan.csv").code == "too-large"
 
 
 def test_a_card_may_hold_a_name_of_any_length(tmp_path: Path) -> None:
     path = tmp_path / "card.txt"
     path.write_text(CARDS["digits.txt"].replace("x[s]", "1[s]"), encoding="utf-8")
-    with pytest.warns(UserWarning, match="not read") as caught:
+    with warned() as notes:
         vf.read_card(path)
-    assert all(len(str(one.message)) < 2 * LONGEST_SENTENCE for one in caught)
+    assert "not-read" in codes(notes)
+    assert all(len(note) < 2 * LONGEST_SENTENCE for note in notes)
 
 
 def test_friction_and_heights_that_no_rubber_or_surface_has_are_noted(tmp_path: Path) -> None:
@@ -255,9 +256,11 @@ def test_a_module_of_the_users_in_place_of_a_package_is_reported_as_such(tmp_pat
 
 def test_a_package_that_is_missing_differs_from_one_that_fails() -> None:
     missing = ModuleNotFoundError("No module named 'zarr'", name="zarr")
-    assert not_imported("zarr", missing, "pip install zarr") == "zarr is not installed: pip install zarr"
+    reported = not_imported("zarr", missing, "pip install zarr")
+    assert reported.endswith("pip install zarr")
     for broken in (ModuleNotFoundError("No module named 'dask.base'", name="dask.base"), AttributeError("x")):
-        assert "cannot be imported" in not_imported("pint", broken)
+        assert str(broken) in not_imported("pint", broken)
+        assert str(broken) not in reported
 
 
 LONG = "x" * 100_000

@@ -53,11 +53,6 @@ def test_the_chain_law_of_vhb_4910_is_close_to_the_exact_langevin_function():
     assert equilibrium / exact - 1 == pytest.approx(0.0019, abs=1e-4)
 
 
-def test_entries_without_a_shift_are_valid_at_one_temperature_only():
-    for entry in catalogue():
-        assert ("valid at one temperature only" in entry.holds) == (catalogue_material(entry.name).shift is None)
-
-
 def test_pvb_has_the_series_of_its_source():
     rubber = catalogue_material("PVB interlayer")
     prony = rubber.spectrum.to_relaxation()

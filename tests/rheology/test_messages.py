@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -12,6 +12,7 @@ import pytest
 import viscofric as vf
 from rheology.test_cards_foreign import ABAQUS, ANSYS, COMSOL, LS_DYNA
 from viscofric.rheology.cards import open_card
+from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -427,3 +428,41 @@ def test_comments_of_cards(tmp_path: Path) -> None:
     assert "enter K_constant, that of the glass" in said
     assert "percent too stiff in the rubber" in said
     assert '"Volumetric and deviatoric" (in COMSOL 6.2)' in said
+
+
+MEASURED: dict[str, Any] = {"E0_extrapolated": False, "E_inf_extrapolated": False, "frequency_range": (1.0, 10.0)}
+
+
+@pytest.mark.parametrize(
+    ("known", "remarks"),
+    [
+        ({}, ("reached by the sweeps", "reached by the sweeps")),
+        (
+            {"method": FROM_FRICTION, "E_inf_extrapolated": True},
+            (None, "extrapolated: beyond the range of the friction"),
+        ),
+        (
+            {"E0_missed": True, "E_inf_missed": True, "measured_storage": (2.838e6, 5e8)},
+            (
+                "the fit lies above the softest measured E', 2.838 MPa",
+                "the fit lies below the stiffest measured E', 500 MPa",
+            ),
+        ),
+        (
+            {"E_inf_at_limit": True},
+            (
+                None,
+                "not known: the sweeps do not reach it, and the fit stopped at 30 times the largest measured E'",
+            ),
+        ),
+    ],
+)
+def test_remarks_on_limits_of_a_fit(known: dict[str, Any], remarks: tuple[str | None, str]) -> None:
+    fit = SpectrumFit(0.01, 0.01, **{**MEASURED, **known})
+    assert remarks[0] in (None, fit.E0_remark)
+    assert remarks[1] == fit.E_inf_remark
+
+
+def test_entries_without_a_shift_are_valid_at_one_temperature_only() -> None:
+    for entry in vf.catalogue():
+        assert ("valid at one temperature only" in entry.holds) == (vf.catalogue_material(entry.name).shift is None)

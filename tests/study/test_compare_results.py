@@ -14,6 +14,7 @@ import viscofric as vf
 from refusals import refused
 from study.sweeps import made_results, made_sweep
 from viscofric.errors import DataFileError
+from viscofric.notes import codes
 from viscofric.study.results.results import StudyResults
 
 if TYPE_CHECKING:
@@ -168,7 +169,7 @@ def test_friction_curves_are_compared_with_results(tmp_path: Path) -> None:
         assert found.equal
         assert [one.name for one in found.differences] == ["friction_coefficient"]
         assert any("radius" in sentence for sentence in found.axes)
-        assert "not compared" in found.provenance[0]
+        assert codes(found.provenance) == {"no-provenance"}
     off = replace(curves, viscoelastic=1.001 * friction)
     assert not vf.compare_results(off, results).equal
 
@@ -202,7 +203,9 @@ def test_an_exported_table_is_compared_with_results(tmp_path: Path) -> None:
     with refused("damaged", DataFileError):
         vf.compare_results(results, table)
     table.write_text("\n".join(lines).replace("# accuracy: 0.001", "# accuracy: 0.1"), encoding="utf-8")
-    assert vf.compare_results(results, table).provenance == ("Another accuracy: 0.001 and 0.1.",)
+    (other,) = vf.compare_results(results, table).provenance
+    assert other.code == "another-accuracy"
+    assert [float(one) for one in other.values["values"]] == [0.001, 0.1]
 
 
 def test_an_exported_table_of_one_load_is_one_of_friction_curves(tmp_path: Path) -> None:

@@ -60,6 +60,6 @@ def test_origin_of_an_identified_rubber(source: str, behind: str) -> None:
     assert isinstance(spectrum, vf.RetardationSpectrum)
     assert spectrum.fit is not None
     assert spectrum.fit.notes == (
-        f"The rubber was identified from friction{behind}, no modulus of it was measured.",
+        f"The material was identified from friction{behind}; none of its moduli was measured.",
         "Known.",
     )

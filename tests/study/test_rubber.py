@@ -183,7 +183,7 @@ def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path
     origin, known = spectrum.fit.notes
     assert "fr.csv" in origin
     assert (known,) == found.known
-    assert spectrum.fit.E_inf_remark == "extrapolated: beyond the range of the friction"
+    assert (spectrum.fit.from_friction, spectrum.fit.E_inf_extrapolated) == (True, True)
     assert not rubber(catalogue="pvb interlayer").from_friction
 
 

@@ -116,7 +116,7 @@ def test_kinds_on_the_command_line_exclude_each_other(tmp_path):
         main, ["material", "fit", str(path), "--creep", "--relaxation", "--reference", "10 degC"]
     )
     assert found.exit_code == 2
-    assert "--creep and --relaxation exclude each other" in found.output
+    assert all(option in found.output for option in ("--creep", "--relaxation"))
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -99,10 +100,11 @@ def test_every_number_is_that_of_the_contact_solved_by_itself(results: StudyResu
 @pytest.mark.slow
 def test_results_show_of_the_surface(results: StudyResults) -> None:
     attributes = results.tree.attrs
-    assert attributes["indenter"].startswith("self-affine rough surface (32 × 32 points, period 0.32 mm, rms height ")
+    assert "32 × 32" in attributes["indenter"]
+    assert "0.32 mm" in attributes["indenter"]
     assert attributes["surface_rms_slope"] == pytest.approx(0.2, rel=1e-12)
-    assert "made: self-affine, Hurst exponent 0.8" in attributes["surface_steps"]
-    assert "no linearised 95 % bands, which are found for indenters only" in attributes["notes"]
+    assert len(json.loads(attributes["surface_steps"])) == 1  # how it was made
+    assert "no-bands" in codes(results.notes)
     # 0.32 mm over 2 mm.
     assumptions = results.tree["assumptions"]
     assert assumptions["value"].values == pytest.approx([0.16])

@@ -251,7 +251,7 @@ def test_body_that_does_not_come_is_given_up() -> None:
     scope = {"type": "http", "path": "/api/jobs/check", "headers": []}
     run_apart(Limits(application, lambda path: 10, pause=0.05)(scope, silence, send))  # type: ignore[arg-type]
     assert reported[0]["status"] == 408
-    assert json.loads(reported[1]["body"]) == {"message": "Nothing of the body came for 0.05 s."}  # type: ignore[arg-type]
+    assert "0.05 s" in json.loads(reported[1]["body"])["message"]  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
@@ -302,4 +302,4 @@ def test_odd_studies_end_in_a_sentence(server: Server, study: dict[str, object])
         last = json.loads(answer.text.splitlines()[-1])
         assert answer.status_code == 422 or last["event"] == "error"
         assert last["message"]
-        assert "error of viscofric" not in last["message"]
+        assert answer.status_code == 422 or last["code"] != "internal-error"

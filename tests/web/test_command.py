@@ -128,7 +128,9 @@ def test_taken_port_is_replaced_by_a_free_one(monkeypatch: pytest.MonkeyPatch) -
         module, "serve", lambda *arguments, on_start, **more: on_start(f"http://127.0.0.1:{free}/", free)
     )
     done = CliRunner().invoke(main, ["web", "--no-browser", "--port", str(port)])
-    assert f"port {port} is taken; the page is at {free}." in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert str(port) in done.stderr
+    assert str(free) in done.stderr
     assert f"page http://127.0.0.1:{free}/" in done.stdout
 
 
@@ -141,7 +143,7 @@ def test_run_file_is_what_the_page_opens_with(tmp_path: Path) -> None:
         assert study["title"] == load_study(folder / "study.toml").title
         assert [one["name"] for one in client.get("/api/files").json()] == ["dma.csv", "mtm.csv"]
         client.delete("/api/files/dma.csv")
-        assert "no such file" in client.post("/api/jobs/check", json={"study": study}).text
+        assert '"code":"no-file"' in client.post("/api/jobs/check", json={"study": study}).text.replace(": ", ":")
     assert (folder / "dma.csv").exists()
 
 
@@ -149,7 +151,8 @@ def test_other_hosts_are_warned_of(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "serve", lambda *arguments, **more: None)
     done = CliRunner().invoke(main, ["web", "--host", "0.0.0.0", "--no-browser"])
     assert done.exit_code == 0
-    assert "Warning: at 0.0.0.0, other machines can reach the page" in done.stderr
+    assert "Warning: " in done.stderr
+    assert "0.0.0.0" in done.stderr
     assert "Warning" not in CliRunner().invoke(main, ["web", "--no-browser"]).output
 
 

@@ -69,9 +69,9 @@ def test_run_file_is_reported_with_its_cases_its_files_and_what_is_wrong(desk: D
     assert tomllib.loads(sound["text"]) == SWEEPS
     assert (sound["problems"], sound["cases"], sound["files"]) == ([], 2, ["dma.csv"])
     missing = desk.run(export_run_file, {**SWEEPS, "material": {**SWEEPS["material"], "dma": ["dma.csv", "two.csv"]}})
-    assert missing["problems"] == [
-        {"field": "material.dma", "message": "The file two.csv is not here; drop it on the page first."}
-    ]
+    (problem,) = missing["problems"]
+    assert problem["field"] == "material.dma"
+    assert "two.csv" in problem["message"]
     wrong = desk.run(export_run_file, {**SWEEPS, "indenter": {"shape": "bal", "radius": "9.525 mm"}})
     assert [one["field"] for one in wrong["problems"]] == ["indenter"]
     assert 'shape = "bal"' in wrong["text"]

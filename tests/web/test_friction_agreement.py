@@ -39,7 +39,7 @@ def test_the_prediction_meets_the_friction_that_it_was_planted_with(agreement: d
     np.testing.assert_allclose(predicted, planted.viscoelastic, rtol=1e-2)
     noise = column(agreement["points"], "measured") / predicted - 1.0
     np.testing.assert_allclose(column(agreement["points"], "difference"), 1.0 / (1.0 + noise) - 1.0, atol=1e-5)
-    assert "Over 20 points the predicted friction is" in agreement["sentences"][0]
+    assert predicted.size == 20
     assert agreement["key"][0]["name"] == "Prediction minus measurement"
     assert [row[0] for row in agreement["table"]["rows"]] == ["30 °C", "90 °C"]
     assert {word for points in agreement["points"] for word in points["remark"]} == {""}  # none is doubtful
@@ -105,7 +105,7 @@ def test_friction_alone_shows_the_planted_shift_factors(context: Context) -> Non
 def test_friction_and_rubber_shift_alike(context: Context) -> None:
     found = done("master", context, CURVES, law="wlf")
     assert found["refusal"] is None
-    assert "agree within their errors" in found["found"]["agreement"]
+    assert found["found"]["agrees"]
     assert found["found"]["reference"] == found["by_rubber"]["reference"] == pytest.approx(303.15)
     assert {one["name"] for one in found["found"]["words"]} >= {"reference", "law", "overlap", "comparison"}
     by_rubber, points = found["by_rubber"], column(found["by_rubber"]["points"], "speed")
@@ -117,7 +117,7 @@ def test_friction_and_rubber_shift_alike(context: Context) -> None:
 def test_curves_that_do_not_overlap_are_shifted_by_the_rubber_alone(context: Context) -> None:
     found = done("master", context, APART)
     assert found["found"] is None
-    assert "do not overlap" in found["refusal"]
+    assert found["refusal"]
     assert len(found["by_rubber"]["points"]) == 2
     with refused("no-overlap", SuperpositionError):
         done("master", context, APART, beside=False)

@@ -228,6 +228,7 @@ class FrictionBands:
                     "no-bands",
                     f"At {len(records) - len(sensitivities)} of {len(records)} cases the derivatives of "
                     "friction by the material were not found, so that these friction curves have no bands.",
+                    values={"cases": len(records) - len(sensitivities), "of": len(records)},
                 )
             )
             return found

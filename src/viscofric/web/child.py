@@ -204,19 +204,21 @@ def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
         words, problems = shown.words("page"), [beside_field(one) for one in getattr(shown, "mistakes", ())]
         return {
             "message": words,
+            "code": shown.code,
             "field": shown.field,
             "problems": problems or [{"field": shown.field, "message": words}],
             "values": dict(shown.note.values),
         }
     if isinstance(error, MemoryError):
-        return {"message": _NO_MEMORY, "field": None}
+        return {"message": _NO_MEMORY, "code": "no-memory", "field": None}
     if type(error).__name__ == "ValidationError" and hasattr(error, "errors"):
         first = error.errors()[0]
         place = ".".join(["options", *map(str, first["loc"])])
-        return {"message": f"{place}: {first['msg']}.", "field": place}
+        return {"message": f"{place}: {first['msg']}.", "code": "wrong-option", "field": place}
     traceback.print_exception(error)
     words = brief(_without_folder(str(error), files))
-    return {"message": f"This is an error of viscofric, {type(error).__name__}: {words}.", "field": None}
+    said = f"This is an error of viscofric, {type(error).__name__}: {words}."
+    return {"message": said, "code": "internal-error", "field": None}
 
 
 def _without_folder(words: str, files: Path) -> str:

@@ -84,7 +84,9 @@ class Child:
         self.kill()
         self.process.wait()
         with contextlib.suppress(RuntimeError):
-            loop.call_soon_threadsafe(self._take, None, Message("ended", line("error", message=_ENDED, field=None)))
+            loop.call_soon_threadsafe(
+                self._take, None, Message("ended", line("error", message=_ENDED, code="process-ended", field=None))
+            )
 
     def _take(self, number: int | None, message: Message) -> None:
         if message.event == "ready":
@@ -186,7 +188,7 @@ class Children:
         """
         yield line("queued")
         if self._closed:
-            yield line("error", message=_STOPPED, field=None)
+            yield line("error", message=_STOPPED, code="stopped", field=None)
             return
         self.attach()
         child = await self._lend(str(folder))
@@ -215,7 +217,7 @@ class Children:
                 self._cancel(child)
 
     def _last_words(self, message: Message) -> bytes:
-        return line("error", message=_STOPPED, field=None) if self._closed else message.line
+        return line("error", message=_STOPPED, code="stopped", field=None) if self._closed else message.line
 
     async def _lend(self, key: str) -> Child:
         child = None if self._waiting else self._free(key)
@@ -342,7 +344,7 @@ async def _until(child: Child, sending: asyncio.Future[None], seconds: float) ->
         except TimeoutError:
             child.kill()
             words = f"This took longer than {seconds:.0f} s and was stopped; request less accuracy or fewer points."
-            yield Message("ended", line("error", message=words, field=None))
+            yield Message("ended", line("error", message=words, code="took-too-long", field=None))
             return
         yield message
         if message.event in _LAST:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -50,8 +51,10 @@ def test_interrupt_of_all_processes_ends_them_with_one_sentence(tmp_path: Path) 
     _, said = program.communicate(timeout=60.0)  # until the last of them has closed it
     assert program.returncode == 130
     solved = len(list((folder / "cases").iterdir()))
-    contacts = "1 contact that is" if solved == 1 else f"{solved} contacts that are"
-    assert said == (f"Interrupted. {folder} keeps the {contacts} solved; the same command with --resume continues.\n")
+    assert len(said.splitlines()) == 1  # no traceback
+    assert str(folder) in said
+    assert re.findall(r"\d+", said.split(str(folder))[1]) == [str(solved)]
+    assert "--resume" in said
 
 
 @pytest.mark.slow

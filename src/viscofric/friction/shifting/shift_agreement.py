@@ -32,6 +32,10 @@ CONVERGED = 1e-10
 ITERATIONS = 100
 
 
+#: Shift factors agree if differences as large as theirs have this probability or more.
+LIKELY = 0.05
+
+
 @dataclass(frozen=True, eq=False)
 class ShiftAgreement:
     """Agreement of two sets of shift factors about the same reference.
@@ -110,7 +114,7 @@ class ShiftAgreement:
         where = f"{shown_celsius(float(self.temperature.min()))} to {shown_celsius(float(self.temperature.max()))} °C"
         if self.temperature.size == 1:
             where = f"{shown_celsius(float(self.temperature[0]))} °C"
-        verdict = "agree within" if self.p_value >= 0.05 else "differ by more than"
+        verdict = "agree within" if self.p_value >= LIKELY else "differ by more than"
         return (
             f"The shift factors at {where}, relative to {shown_celsius(self.reference)} °C, differ by {self.rms:.2g} "
             f"decades (root mean square) and {verdict} their errors "

@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.arguments import insist_on, whole_number
 from viscofric.errors import DataFileError, InputError, check_choice, not_written, shortened
 from viscofric.files import file_path, read_text
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
 from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
 from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
@@ -358,5 +358,5 @@ def read_card(
     """
     card = open_card(path, format, modulus_unit=modulus_unit, time_unit=time_unit, temperature_unit=temperature_unit)
     for note in card.notes:
-        warnings.warn(f"{path}: {note}", stacklevel=2)
+        warnings.warn(note_of(note).at(str(path)), stacklevel=2)
     return card.material

@@ -13,6 +13,7 @@ import numpy as np
 from viscofric.contact.solution import ERRORS
 from viscofric.datasets import dataset
 from viscofric.files import parse_toml
+from viscofric.notes import Note
 from viscofric.study.results.case_table import CaseTable, common_cases
 
 if TYPE_CHECKING:
@@ -230,11 +231,15 @@ _SINGLE = {"data_origin": "data", "accuracy": "accuracy", "seed": "seed"}
 def provenance_differences(one: Mapping[Any, Any], other: Mapping[Any, Any]) -> Iterator[str]:
     """Yield the differences between the attributes of two results, one sentence each; friction curves have none."""
     if not one or not other:
-        yield "Friction curves have no provenance: versions, inputs and accuracy are not compared."
+        said = "Friction curves have no provenance: versions, inputs and accuracy are not compared."
+        yield Note("no-provenance", said)
         return
     for name, words in _SINGLE.items():
         if str(one.get(name)) != str(other.get(name)):
-            yield f"Another {words}: {one.get(name, 'unknown')} and {other.get(name, 'unknown')}."
+            first, second = one.get(name, "unknown"), other.get(name, "unknown")
+            yield Note(
+                f"another-{words}", f"Another {words}: {first} and {second}.", values={"values": [first, second]}
+            )
     yield from _versions(one, other)
     yield from _inputs(_table(one, "input_hashes"), _table(other, "input_hashes"))
     yield from _run_files(str(one.get("study_text", "")), str(other.get("study_text", "")))

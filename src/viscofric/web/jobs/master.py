@@ -147,7 +147,7 @@ def _found(
     """Return the master curve and shift factors found from friction alone, and their notes."""
     from viscofric.errors import InputError
     from viscofric.friction.shifting.shift import chosen_law
-    from viscofric.friction.shifting.shift_agreement import compare_shift_factors
+    from viscofric.friction.shifting.shift_agreement import LIKELY, compare_shift_factors
     from viscofric.report.data import law_line
     from viscofric.web.jobs.shift_numbers import with_bars
 
@@ -165,6 +165,7 @@ def _found(
         "factors": with_bars(factors.to_dataset()),
         "law": None if law is None else with_bars(law_line(law, *factors.temperatures[[0, -1]].tolist())),
         "agreement": None if agreement is None else agreement.sentence,
+        "agrees": None if agreement is None else agreement.p_value >= LIKELY,
         "download": _DOWNLOAD,
     }
     return _curve(master) | more, notes
