@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from viscofric.arguments import insist_on, whole_number
-from viscofric.errors import DataFileError, InputError, check_choice, not_written, shortened
+from viscofric.errors import DataFileError, InputError, check_choice, not_written, short_notes
 from viscofric.files import file_path, read_text
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
@@ -312,7 +312,7 @@ def open_card(
         reading = Reading(modulus_unit or modulus_unit_of(content), time_unit, temperature_unit)
         solid = _PROGRAMS[found].read(text, reading, content)
         material, notes = material_of(solid, content)
-        return Card(material, _PROGRAMS[found].name, tuple(map(shortened, (*solid.notes, *notes))))
+        return Card(material, _PROGRAMS[found].name, short_notes((*solid.notes, *notes)))
     except DataFileError:
         raise
     except InputError as error:
