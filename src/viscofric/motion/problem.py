@@ -36,3 +36,9 @@ class Problem:
     accuracy: float
     layer: Layer | None
     counterface: float
+
+    @property
+    def kind(self) -> str:
+        """Kind of contact: "point", "line" or "periodic"."""
+        geometry = getattr(self.indenter, "geometry", None)
+        return "periodic" if geometry is None else ("line", "point")[geometry.dimension - 1]

@@ -97,6 +97,24 @@ def solve_transient(
     >>> (1e3 * run.contact_radius).round(3).tolist()
     [1.015, 1.555, 1.778]
     """
+    insist_on_function(progress, "progress")
+    problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
+    asked = _checked_times(times, problem.schedule)
+    mover, method = mover_of(problem, history)
+    track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
+    return assemble(track, problem, history, method)
+
+
+def checked_problem(
+    material: Material,
+    indenter: Indenter | PeriodicSurface,
+    history: History,
+    accuracy: float,
+    layer: Layer | None,
+    indenter_modulus: Quantity | None,
+    indenter_poisson_ratio: float,
+) -> Problem:
+    """Return the problem that the arguments of `solve_transient` describe; InputError where one cannot be used."""
     insist_on_material(material)
     if not isinstance(indenter, (Indenter, PeriodicSurface)):
         raise InputError(
@@ -117,18 +135,13 @@ def solve_transient(
         raise InputError(
             f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
         )
-    insist_on_function(progress, "progress")
     kind = "periodic" if isinstance(indenter, PeriodicSurface) else ("line", "point")[indenter.geometry.dimension - 1]
     schedule = history.schedule(material, kind)
-    asked = _checked_times(times, schedule)
     counterface = indenter_compliance(indenter_modulus, indenter_poisson_ratio)
-    problem = Problem(material, indenter, schedule, accuracy, layer, counterface)
-    mover, method = _mover(problem, history)
-    track = march(mover, schedule, accuracy=accuracy, times=asked, progress=progress)
-    return _assemble(track, schedule, history, kind, method, material)
+    return Problem(material, indenter, schedule, accuracy, layer, counterface)
 
 
-def _mover(problem: Problem, history: History) -> tuple[Mover[Any], str]:
+def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:
     """Return what solves this contact, and the name of the method."""
     indenter = problem.indenter
     if isinstance(indenter, Indenter) and not history.moves and problem.layer is None:
@@ -166,10 +179,11 @@ def _checked_times(times: Quantities | None, schedule: Schedule) -> list[float] 
     return [float(one) for one in seconds]
 
 
-def _assemble(
-    track: Track[Any], schedule: Schedule, history: History, kind: str, method: str, material: Material
+def assemble(
+    track: Track[Any], problem: Problem, history: History, method: str, *, continued: bool = False
 ) -> TransientSolution:
-    moments = track.moments
+    """Return the solution of a march; `continued` if it did not begin with an untouched or steady solid."""
+    moments, schedule = track.moments, problem.schedule
 
     def column(value: Callable[[Moment[Any]], float]) -> Array:
         return np.array([value(one) for one in moments], dtype=float)
@@ -181,7 +195,7 @@ def _assemble(
 
     x, y = history.direction
     stored, dissipated = column(lambda one: one.seen.stored), column(lambda one: one.seen.dissipated)
-    first = float(moments[0].seen.stored) if moments and schedule.before != "untouched" else 0.0
+    first = float(moments[0].seen.stored) if moments and (continued or schedule.before != "untouched") else 0.0
     work = column(lambda one: one.work)
     errors = TransientErrors(
         load=column(lambda one: one.errors.load),
@@ -216,8 +230,8 @@ def _assemble(
         rejected_steps=track.rejected,
         interrupted=track.interrupted,
         method=method,
-        geometry=kind,
+        geometry=problem.kind,
         direction=history.direction,
-        warnings=tuple(material.notes_on_modes),
+        warnings=tuple(problem.material.notes_on_modes),
         _fields=tuple(one.field for one in moments),
     )
