@@ -138,14 +138,15 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})
 
 
-_OPTIONS = (
-    click.option(
-        "--direction",
-        metavar="ANGLE|DX,DY",
-        default="1,0",
-        show_default=True,
-        help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
-    ),
+#: The direction of the motion.
+direction_option = click.option(
+    "--direction",
+    metavar="ANGLE|DX,DY",
+    default="1,0",
+    show_default=True,
+    help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
+)
+_ELASTIC = (
     click.option(
         "--indenter-modulus", metavar="E", help="Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."
     ),
@@ -155,6 +156,10 @@ _OPTIONS = (
         metavar="ν",
         help="Poisson's ratio of an elastic indenter [default: 0.3].",
     ),
+)
+_OPTIONS = (
+    direction_option,
+    *_ELASTIC,
     click.option(
         "--accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of the friction."
     ),
@@ -171,6 +176,13 @@ def contact_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+def elastic_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of an elastic indenter."""
+    for one in reversed(_ELASTIC):
+        function = one(function)
+    return function
+
+
 def inputs_of(parameters: dict[str, Any]) -> list[Path]:
     """Return the files that rubber and indenter are read from."""
     rubber = [] if parameters["material"] is None else [Path(parameters["material"])]
@@ -180,16 +192,51 @@ def inputs_of(parameters: dict[str, Any]) -> list[Path]:
 
 def contact_settings(parameters: dict[str, Any]) -> dict[str, Any]:
     """Return the settings of `solve_steady` of the options."""
+    return {
+        "direction": chosen_direction(parameters["direction"]),
+        **elastic_settings(parameters),
+        "accuracy": parameters["accuracy"],
+        "backend": parameters["backend"],
+    }
+
+
+def elastic_settings(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the settings of an elastic indenter of the options."""
     if parameters["indenter_poisson_ratio"] is not None and parameters["indenter_modulus"] is None:
         raise click.UsageError("--indenter-poisson-ratio is for --indenter-modulus only; a rigid indenter has none.")
     ratio = parameters["indenter_poisson_ratio"]
     return {
-        "direction": chosen_direction(parameters["direction"]),
         "indenter_modulus": parameters["indenter_modulus"],
         "indenter_poisson_ratio": 0.3 if ratio is None else float(ratio),
-        "accuracy": parameters["accuracy"],
-        "backend": parameters["backend"],
     }
+
+
+def elastic_record(parameters: dict[str, Any]) -> dict[str, Any] | None:
+    """Return an elastic indenter in plain types, SI; none for a rigid one."""
+    from viscofric.units import to_si
+
+    settings = elastic_settings(parameters)
+    if settings["indenter_modulus"] is None:
+        return None
+    return {
+        "modulus": to_si(settings["indenter_modulus"], "Pa"),
+        "poisson_ratio": settings["indenter_poisson_ratio"],
+    }
+
+
+def chosen_speeds(text: str, points: int) -> list[float]:
+    """Return the speeds (m/s) that a list or a range names."""
+    from viscofric.units import positive
+
+    ends = [end.strip() for end in text.split(" to ")]
+    if len(ends) == 1:
+        return [positive(one.strip(), "m/s", "--speed") for one in text.split(",")]
+    if len(ends) > 2:
+        raise click.BadParameter(f"{text!r}: a range has two ends: '1 mm/s to 1 m/s'.", param_hint="--speed")
+    first, last = (positive(end, "m/s", "--speed") for end in ends)
+    if first == last:
+        raise click.BadParameter(f"{text!r}: the range has one speed only; give it alone.", param_hint="--speed")
+    return [float(speed) for speed in np.geomspace(first, last, points)]
 
 
 def chosen_direction(text: str) -> tuple[float, float]:

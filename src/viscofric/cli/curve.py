@@ -11,6 +11,7 @@ import click
 
 from viscofric.cli.contact_options import (
     chosen_indenter,
+    chosen_speeds,
     contact_options,
     contact_settings,
     indenter_options,
@@ -102,7 +103,7 @@ def command(
         from viscofric.cli.progress import contact_bar
         from viscofric.friction.prediction import predict_friction
 
-        velocities = [speed for text in speeds for speed in _speeds(text, points)]
+        velocities = [speed for text in speeds for speed in chosen_speeds(text, points)]
         rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
         kelvins = _kelvins(rubber.material, temperatures)
         settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
@@ -127,23 +128,6 @@ def command(
         print_notes(curves.notes)
         for written in write_curves(curves, out, picture, predicted=True, synthetic=rubber.synthetic):
             click.echo(written, err=as_json or out == DASH)
-
-
-def _speeds(text: str, points: int) -> list[float]:
-    """Return the speeds (m/s) that a list or a range names."""
-    import numpy as np
-
-    from viscofric.units import positive
-
-    ends = [end.strip() for end in text.split(" to ")]
-    if len(ends) == 1:
-        return [positive(one.strip(), "m/s", "--speed") for one in text.split(",")]
-    if len(ends) > 2:
-        raise click.BadParameter(f"{text!r}: a range has two ends: '1 mm/s to 1 m/s'.", param_hint="--speed")
-    first, last = (positive(end, "m/s", "--speed") for end in ends)
-    if first == last:
-        raise click.BadParameter(f"{text!r}: the range has one speed only; give it alone.", param_hint="--speed")
-    return [float(speed) for speed in np.geomspace(first, last, points)]
 
 
 def _kelvins(material: Material, texts: tuple[str, ...]) -> list[float]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import sys
 from contextlib import contextmanager
 from functools import partial
@@ -13,6 +15,8 @@ import click
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+
+    import xarray
 
     from viscofric.contact.solution import ContactSolution
     from viscofric.friction.curves import FrictionCurves
@@ -124,7 +128,25 @@ def write_fields(path: Path, solution: ContactSolution) -> None:
     """
     from viscofric.files import write_atomically
 
-    write_atomically(path, _table(solution) if path.suffix.lower() == ".csv" else _netcdf(path, solution))
+    write_atomically(path, _table(solution) if path.suffix.lower() == ".csv" else _netcdf(path, solution.to_dataset()))
+
+
+def write_dataset(path: Path, data: xarray.Dataset) -> None:
+    """Write a data set: netCDF, or a table (CSV, a row for each point; `-` prints it), by the ending of the name."""
+    from viscofric.files import write_atomically
+
+    if path.suffix.lower() == ".nc":
+        write_atomically(path, _netcdf(path, data))
+        return
+    from viscofric.study.results.columns import columns_of, written
+
+    names, units, columns = columns_of(data)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
+    writer.writerows(zip(*(map(written, column) for column in columns), strict=True))
+    with to_be_written(path) as target:
+        write_atomically(target, text.getvalue().encode())
 
 
 def _table(solution: ContactSolution) -> bytes:
@@ -136,13 +158,13 @@ def _table(solution: ContactSolution) -> bytes:
     return "\n".join(["x (m),y (m),pressure (Pa),displacement (m)", *rows, ""]).encode()
 
 
-def _netcdf(path: Path, solution: ContactSolution) -> bytes:
+def _netcdf(path: Path, data: xarray.Dataset) -> bytes:
     from viscofric.errors import not_written
 
     try:
         with TemporaryDirectory(prefix="viscofric") as folder:
             made = Path(folder) / "fields.nc"
-            solution.to_dataset().to_netcdf(made, engine="h5netcdf")
+            data.to_netcdf(made, engine="h5netcdf")
             return made.read_bytes()
     except OSError as error:
         raise not_written(path, error) from error

@@ -30,6 +30,8 @@ GROUPS = {
     "Contact": {
         "solve": "Solve one contact: friction, pressure, picture.",
         "curve": "Predict friction against speed and temperature.",
+        "transient": "Solve one contact over time: dwell, start, return.",
+        "impact": "Solve an impact: restitution, contact time, force.",
     },
     "Friction": {
         "measure": "Separate Coulomb and viscoelastic friction (MTM).",

@@ -13,7 +13,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from types import TracebackType
     from typing import Self
 
@@ -140,6 +140,25 @@ class JsonProgress(Silent):
     def _line(self, values: dict[str, Any]) -> None:
         self._output.write(json.dumps(values, ensure_ascii=False) + "\n")
         self._output.flush()
+
+
+@contextmanager
+def time_bar(words: str, *, quiet: bool) -> Iterator[Callable[[float, float], None]]:
+    """Show the time reached on standard error as long as the block runs, if that is a terminal."""
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=24),
+        TextColumn("{task.fields[reached]}"),
+        TimeRemainingColumn(elapsed_when_finished=True),
+    )
+    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
+        task = bars.add_task(words, total=None, reached="")
+
+        def show(reached: float, last: float) -> None:
+            bars.update(task, completed=reached, total=last, reached=f"t = {reached:.4g} of {last:.4g} s")
+
+        yield show
 
 
 class Bar(Protocol):

@@ -16,6 +16,7 @@ from viscofric.cli.contact_options import (
     chosen_indenter,
     contact_options,
     contact_settings,
+    elastic_record,
     indenter_options,
     inputs_of,
 )
@@ -145,17 +146,11 @@ def _inputs(
     """Return the request, in SI units; an infinite speed is the word."""
     from viscofric.units import to_si
 
-    modulus, layer = parameters["indenter_modulus"], chosen_layer(parameters)
-    elastic = None
-    if modulus is not None:
-        elastic = {
-            "modulus": to_si(modulus, "Pa"),
-            "poisson_ratio": contact_settings(parameters)["indenter_poisson_ratio"],
-        }
+    layer = chosen_layer(parameters)
     return {
         "material": rubber.record(solution.temperature),
         "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
-        "indenter": shape.record | {"elastic": elastic},
+        "indenter": shape.record | {"elastic": elastic_record(parameters)},
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
         "direction": list(solution.direction),
         "held": "load" if parameters["load"] is not None else "indentation",

@@ -131,6 +131,11 @@ class TransientSolution:
         largest = max(float(np.abs(one).max()) for one in (self.work, self.stored, self.dissipated))
         return float(np.abs(self.errors.balance).max()) / largest if largest > 0.0 else 0.0
 
+    @property
+    def has_pressures(self) -> bool:
+        """Whether pressures were kept."""
+        return any(one is not None for one in self._fields)
+
     def pressure_at(self, time: Quantity) -> xarray.DataArray:
         """Return the pressure at one of the times.
 

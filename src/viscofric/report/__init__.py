@@ -16,7 +16,12 @@ if TYPE_CHECKING:
         plot_friction_master_curve,
     )
     from viscofric.report.figures.identified import plot_identified_modulus
-    from viscofric.report.figures.motion import plot_friction_loop, plot_transient
+    from viscofric.report.figures.motion import (
+        plot_force_depth,
+        plot_friction_loop,
+        plot_restitution,
+        plot_transient,
+    )
     from viscofric.report.figures.pressures import plot_pressure_profiles, pressure_strip, transient_figure
     from viscofric.report.figures.ramps import plot_amplitude_sweep, plot_temperature_ramps
     from viscofric.report.figures.rubber import (
@@ -65,7 +70,9 @@ _HOME = {
     "plot_van_gurp_palmen": "viscofric.report.figures.superposition",
     "plot_vertical_shift": "viscofric.report.figures.shift_factors",
     "plot_wicket": "viscofric.report.figures.superposition",
+    "plot_force_depth": "viscofric.report.figures.motion",
     "plot_friction_loop": "viscofric.report.figures.motion",
+    "plot_restitution": "viscofric.report.figures.motion",
     "plot_transient": "viscofric.report.figures.motion",
     "plot_pressure_profiles": "viscofric.report.figures.pressures",
     "pressure_strip": "viscofric.report.figures.pressures",
@@ -81,6 +88,7 @@ __all__ = [
     "plot_booij_thoone_palmen",
     "plot_cole_cole",
     "plot_coulomb_friction",
+    "plot_force_depth",
     "plot_friction_curves",
     "plot_friction_loop",
     "plot_friction_master_curve",
@@ -92,6 +100,7 @@ __all__ = [
     "plot_pressure_profiles",
     "plot_relaxation_spectrum",
     "plot_residuals",
+    "plot_restitution",
     "plot_retardation_spectrum",
     "plot_shift_comparison",
     "plot_shift_factors",

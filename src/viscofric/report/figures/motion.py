@@ -1,4 +1,4 @@
-"""Figures of contacts over time: forces, depth and contact against time or distance, friction loops."""
+"""Figures of contacts over time: forces, depth, contact against time or distance, friction loops, restitution."""
 
 from __future__ import annotations
 
@@ -7,7 +7,21 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.errors import check_choice
-from viscofric.report.figures.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION, Unit, unit_for
+from viscofric.report.figures.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    PURPLE,
+    VERMILION,
+    Unit,
+    looks,
+    speed_ticks,
+    unit_for,
+)
+from viscofric.report.texts.numbers import degrees, prefixed
+from viscofric.units import celsius
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -95,6 +109,21 @@ def plot_transient(axes: Axes, data: xr.Dataset, quantity: str = "friction_coeff
         axes.legend(loc="best")
 
 
+def plot_force_depth(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the load against the indentation; the area below the way down less that of the way back is lost.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    data : xarray.Dataset
+        As `TransientSolution.to_dataset` returns it.
+    """
+    depth, load = _unit_of(data, ["indentation"]), _unit_of(data, ["load"])
+    axes.plot(np.asarray(data["indentation"]) / depth.size, np.asarray(data["load"]) / load.size, color=INK)
+    axes.set_xlabel(f"{_title(data, 'indentation')} ({depth.name})")
+    axes.set_ylabel(f"{_title(data, 'load')} ({load.name})")
+
+
 def plot_friction_loop(axes: Axes, data: xr.Dataset) -> None:
     """Draw the friction force against the position along its direction, with arrows in the order of time.
 
@@ -121,6 +150,40 @@ def plot_friction_loop(axes: Axes, data: xr.Dataset) -> None:
         )
     axes.set_xlabel(f"position along the motion ({where.name})")
     axes.set_ylabel(f"{_title(data, 'friction_force')} ({unit.name})")
+
+
+def plot_restitution(axes: Axes, data: xr.Dataset) -> None:
+    """Draw the restitution of an impact against speed, a line for each temperature, or against temperature if longer.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    data : xarray.Dataset
+        As `RestitutionCurve.to_dataset` returns it.
+    """
+    curve = data["restitution"]
+    if "temperature" not in curve.dims:
+        curve = curve.expand_dims("temperature")
+    speeds, values = np.asarray(data["speed"]), np.asarray(curve.transpose("temperature", "speed"))
+    kelvins = np.atleast_1d(np.asarray(data["temperature"])) if "temperature" in data.coords else None
+    if kelvins is not None and len(kelvins) > len(speeds):
+        for value, column, look in zip(speeds, values.T, looks(len(speeds)), strict=True):
+            words = prefixed(float(value), None, "m/s")
+            celsius_values = [celsius(float(one)) for one in kelvins]
+            axes.plot(celsius_values, column, color=look.colour, marker=look.marker, label=words)
+        axes.set_xlabel("temperature (°C)")
+    else:
+        names = [""] if kelvins is None else [degrees(float(one)) for one in kelvins]
+        for words, row, look in zip(names, values, looks(len(values)), strict=True):
+            axes.plot(speeds, row, color=look.colour, marker=look.marker, label=words)
+        if len(speeds) > 1:
+            axes.set_xscale("log")
+            speed_ticks(axes.xaxis)
+        axes.set_xlabel("speed of the impact (m/s)")
+    axes.set_ylim(0.0, 1.05)
+    axes.set_ylabel("coefficient of restitution $e$")
+    if kelvins is not None:
+        axes.legend(loc="best")
 
 
 def position_along(data: xr.Dataset) -> Array:

@@ -1,4 +1,4 @@
-"""Pressures of a contact at several times: profiles, a strip of maps, and one figure of the whole history."""
+"""Pressures of a contact at several times: profiles, a strip of maps; figures of a whole history and of impacts."""
 
 from __future__ import annotations
 
@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import matplotlib
 import numpy as np
 
-from viscofric.report.figures.motion import moves, plot_friction_loop, plot_transient, returns
+from viscofric.report.figures.motion import (
+    moves,
+    plot_force_depth,
+    plot_friction_loop,
+    plot_restitution,
+    plot_transient,
+    returns,
+)
 from viscofric.report.figures.style import BLUE, INK, Unit, new_figure, sequential_looks, unit_for
 from viscofric.report.texts.numbers import prefixed
 from viscofric.units import to_si_array
@@ -22,6 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from viscofric.arrays import Array
+    from viscofric.motion.impact_solution import RestitutionCurve
     from viscofric.motion.solution import TransientSolution
     from viscofric.units import Quantities
 
@@ -180,11 +188,29 @@ def transient_figure(run: TransientSolution, title: str = "") -> Figure:
         plot_transient(panel, data, quantity)
         panel.set_xlabel(panel.get_xlabel() if quantity == rows[-1] else "")
     above, below = right.subplots(2, 1)
-    plot_pressure_profiles(above, run)
+    if run.has_pressures:
+        plot_pressure_profiles(above, run)
+    else:
+        plot_force_depth(above, data)
     if slides and returns(data):
         plot_friction_loop(below, data)
     else:
         plot_transient(below, data, "energy")
+    if title:
+        figure.suptitle(title, fontsize=10.5)
+    return figure
+
+
+def restitution_figure(curve: RestitutionCurve, title: str = "") -> Figure:
+    """Return a figure of the restitution of impacts.
+
+    Parameters
+    ----------
+    curve : RestitutionCurve
+    title : str
+    """
+    figure = new_figure()
+    plot_restitution(figure.subplots(), curve.to_dataset())
     if title:
         figure.suptitle(title, fontsize=10.5)
     return figure

@@ -1,0 +1,166 @@
+"""Options of a history: load or depth, dwell and slide, or a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+
+from viscofric.cli.contact_options import chosen_direction, option
+from viscofric.cli.files import Source
+from viscofric.cli.rubber_options import column_options
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.motion.history import History
+
+_MOST_POINTS = 100_000
+#: Options that a file of the history replaces.
+_STAGES = ("load_time", "dwell", "slide", "strokes")
+_OPTIONS = (
+    click.option(
+        "--history",
+        type=Source(),
+        metavar="FILE",
+        help="History as a table (CSV or .xlsx): time, load or indentation, position or speed, temperature; units in "
+        "the headings.",
+    ),
+    column_options("'load=Fz (N)'", "history-", "With --history: "),
+    click.option(
+        "--load", metavar="F", help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m')."
+    ),
+    click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load."),
+    click.option(
+        "--load-time",
+        metavar="TIME",
+        help="Time in which load or indentation rise from zero [default: at once].",
+    ),
+    click.option("--dwell", metavar="TIME", help="Time at rest before the sliding, e.g. '0.1 s' [default: none]."),
+    click.option("--slide", metavar="LENGTH", help="Length of the path, e.g. '20 mm' [default: no sliding]."),
+    click.option(
+        "--strokes",
+        type=click.IntRange(1, 10_000),
+        help="Times the path is followed, forth and back [default: 1].",
+    ),
+    click.option("--speed", metavar="V", help="Sliding speed, e.g. '100 mm/s'."),
+    click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference]."),
+    click.option(
+        "--before",
+        type=click.Choice(["untouched", "at rest", "sliding"]),
+        default="untouched",
+        show_default=True,
+        help="State before the start: untouched, under the first load for ever, or sliding steadily.",
+    ),
+    click.option("--times", metavar="T,T,…", help="Times to report, e.g. '1 ms, 10 ms' [default: all steps]."),
+    click.option(
+        "--points",
+        type=click.IntRange(2, _MOST_POINTS),
+        help="Number of evenly spaced times to report, instead of --times.",
+    ),
+)
+
+
+def history_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a history."""
+    for one in reversed(_OPTIONS):
+        function = one(function)
+    return function
+
+
+def history_inputs(parameters: dict[str, Any]) -> list[Path]:
+    """Return the file that the history is read from."""
+    return [] if parameters["history"] is None else [Path(parameters["history"])]
+
+
+def chosen_history(parameters: dict[str, Any], dimension: int, reference: float | None) -> History:
+    """Return the history of the options, for a contact of one (line) or two dimensions.
+
+    Without a temperature it is the material's reference, K.
+    """
+    if parameters["history"] is not None:
+        return _from_file(parameters, reference)
+    for name in ("history_columns", "history_sheet"):
+        if parameters[name]:
+            raise click.UsageError(f"{option(name).removesuffix('s')} is for --history only.")
+    return _from_stages(parameters, "N/m" if dimension == 1 else "N", reference)
+
+
+def chosen_times(parameters: dict[str, Any], history: History) -> Any:
+    """Return the times to report, s; None: all steps."""
+    if parameters["times"] is not None and parameters["points"] is not None:
+        raise click.UsageError("--times and --points are both given; give one of them.")
+    if parameters["points"] is not None:
+        return np.linspace(float(history.time[0]), float(history.time[-1]), parameters["points"])
+    if parameters["times"] is None:
+        return None
+    return [time.strip() for time in parameters["times"].split(",")]
+
+
+def _from_file(parameters: dict[str, Any], reference: float | None) -> History:
+    from viscofric.motion.history_files import read_history
+
+    for name in _STAGES:
+        if parameters[name] is not None:
+            raise click.UsageError(f"{option(name)} and --history are both given; the file has the whole history.")
+    names = ("load", "indentation", "speed", "temperature")
+    settings = {name: parameters[name] for name in names if parameters[name] is not None}
+    settings |= {"before": parameters["before"], "direction": chosen_direction(parameters["direction"])}
+    settings |= {"columns": parameters["history_columns"], "sheet": parameters["history_sheet"]}
+    history = read_history(parameters["history"], **settings)
+    if history.temperature is not None or reference is None:
+        return history
+    return read_history(parameters["history"], **{**settings, "temperature": reference})
+
+
+def _from_stages(parameters: dict[str, Any], unit: str, reference: float | None) -> History:
+    """Return a load put on at once or in some time, a dwell, and a slide forth and back."""
+    from viscofric.motion.history import History
+    from viscofric.units import positive, to_si
+
+    given = {name: parameters[name] for name in ("load", "indentation") if parameters[name] is not None}
+    if len(given) != 1:
+        raise click.UsageError("give either --load or --indentation, one of them, or --history.")
+    ((control, text),) = given.items()
+    value = to_si(text, unit if control == "load" else "m", control)
+    if (parameters["slide"] is None) != (parameters["speed"] is None):
+        raise click.UsageError("--slide and --speed belong together: the length of the path, and how fast it is.")
+    if parameters["strokes"] is not None and parameters["slide"] is None:
+        raise click.UsageError("--strokes is for --slide only.")
+    time, values, speeds = [0.0], [value], [0.0]
+
+    def stage(duration: float, speed: float) -> None:
+        """Go on for a time; a change of the speed is a jump."""
+        if speed != speeds[-1]:
+            if len(time) > 1:
+                time.append(time[-1])
+                values.append(value)
+                speeds.append(speed)
+            else:
+                speeds[-1] = speed
+        time.append(time[-1] + duration)
+        values.append(value)
+        speeds.append(speed)
+
+    if parameters["load_time"] is not None:
+        values[0] = 0.0
+        stage(positive(parameters["load_time"], "s", "load_time"), 0.0)
+    if parameters["dwell"] is not None:
+        stage(positive(parameters["dwell"], "s", "dwell"), 0.0)
+    if parameters["slide"] is not None:
+        speed = positive(parameters["speed"], "m/s", "speed")
+        duration = positive(parameters["slide"], "m", "slide") / speed
+        for stroke in range(parameters["strokes"] or 1):
+            stage(duration, speed if stroke % 2 == 0 else -speed)
+    if len(time) == 1:
+        raise click.UsageError("the history has no duration; give --dwell, --load-time, or --slide with --speed.")
+    return History(
+        time,
+        **{control: values},
+        speed=speeds,
+        temperature=reference if parameters["temperature"] is None else parameters["temperature"],
+        before=parameters["before"],
+        direction=chosen_direction(parameters["direction"]),
+    )

@@ -1,0 +1,187 @@
+"""``viscofric impact``: restitution of a falling indenter, at one or several speeds and temperatures."""
+
+from __future__ import annotations
+
+import json
+import time
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.contact_options import (
+    chosen_indenter,
+    chosen_speeds,
+    elastic_options,
+    elastic_record,
+    elastic_settings,
+    indenter_options,
+    inputs_of,
+)
+from viscofric.cli.errors import reported_errors
+from viscofric.cli.files import DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, write_dataset
+from viscofric.cli.rubber_options import chosen_rubber, rubber_options
+
+if TYPE_CHECKING:
+    from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
+
+_FILE = click.Path(path_type=Path, dir_okay=False)
+_TABLES = (".nc", ".csv")
+_MOST_POINTS = 1000
+
+_EXAMPLE = """\b
+Examples:
+  viscofric impact --material "synthetic fluoroelastomer" --ball "5 mm" --mass "4 g" \\
+      --speed "1 m/s" --temperature "20 degC" --gravity "9.81 m/s^2" --rebounds 3
+  viscofric impact --material "synthetic fluoroelastomer" --ball "5 mm" --mass "4 g" \\
+      --speed "1 m/s" --temperature "-20 degC, 0 degC, 20 degC" --picture rebound.svg
+"""
+
+
+@click.command(name="impact", epilog=_EXAMPLE)
+@rubber_options
+@indenter_options
+@click.option("--mass", required=True, metavar="M", help="Mass of the indenter, e.g. '4 g'.")
+@click.option(
+    "--speed",
+    "speeds",
+    required=True,
+    multiple=True,
+    metavar="V",
+    help="Speed at the first touch, list ('0.5 m/s, 1 m/s') or range ('0.1 m/s to 10 m/s').",
+)
+@click.option(
+    "--speed-points",
+    type=click.IntRange(2, _MOST_POINTS),
+    default=13,
+    show_default=True,
+    help="Number of speeds of a range, evenly spaced in log v.",
+)
+@click.option(
+    "--temperature",
+    "temperatures",
+    multiple=True,
+    metavar="T",
+    help="Temperature or list, e.g. '0 degC, 20 degC' [default: the material's reference].",
+)
+@click.option("--gravity", metavar="G", help="Acceleration towards the material, e.g. '9.81 m/s^2' [default: none].")
+@click.option(
+    "--rebounds",
+    type=click.IntRange(1, 1000),
+    default=1,
+    show_default=True,
+    help="Largest number of contacts; several need --gravity.",
+)
+@elastic_options
+@click.option(
+    "--accuracy", type=float, default=1e-4, show_default=True, help="Target error of the restitution, absolute."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print inputs and results as JSON, in SI units.")
+@click.option(
+    "-o", "--out", type=OUT, help="Write the contact over time, or the curve of several (.csv or .nc); `-` prints it."
+)
+@click.option(
+    "--picture", type=_FILE, help="Draw the contact over time, or the restitution of several (PNG, SVG or PDF)."
+)
+def command(as_json: bool, out: Path | None, picture: Path | None, **parameters: Any) -> None:
+    """Solve the impact of a body of revolution of some mass: restitution, contact time, largest force.
+
+    Quantities carry their unit. Several speeds or temperatures give the restitution curve.
+    """
+    check_ending(out, "--out", _TABLES)
+    check_ending(picture, "--picture", PICTURES)
+    for target in (out, picture):
+        if target is not None:
+            refuse_to_overwrite(target, inputs_of(parameters))
+    if parameters["layer"] is not None or parameters["sliding_base"]:
+        raise click.UsageError("impacts are solved on a half-space only; leave out --layer and --sliding-base.")
+    with reported_errors():
+        rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
+        speeds = [speed for text in parameters["speeds"] for speed in chosen_speeds(text, parameters["speed_points"])]
+        kelvins = _kelvins(parameters["temperatures"], rubber.material.reference)
+        several = len(speeds) > 1 or len(kelvins or []) > 1
+        if several and parameters["rebounds"] > 1:
+            raise click.UsageError("--rebounds is for one speed and one temperature.")
+        began = time.perf_counter()
+        result = _solved(rubber.material, shape.indenter, speeds, kelvins, parameters)
+        seconds = time.perf_counter() - began
+        name = f"{shape.words} on {rubber.name}"
+        if as_json:
+            inputs = {
+                "material": rubber.record(None if kelvins is None else kelvins[0]),
+                "indenter": shape.record | {"elastic": elastic_record(parameters)},
+                **{key: parameters[key] for key in ("mass", "gravity", "rebounds", "accuracy")},
+                "speed": speeds,
+                "temperature": kelvins,
+            }
+            from viscofric.report.texts.motion import impact_record
+
+            click.echo(json.dumps(impact_record(inputs, result, seconds), ensure_ascii=False, allow_nan=False))
+        elif out != DASH:
+            synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
+            click.echo(f"{name}{synthetic}, {parameters['mass']}\n")
+            _print(result, seconds)
+        if out is not None:
+            write_dataset(out, result.to_dataset())
+        said = [] if out in (None, DASH) else [f"data     {out}"]
+        if picture is not None:
+            _draw(picture, name, result, rubber.synthetic)
+            said.append(f"picture  {picture}")
+        for written in said:
+            click.echo(written, err=as_json or out == DASH)
+        for warning in result.warnings:
+            click.echo(f"Warning: {warning}", err=True)
+
+
+def _kelvins(texts: tuple[str, ...], reference: float | None) -> list[float] | None:
+    """Return the temperatures, K; without any that of the material's reference, or None."""
+    from viscofric.units import positive
+
+    given = [positive(one.strip(), "K", "--temperature") for text in texts for one in text.split(",")]
+    return given or (None if reference is None else [reference])
+
+
+def _solved(
+    material: Any, indenter: Any, speeds: list[float], kelvins: list[float] | None, parameters: dict[str, Any]
+) -> ImpactSolution | RestitutionCurve:
+    from viscofric.motion.impact import restitution_curve, solve_impact
+
+    settings = {
+        "mass": parameters["mass"],
+        "gravity": 0.0 if parameters["gravity"] is None else parameters["gravity"],
+        "accuracy": parameters["accuracy"],
+        **elastic_settings(parameters),
+    }
+    if len(speeds) == 1 and len(kelvins or [None]) == 1:
+        one = None if kelvins is None else kelvins[0]
+        return solve_impact(
+            material, indenter, speed=speeds[0], rebounds=parameters["rebounds"], temperature=one, **settings
+        )
+    return restitution_curve(material, indenter, speeds=speeds, temperatures=kelvins, **settings)
+
+
+def _print(result: ImpactSolution | RestitutionCurve, seconds: float) -> None:
+    from viscofric.motion.impact_solution import RestitutionCurve
+    from viscofric.report.texts.motion import impact_lines, restitution_lines
+
+    if isinstance(result, RestitutionCurve):
+        for line in restitution_lines(result):
+            click.echo(line)
+        return
+    lines = impact_lines(result, seconds)
+    width = max(len(quantity) for quantity, _ in lines)
+    for quantity, value in lines:
+        click.echo(f"{quantity:<{width}}  {value}")
+
+
+def _draw(path: Path, name: str, result: ImpactSolution | RestitutionCurve, synthetic: bool) -> None:
+    from viscofric.motion.impact_solution import RestitutionCurve
+    from viscofric.report.figures.pressures import restitution_figure, transient_figure
+    from viscofric.report.figures.saving import save_picture
+
+    if isinstance(result, RestitutionCurve):
+        draw = partial(restitution_figure, result, name)
+    else:
+        draw = partial(transient_figure, result.run, name)
+    save_picture(path, draw, name="impact", synthetic=synthetic)

@@ -1,0 +1,193 @@
+"""Contacts over time and impacts: lines for people, plain types for other programs."""
+
+from __future__ import annotations
+
+import math
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.datasets import plain, record
+from viscofric.notes import listed
+from viscofric.report.texts.numbers import degrees, length, prefixed, short, significant, with_error
+from viscofric.report.texts.tables import aligned
+
+if TYPE_CHECKING:
+    from viscofric.motion.history import History
+    from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
+    from viscofric.motion.solution import TransientSolution
+
+#: Friction below this part of the largest load is rounding.
+_ROUND_OFF = 1e-12
+_FORCES = {"point": ("N", "J"), "line": ("N/m", "J/m"), "periodic": ("Pa", "J/m²")}
+
+
+def history_words(history: History) -> str:
+    """Return a history in one line: how long, under what, how far, at which temperature, and what was before."""
+    duration = float(history.time[-1] - history.time[0])
+    units = {"load": history.load_unit or "N", "indentation": "m", "pressure": "Pa", "gap": "m"}
+    values = getattr(history, history.control)
+    way = float(np.hypot(*np.diff(history.position, axis=0).T).sum())
+    parts = [
+        prefixed(duration, None, "s"),
+        f"{history.control} {_range(values, units[history.control])}",
+        f"path {length(way)}" if way else "no sliding",
+    ]
+    if history.temperature is not None:
+        low, high = float(history.temperature.min()), float(history.temperature.max())
+        parts.append(degrees(low) if low == high else f"{degrees(low)} to {degrees(high)}")
+    return ", ".join([*parts, f"{history.before} before"])
+
+
+def _range(values: Any, unit: str) -> str:
+    low, high = float(np.min(values)), float(np.max(values))
+    if low == high:
+        return prefixed(high, None, unit)
+    return f"{prefixed(low, None, unit)} to {prefixed(high, None, unit)}"
+
+
+def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, str]]:
+    """Return what an engineer wants to know of a contact over time, as pairs of name and value.
+
+    Parameters
+    ----------
+    run : TransientSolution
+    seconds : float
+        That it took.
+    """
+    force, energy = _FORCES[run.geometry]
+    slides = bool(np.any(run.position != run.position[0]))
+    lines = [
+        ("at the end", f"after {prefixed(float(run.time[-1] - run.time[0]), None, 's')}"),
+        ("  load", prefixed(float(run.load[-1]), float(run.errors.load[-1]), force)),
+        ("  indentation", length(float(run.indentation[-1]), float(run.errors.indentation[-1]))),
+        *_contact(run),
+    ]
+    if slides:
+        lines += [("  friction coefficient", _friction(run, -1)), ("largest friction", _largest(run))]
+    lines += [
+        ("work on the material", prefixed(float(run.work[-1]), None, energy)),
+        ("  stored", prefixed(float(run.stored[-1]), None, energy)),
+        ("  dissipated", prefixed(float(run.dissipated[-1]), float(run.errors.energy[-1]), energy)),
+        ("  energy balance", f"{100.0 * run.energy_imbalance:.1g} % at most"),
+        ("steps", f"{run.steps}, {run.rejected_steps} rejected; {len(run.time)} times returned"),
+        ("time", f"{seconds:.2f} s"),
+    ]
+    return lines
+
+
+def _contact(run: TransientSolution) -> list[tuple[str, str]]:
+    """Return the lines of the contact at the end."""
+    if run.contact_radius is not None:
+        return [("  contact radius", length(float(run.contact_radius[-1])))]
+    if run.front is None or run.rear is None:
+        return [("  contact area", f"{short(100.0 * float(run.contact_area[-1]))} %")]
+    lines = [("  ahead of the axis", length(float(run.front[-1]))), ("  behind the axis", length(float(run.rear[-1])))]
+    if run.half_width is not None:
+        lines.append(("  half width across", length(float(run.half_width[-1]))))
+    return lines
+
+
+def _friction(run: TransientSolution, place: int) -> str:
+    load = float(run.load[place])
+    if load <= 0.0:
+        return "– (no load)"
+    if abs(float(run.friction_force[place])) <= _ROUND_OFF * load:
+        return "0"
+    return with_error(float(run.friction_coefficient[place]), float(run.errors.friction_force[place]) / load)
+
+
+def _largest(run: TransientSolution) -> str:
+    """Return the largest friction coefficient in size, and when and where it was reached."""
+    place = int(np.abs(run.friction_coefficient).argmax())
+    steps = np.hypot(*np.diff(run.position[: place + 1], axis=0).T)
+    after = prefixed(float(run.time[place] - run.time[0]), None, "s")
+    return f"{_friction(run, place)} after {after} and {length(float(steps.sum()))}"
+
+
+def impact_lines(hit: ImpactSolution, seconds: float) -> list[tuple[str, str]]:
+    """Return what an engineer wants to know of an impact, as pairs of name and value.
+
+    Parameters
+    ----------
+    hit : ImpactSolution
+    seconds : float
+        That it took.
+    """
+    lines: list[tuple[str, str]] = []
+    for number, one in enumerate(hit.contacts, 1):
+        stays = not math.isfinite(one.contact_time)
+        if len(hit.contacts) > 1:
+            lines.append((f"contact {number}", f"{prefixed(one.start, None, 's')} after the first touch"))
+        lines += [
+            ("restitution", "0 (stays)" if stays else with_error(one.restitution, one.restitution_error)),
+            ("  speed", prefixed(one.speed, None, "m/s")),
+            ("  contact time", "without end" if stays else prefixed(one.contact_time, None, "s")),
+            ("  largest force", prefixed(one.peak_force, None, "N")),
+            ("  largest indentation", length(one.largest_indentation)),
+        ]
+    balance = f"{100.0 * hit.run.energy_imbalance:.1g} % at most"
+    return [*lines, ("energy balance", balance), ("time", f"{seconds:.2f} s")]
+
+
+def restitution_lines(curve: RestitutionCurve) -> list[str]:
+    """Return a table of the restitution: a line for each speed, a column for each temperature."""
+    columns = [["speed (m/s)", *(significant(speed, 4) for speed in curve.speed.tolist())]]
+    kelvins = [None] if curve.temperature is None else curve.temperature.tolist()
+    for kelvin, row, errors in zip(kelvins, curve.restitution, curve.restitution_error, strict=True):
+        heading = "restitution" if kelvin is None else f"e at {degrees(kelvin)}"
+        columns.append([heading, *map(with_error, row.tolist(), errors.tolist())])
+    return aligned(zip(*columns, strict=True))
+
+
+def impact_record(inputs: dict[str, Any], result: ImpactSolution | RestitutionCurve, seconds: float) -> dict[str, Any]:
+    """Return an impact, or several, in plain types: inputs, results, and the units of their names.
+
+    Parameters
+    ----------
+    inputs : dict
+        What was requested, in SI units and plain types.
+    result : ImpactSolution or RestitutionCurve
+    seconds : float
+        That it took.
+    """
+    contacts = [one._asdict() for one in getattr(result, "contacts", ())]
+    return {
+        "format": "viscofric impact 1",
+        "viscofric_version": version("viscofric"),
+        "inputs": inputs,
+        **({"contacts": plain(contacts, None)} if contacts else {}),
+        "results": record(result.to_dataset()),
+        **listed("warnings", result.warnings),
+        "seconds": seconds,
+    }
+
+
+def transient_record(
+    inputs: dict[str, Any], history: History, run: TransientSolution, seconds: float
+) -> dict[str, Any]:
+    """Return a contact over time in plain types: inputs, results along time, and the units of their names.
+
+    Parameters
+    ----------
+    inputs : dict
+        What was requested, in SI units and plain types, without the history.
+    history : History
+    run : TransientSolution
+    seconds : float
+        That it took.
+    """
+    columns = {name: getattr(history, name) for name in ("time", history.control, "position", "speed", "temperature")}
+    said = {name: plain(values, None) for name, values in columns.items() if values is not None}
+    return {
+        "format": "viscofric transient 1",
+        "viscofric_version": version("viscofric"),
+        "inputs": inputs | {"history": said | {"before": history.before, "direction": list(history.direction)}},
+        "results": record(run.to_dataset()),
+        "interrupted": run.interrupted,
+        "steps": run.steps,
+        "rejected_steps": run.rejected_steps,
+        **listed("warnings", run.warnings),
+        "seconds": seconds,
+    }

@@ -1,0 +1,212 @@
+"""`viscofric transient` and `impact` as users meet them: words, JSON, tables, drawings, and how they fail."""
+
+from __future__ import annotations
+
+import json
+from contextlib import contextmanager
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+import xarray
+from click.testing import CliRunner, Result
+
+import viscofric as vf
+from cli.refusals import refusal
+from viscofric.cli import main, progress
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "10 ms")
+BALL = ("--ball", "10 mm")
+PRESS = (*RUBBER, *BALL, "--load", "1 N", "--dwell", "0.1 s")
+HIT = (*RUBBER, *BALL, "--mass", "33 g")
+SOLID = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "10 ms")
+
+
+def call(*arguments: object) -> Result:
+    done = CliRunner().invoke(main, [*map(str, arguments)])
+    assert done.exit_code == 0, done.output
+    return done
+
+
+@cache
+def record(*arguments: object) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(
+        call(*arguments, "--json").stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON")
+    )
+    return found
+
+
+def lines(done: Result) -> dict[str, str]:
+    found = (line.split("  ", 1) for line in done.stdout.replace("\n  ", "\n").splitlines() if "  " in line)
+    return {one: value.strip() for one, value in found}
+
+
+def test_json_holds_what_python_gives() -> None:
+    found = record("transient", *PRESS, "--times", "1 ms, 0.1 s")
+    run = vf.solve_transient(SOLID, vf.Ball("10 mm"), vf.History([0.0, 0.1], load=1.0), times=["1 ms", "0.1 s"])
+    results = found["results"]
+    for name in ("time", "indentation", "contact_radius", "dissipated"):
+        assert results[name] == getattr(run, name).tolist(), name
+        assert results["units"][name] in ("s", "m", "J")
+    assert found["inputs"]["history"] == {
+        "time": [0.0, 0.1], "load": [1.0, 1.0], "position": [[0.0, 0.0], [0.0, 0.0]],
+        "speed": [[0.0, 0.0], [0.0, 0.0]], "before": "untouched", "direction": [1.0, 0.0],
+    }  # fmt: skip
+    assert found["inputs"]["indenter"] == {"shape": "ball", "radius": 0.01, "elastic": None}
+    assert (found["interrupted"], found["warnings"], found["steps"]) == (False, [], run.steps)
+
+
+def test_words_show_the_end_and_the_energies() -> None:
+    found = lines(call("transient", *PRESS))
+    # a³ = (3/4)(1 − ν²) R F J(t) with J = 1e-6 (1 − 0.9 e^{−t/τ}) (Lee and Radok)
+    radius = (0.75 * 0.75 * 0.01 * 1e-6 * (1.0 - 0.9 * np.exp(-10.0))) ** (1.0 / 3.0)
+    assert float(found["contact radius"].split()[0]) == pytest.approx(1e3 * radius, rel=1e-3)
+    stored, dissipated, work = (found[name].split() for name in ("stored", "dissipated", "work on the material"))
+    assert {stored[-1], dissipated[-1], work[-1]} == {"µJ"}
+    assert float(stored[0]) + float(dissipated[0]) == pytest.approx(float(work[0]), rel=1e-3)
+
+
+def test_a_load_may_rise_and_a_depth_be_held() -> None:
+    found = record("transient", *RUBBER, *BALL, "--indentation", "0.1 mm", "--load-time", "10 ms", "--dwell", "50 ms")
+    history = found["inputs"]["history"]
+    assert (history["time"], history["indentation"]) == ([0.0, 0.01, pytest.approx(0.06)], [0.0, 1e-4, 1e-4])
+    assert found["results"]["load"][-1] < max(found["results"]["load"])
+
+
+def test_points_are_evenly_spaced_and_the_temperature_is_the_reference() -> None:
+    found = record(
+        "transient", "--material", "synthetic fluoroelastomer", *BALL, "--load", "1 N", "--dwell", "1 ms", "--points", 3
+    )
+    assert found["results"]["time"] == [0.0, 5e-4, 1e-3]
+    assert found["inputs"]["history"]["temperature"] == 2 * [vf.synthetic_fluoroelastomer().reference]
+
+
+def test_histories_come_from_files(tmp_path: Path) -> None:
+    path = tmp_path / "history.csv"
+    path.write_text("clock (ms);F (N)\n0;0\n10;1\n110;1\n", encoding="utf-8")
+    words = ("transient", *RUBBER, *BALL, "--history", path, "--history-column", "time=clock (ms)")
+    found = record(*words, "--before", "at rest")
+    assert found["inputs"]["history"]["time"] == pytest.approx([0.0, 0.01, 0.11], rel=1e-14)
+    assert found["inputs"]["history"]["before"] == "at rest"
+    ramp = record("transient", *PRESS, "--load-time", "10 ms")
+    assert found["results"]["indentation"][-1] == pytest.approx(ramp["results"]["indentation"][-1], rel=1e-6)
+    assert refusal(*words, "--load", "1 N")[:2] == (1, "give-one")
+    assert refusal(*words[:-2])[:3] == (1, "missing-columns", "history.columns")
+    assert refusal(*words, "--dwell", "1 s").status == 2
+    assert refusal(*words, "--out", path)[:2] == (1, "is-input")
+
+
+def test_tables_and_drawings_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscofric.report.figures.animation.FRAMES", 2)
+    monkeypatch.setattr("viscofric.report.figures.animation._SECONDS", 1.0)
+    drawings = [tmp_path / name for name in ("run.svg", "strip.png", "run.gif")]
+    call(
+        "transient", *PRESS, "--times", "1 ms, 0.1 s", "--out", tmp_path / "run.csv", "--picture", drawings[0],
+        "--pressures", drawings[1], "--animation", drawings[2],
+    )  # fmt: skip
+    assert all(path.stat().st_size > 0 for path in drawings)
+    table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
+    assert table["time_s"].tolist() == [1e-3, 0.1]
+    call("transient", *PRESS, "--times", "1 ms, 0.1 s", "-o", tmp_path / "run.nc", "--json")
+    with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as data:
+        assert data["indentation"].attrs["units"] == "m"
+        np.testing.assert_allclose(data["indentation"], table["indentation_m"], rtol=1e-14)
+    printed = call("transient", *PRESS, "--times", "1 ms", "--out", "-").stdout.splitlines()
+    assert (len(printed), printed[0].split(",")[0]) == (2, "time (s)")
+
+
+def test_an_interruption_keeps_what_was_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    @contextmanager
+    def impatient(words: str, *, quiet: bool) -> Iterator[Callable[[float, float], None]]:
+        def show(reached: float, last: float) -> None:
+            if reached > 0.5 * last:
+                raise KeyboardInterrupt
+
+        yield show
+
+    monkeypatch.setattr(progress, "time_bar", impatient)
+    done = CliRunner().invoke(main, ["transient", *PRESS, "--out", str(tmp_path / "run.csv")])
+    assert done.exit_code == 130
+    reached = np.loadtxt(tmp_path / "run.csv", delimiter=",", skiprows=1)[-1, 0]
+    assert 0.05 < reached < 0.1
+    assert f"{reached:.4g} s" in done.stderr
+    assert f"{1e3 * reached:.4g}"[:4] in lines(done)["at the end"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "code"),
+    [
+        ((*RUBBER, *BALL, "--load", "1 N"), 2, ""),  # no duration
+        ((*RUBBER, *BALL, "--dwell", "1 s"), 2, ""),  # no load
+        ((*PRESS, "--indentation", "1 mm"), 2, ""),
+        ((*PRESS, "--slide", "1 mm"), 2, ""),  # no speed
+        ((*PRESS, "--strokes", 2), 2, ""),
+        ((*PRESS, "--times", "1 ms", "--points", 3), 2, ""),
+        ((*PRESS, "--history-sheet", "a"), 2, ""),
+        ((*PRESS, "--animation", "a.mp4"), 2, ""),
+        ((*PRESS, "--times", "1 s"), 1, "out-of-range"),
+        ((*PRESS, "--times", "1"), 1, "no-unit"),
+        ((*PRESS, "--dwell", "-1 s"), 1, "not-positive"),
+        ((*PRESS, "--load", "1 N/m"), 1, "wrong-unit"),
+        ((*PRESS, "--temperature", "60 degC"), 1, "no-shift"),
+        ((*PRESS, "--before", "sliding"), 1, "not-sliding"),
+        ((*PRESS, "--accuracy", 2), 1, "out-of-range"),
+        ((*PRESS, "--history", "none.csv"), 2, ""),
+        ((*RUBBER, *BALL, "--history", "none.csv"), 1, "no-file"),
+    ],
+    ids=lambda value: " ".join(map(str, value[-2:])) if isinstance(value, tuple) else "",
+)
+def test_mistakes_are_refused(
+    arguments: tuple[object, ...], status: int, code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = refusal("transient", *arguments)
+    assert (found.status, found.code) == (status, code), found
+
+
+def test_one_impact_is_reported_with_its_rebounds(tmp_path: Path) -> None:
+    words = ("impact", *HIT, "--speed", "0.1 m/s", "--gravity", "9.81 m/s^2", "--rebounds", 2, "--accuracy", 1e-2)
+    found = record(*words)
+    hit = vf.solve_impact(SOLID, vf.Ball("10 mm"), mass="33 g", speed=0.1, gravity=9.81, rebounds=2, accuracy=1e-2)
+    assert [one["restitution"] for one in found["contacts"]] == [one.restitution for one in hit.contacts]
+    assert found["results"]["velocity"] == hit.velocity.tolist()
+    done = call(*words, "--picture", tmp_path / "hit.svg", "--out", tmp_path / "hit.nc")
+    assert done.stdout.count("\nrestitution") == len(hit.contacts)
+    assert float(lines(done)["largest indentation"].split()[0]) > 0.0
+    assert (tmp_path / "hit.svg").stat().st_size > 0
+    with xarray.open_dataset(tmp_path / "hit.nc", engine="h5netcdf") as data:
+        assert data.attrs["contacts"] == len(hit.contacts)
+
+
+def test_several_impacts_are_a_curve(tmp_path: Path) -> None:
+    words = ("impact", *HIT, "--speed", "0.1 m/s, 1 m/s")
+    found = record(*words)
+    assert found["results"]["speed"] == [0.1, 1.0]
+    hit = vf.solve_impact(SOLID, vf.Ball("10 mm"), mass="33 g", speed="0.1 m/s")
+    assert found["results"]["restitution"][0] == hit.restitution
+    done = call(*words, "--picture", tmp_path / "curve.svg", "--out", tmp_path / "curve.csv")
+    assert (tmp_path / "curve.svg").stat().st_size > 0
+    table = np.genfromtxt(tmp_path / "curve.csv", delimiter=",", names=True)
+    assert table["restitution"].tolist() == found["results"]["restitution"]
+    printed = [line.split() for line in done.stdout.splitlines() if "±" in line]
+    assert [float(row[1]) for row in printed] == pytest.approx(found["results"]["restitution"], abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "code"),
+    [
+        ((*HIT, "--speed", "1 m/s, 2 m/s", "--rebounds", 2), 2, ""),
+        ((*HIT, "--speed", "1 m/s", "--layer", "1 mm"), 2, ""),
+        ((*HIT, "--speed", "1"), 1, "no-unit"),
+        ((*RUBBER, "--cylinder", "1 cm", "--mass", "1 g", "--speed", "1 m/s"), 1, "not-available"),
+    ],
+    ids=lambda value: " ".join(map(str, value[-2:])) if isinstance(value, tuple) else "",
+)
+def test_wrong_impacts_are_refused(arguments: tuple[object, ...], status: int, code: str) -> None:
+    found = refusal("impact", *arguments)
+    assert (found.status, found.code) == (status, code), found
