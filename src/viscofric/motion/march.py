@@ -14,11 +14,12 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Generic, NamedTuple
+from typing import TYPE_CHECKING, Generic
 
 import numpy as np
 
 from viscofric.errors import ConvergenceError
+from viscofric.motion.chains import Errors, Link, Pair, difference, over_scales
 from viscofric.motion.mover import Field, Mover, Observation, Scales, State
 
 if TYPE_CHECKING:
@@ -28,21 +29,12 @@ if TYPE_CHECKING:
     from viscofric.motion.schedule import Instant, Schedule
 
 #: First share of the accuracy that one step may add to the difference of the chains.
-_SHARE = 0.1
+_SHARE = 0.05
 _MOST_MARCHES = 6
 #: Changes of the step from one to the next; order 3 of the local error.
 _SHRINK, _GROW, _SAFETY = 0.1, 3.0, 0.85
 #: First step of an interval, and the least one, as parts of the interval.
 _FIRST, _LEAST = 1.0 / 32.0, 1e-10
-
-
-class Errors(NamedTuple):
-    """Estimated errors at one time, absolute."""
-
-    load: float
-    depth: float
-    friction: float
-    energy: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +59,7 @@ class Track(Generic[State]):
         Steps taken (of the coarse chain, those of the last march), and those rejected.
     interrupted : bool
         Whether the march was interrupted before the end.
-    final : _Pair
+    final : Pair
         States of both chains at the last time, from which another march may continue.
     """
 
@@ -75,22 +67,7 @@ class Track(Generic[State]):
     steps: int
     rejected: int
     interrupted: bool
-    final: _Pair[State]
-
-
-class _Link(NamedTuple, Generic[State]):
-    """A state of one chain with what is seen of it, and the work so far."""
-
-    state: State
-    seen: Observation
-    work: float
-
-
-class _Pair(NamedTuple, Generic[State]):
-    """Both chains at one time."""
-
-    coarse: _Link[State]
-    fine: _Link[State]
+    final: Pair[State]
 
 
 class _TooLargeError(Exception):
@@ -108,7 +85,7 @@ def march(
     times: Sequence[float] | None = None,
     fields: bool = True,
     progress: Callable[[float, float], object] | None = None,
-    begin: _Pair[State] | None = None,
+    begin: Pair[State] | None = None,
 ) -> Track[State]:
     """March through a schedule.
 
@@ -158,13 +135,14 @@ class _March(Generic[State]):
     taken: int = 0
     rejected: int = 0
 
-    def run(self, begin: _Pair[State] | None) -> Track[State]:
+    def run(self, begin: Pair[State] | None) -> Track[State]:
         mover, schedule = self.mover, self.schedule
         self._scales = mover.scales
+        self._pace = 0.0  # of the interval before, if no jump ended it
         if begin is None:
             state = mover.begin()
-            link = _Link(state, mover.observe(state), 0.0)
-            pair = _Pair(link, link)
+            link = Link(state, mover.observe(state), 0.0)
+            pair = Pair(link, link)
             if schedule.before == "untouched":
                 first = schedule.at(schedule.start, after=False)
                 pair = self._jump(pair, first, first)
@@ -189,7 +167,7 @@ class _March(Generic[State]):
         edges = [start, *stops, end]
         return list(itertools.pairwise(edges))
 
-    def _stop_at_kink(self, pair: _Pair[State], time: float) -> _Pair[State]:
+    def _stop_at_kink(self, pair: Pair[State], time: float) -> Pair[State]:
         """Record the state at a kink, take its jump if there is one, and record that too."""
         schedule = self.schedule
         wanted = 0 if self.times is None else sum(1 for one in self.times if one == time)
@@ -206,28 +184,30 @@ class _March(Generic[State]):
         self._record(pair, after, asked=wanted > 0)
         return pair
 
-    def _jump(self, pair: _Pair[State], before: Instant, after: Instant) -> _Pair[State]:
+    def _jump(self, pair: Pair[State], before: Instant, after: Instant) -> Pair[State]:
         """Take a jump on both chains: the response is elastic, and its work is stored."""
         links = []
+        self._pace = 0.0
         for link in pair:
             state = self.mover.step(link.state, before, after)
             seen = self.mover.observe(state)
             self.mover.accept(state, after)
-            links.append(_Link(state, seen, link.work + seen.stored - link.seen.stored))
-        return self._seen(_Pair(*links))
+            links.append(Link(state, seen, link.work + seen.stored - link.seen.stored))
+        return self._seen(Pair(*links))
 
-    def _interval(self, pair: _Pair[State], start: float, end: float) -> _Pair[State]:
+    def _interval(self, pair: Pair[State], start: float, end: float) -> Pair[State]:
         """March through a part without kinks."""
         ticks = self.mover.ticks(self.schedule.at(start), self.schedule.at(end, after=False))
         if ticks is None:
             return self._freely(pair, start, end)
         return self._by_ticks(pair, start, np.asarray(ticks))
 
-    def _freely(self, pair: _Pair[State], start: float, end: float) -> _Pair[State]:
-        time, step = start, _FIRST * (end - start)
+    def _freely(self, pair: Pair[State], start: float, end: float) -> Pair[State]:
+        time, step = start, self._pace or _FIRST * (end - start)
         while time < end:
             # no splinter at the end
             left = end - time
+            proposed = step
             step = left if step >= left else min(step, 0.5 * left)
             reached = end if step == left else time + step
             tried = self._try(pair, [time, 0.5 * (time + reached), reached])
@@ -238,10 +218,12 @@ class _March(Generic[State]):
                 continue
             pair = self._take(tried, reached, end)
             time = reached
-            step *= min(_GROW, _SAFETY * max(ratio, 1e-6) ** (-1.0 / 3.0))
+            # A step that an end has cut short says little about the next one.
+            step = max(proposed if step < proposed and ratio < 1.0 else 0.0, step * _growth(ratio))
+        self._pace = step
         return pair
 
-    def _by_ticks(self, pair: _Pair[State], start: float, ticks: Array) -> _Pair[State]:
+    def _by_ticks(self, pair: Pair[State], start: float, ticks: Array) -> Pair[State]:
         """March by whole ticks: two or more for the coarse chain, half as many for the fine one."""
         edges = np.concatenate([[start], ticks])
         place, count = 0, 2
@@ -257,40 +239,38 @@ class _March(Generic[State]):
                 continue
             place += count
             pair = self._take(tried, float(edges[place]), float(ticks[-1]))
-            grown = count * min(_GROW, _SAFETY * max(ratio, 1e-6) ** (-1.0 / 3.0))
-            count = max(2, 2 * int(0.5 * grown))
+            count = max(2, 2 * int(0.5 * count * _growth(ratio)))
         return pair
 
-    def _try(self, pair: _Pair[State], times: list[float]) -> _Pair[State]:
+    def _try(self, pair: Pair[State], times: list[float]) -> Pair[State]:
         """Step from the first time to the last: the coarse chain at once, the fine one by those in between too."""
         last = self.schedule.end
         instants = [self.schedule.at(time, after=place == 0 and time < last) for place, time in enumerate(times)]
         fine = pair.fine
         for start, end in itertools.pairwise(instants):
             fine = self._step(fine, start, end)
-        return _Pair(self._step(pair.coarse, instants[0], instants[-1]), fine)
+        return Pair(self._step(pair.coarse, instants[0], instants[-1]), fine)
 
-    def _step(self, link: _Link[State], start: Instant, end: Instant) -> _Link[State]:
+    def _step(self, link: Link[State], start: Instant, end: Instant) -> Link[State]:
         state = self.mover.step(link.state, start, end)
         seen, before = self.mover.observe(state), link.seen
         work = 0.5 * (seen.load + before.load) * (seen.depth - before.depth)
         for axis in (0, 1):
             force = 0.5 * (seen.friction_force[axis] + before.friction_force[axis])
             work += force * float(end.position[axis] - start.position[axis])
-        return _Link(state, seen, link.work + work)
+        return Link(state, seen, link.work + work)
 
-    def _ratio(self, pair: _Pair[State], tried: _Pair[State]) -> float:
+    def _ratio(self, pair: Pair[State], tried: Pair[State]) -> float:
         """Return by how much a step adds to the difference of the chains, over what it may add."""
-        before, after = _difference(pair), _difference(tried)
         scales = self._with(tried)
-        added = max(abs(two - one) / scale for one, two, scale in zip(before, after, scales, strict=True))
-        return added / (self.share * self.accuracy)
+        before, after = (over_scales(difference(one), scales) for one in (pair, tried))
+        return max(abs(two - one) for one, two in zip(before, after, strict=True)) / (self.share * self.accuracy)
 
-    def _take(self, tried: _Pair[State], reached: float, end: float) -> _Pair[State]:
+    def _take(self, tried: Pair[State], reached: float, end: float) -> Pair[State]:
         self.taken += 1
         self.mover.accept(tried.fine.state, self.schedule.at(reached, after=False))
         pair = self._seen(tried)
-        worst = max(abs(one) / scale for one, scale in zip(_difference(pair), self._scales, strict=True)) / 3.0
+        worst = max(map(abs, over_scales(difference(pair), self._scales))) / 3.0
         if worst > self.accuracy:
             raise _TooLargeError(worst / self.accuracy)
         if self.times is None and reached < end:
@@ -299,7 +279,7 @@ class _March(Generic[State]):
             self.progress(reached, self.schedule.end)
         return pair
 
-    def _with(self, pair: _Pair[State]) -> Scales:
+    def _with(self, pair: Pair[State]) -> Scales:
         """Return the scales with the values of a state."""
         seen, old = pair.fine.seen, self._scales
         return Scales(
@@ -309,15 +289,16 @@ class _March(Generic[State]):
             max(old.energy, abs(pair.fine.work), seen.stored, seen.dissipated),
         )
 
-    def _seen(self, pair: _Pair[State]) -> _Pair[State]:
+    def _seen(self, pair: Pair[State]) -> Pair[State]:
         self._scales = self._with(pair)
         return pair
 
-    def _record(self, pair: _Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:
+    def _record(self, pair: Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:
         if not asked and self.times is not None:
             return
         coarse, fine = pair
-        errors = Errors(*(abs(one) / 3.0 for one in _difference(pair)))
+        load, depth, along, across, *energies = (abs(one) / 3.0 for one in difference(pair))
+        errors = Errors(load, depth, math.hypot(along, across), max(energies))
         # What is added up over all steps is smooth enough to be extrapolated.
         stored, dissipated, work = (
             two + (two - one) / 3.0
@@ -332,10 +313,5 @@ class _March(Generic[State]):
         self.moments += times * [Moment(instant, seen, work, errors, held)]
 
 
-def _difference(pair: _Pair[State]) -> tuple[float, float, float, float]:
-    """Return fine less coarse: load, depth, friction (as long as the vector), and energy (work or dissipation)."""
-    coarse, fine = pair.coarse.seen, pair.fine.seen
-    along, across = (two - one for one, two in zip(coarse.friction_force, fine.friction_force, strict=True))
-    friction = math.copysign(math.hypot(along, across), along if abs(along) >= abs(across) else across)
-    energies = (pair.fine.work - pair.coarse.work, fine.dissipated - coarse.dissipated)
-    return fine.load - coarse.load, fine.depth - coarse.depth, friction, max(energies, key=abs)
+def _growth(ratio: float) -> float:
+    return min(_GROW, float(_SAFETY * max(ratio, 1e-6) ** (-1.0 / 3.0)))

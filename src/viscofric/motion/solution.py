@@ -92,6 +92,9 @@ class TransientSolution:
         Of the history: that of the friction force.
     warnings : tuple of str
         One note for each assumption that is doubtful.
+    dent : array or None
+        Depth of the surface under the indenter's lowest point, m: what is left of the indentation after a contact; None
+        where it is not known.
     """
 
     time: Array
@@ -117,6 +120,7 @@ class TransientSolution:
     geometry: str
     direction: tuple[float, float]
     warnings: tuple[str, ...] = ()
+    dent: Array | None = None
     _fields: tuple[Field | None, ...] = field(default=(), repr=False)
 
     @property
@@ -186,6 +190,7 @@ class TransientSolution:
         for name in ("contact_radius", "front", "rear", "half_width"):
             values = getattr(self, name)
             columns[name] = None if values is None else (values, "m", name.replace("_", " "))
+        columns["dent"] = None if self.dent is None else (self.dent, "m", "depth of the surface on the axis")
         columns |= {
             "work": (self.work, energy, "work on the material"),
             "stored": (self.stored, energy, "stored energy"),

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.arguments import insist_on_function, number
 from viscofric.contact.bodies import Layer, indenter_compliance
+from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import InputError, brief
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from viscofric.motion.march import Moment, Track
     from viscofric.motion.mover import Mover
     from viscofric.motion.schedule import Schedule
+    from viscofric.notes import Note
     from viscofric.units import Quantities
 
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
@@ -232,6 +235,25 @@ def assemble(
         method=method,
         geometry=problem.kind,
         direction=history.direction,
-        warnings=tuple(problem.material.notes_on_modes),
+        warnings=(*_doubts(problem.indenter, moments), *problem.material.notes_on_modes),
+        dent=extent("dent"),
         _fields=tuple(one.field for one in moments),
     )
+
+
+def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]]) -> tuple[Note, ...]:
+    """Refuse a contact wider than the indenter; return notes on large strain."""
+    if not isinstance(indenter, Indenter) or not moments:
+        return ()
+
+    def largest(*names: str) -> float:
+        return max((one.seen.extents.get(name, 0.0) for name in names for one in moments), default=0.0)
+
+    radius = largest("contact_radius")
+    widest = Extent(max(radius, largest("rear")), max(radius, largest("front")), max(radius, largest("half_width")))
+    if math.isinf(widest.side):  # of a line contact
+        widest = widest._replace(side=0.0)
+    load = max(one.seen.load for one in moments)
+    indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}")
+    deepest = max(one.seen.depth for one in moments)
+    return tuple(filter(None, [indenter.strain_warning(widest, deepest)]))
