@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import command_pages
 import curve_file_pages
 import overview_figure
-import published_pages
 import results_pages
 import run_file_pages
 import tutorial_figures
@@ -31,7 +30,6 @@ def generate(app: Sphinx) -> None:
     results_pages.generate()
     tutorial_figures.generate()
     verification_pages.generate()
-    published_pages.generate()
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -1,8 +1,9 @@
-"""Tables and figures of the verification page, from the checks of `viscofric verify` themselves."""
+"""Tables and figures of the pages of verification and of published results, from the checks of `viscofric verify`."""
 
 from __future__ import annotations
 
 import io
+import re
 from typing import TYPE_CHECKING
 
 import matplotlib
@@ -10,14 +11,25 @@ import numpy as np
 from page_parts import digest, is_made_of, made_of, table, write
 
 from viscofric.report.figures.style import STYLE, new_figure
-from viscofric.report.figures.verification import plot_errors, plot_hunter, plot_orders, plot_windows
-from viscofric.verification import CHECKS, Comparison, Outcome, run_checks
+from viscofric.report.figures.verification import (
+    plot_deviations,
+    plot_errors,
+    plot_hunter,
+    plot_orders,
+    plot_sliding_ball,
+    plot_windows,
+)
+from viscofric.verification import CHECKS, Check, Comparison, Outcome, run_checks
 from viscofric.verification.line import ACCURACY, MEMORY_LENGTHS, MODULUS_RATIOS, hunter
 from viscofric.verification.model_problems import SLOPE
+from viscofric.verification.published import PUBLISHED
+from viscofric.verification.published.contacts import BALL_POINTS, sliding_ball
 from viscofric.verification.refinement import REFINEMENTS, Refinement
 from viscofric.verification.windows import Windows, windows
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from matplotlib.figure import Figure
 
 #: Errors below this are called round-off: their digits differ from machine to machine.
@@ -173,6 +185,7 @@ def windows_figure(found: Windows) -> Figure:
 
 #: What all of it depends on, of the package.
 DEPENDS_ON = ("contact", "rheology", "verification", "report/figures/verification.py", "report/figures/style.py")
+PUBLISHED_DEPENDS_ON = (*DEPENDS_ON, "roughness")
 
 
 def drawn(figure: Figure, name: str, letters: str = "none") -> bytes:
@@ -215,24 +228,79 @@ def figures(outcomes: list[Outcome], refinements: list[Refinement], limit: Windo
     return made
 
 
-def generate() -> None:
-    """Run all checks if their code has changed, and write the results.
+def published_numbers(outcomes: list[Outcome]) -> str:
+    rows = []
+    for outcome in outcomes:
+        for place, one in enumerate(outcome.comparisons):
+            name = f"`{outcome.check.name}`" if place == 0 else ""
+            bound = f"{one.bound:.1e}"
+            rows.append([name, one.case, one.quantity, number(one.expected), number(one.computed), error(one), bound])
+    return table(["check", "case", "quantity", "theirs", "viscofric", "difference", "bound"], rows)
+
+
+def linked(text: str) -> str:
+    """Return a text with its DOIs as links."""
+    return re.sub(r"doi:(10\.[^\s,;()]+)", r"[doi:\1](https://doi.org/\1)", text)
+
+
+def origins(outcomes: list[Outcome]) -> str:
+    entries = []
+    for outcome in outcomes:
+        check = outcome.check
+        entry = f"`{check.name}`\n: {check.title}.\n\n  **Source:** {linked(check.source)}."
+        entry += f"\n\n  **Obtained:** {check.obtained}"
+        if check.unstated:
+            entry += f"\n\n  **Not stated:** {check.unstated}"
+        entries.append(f"{entry}\n\n  **Bounds:** {check.reason}")
+    return "\n\n".join(entries)
+
+
+def published_figure(outcomes: list[Outcome]) -> Figure:
+    memory = np.geomspace(0.03, 30.0, 40)
+    made = new_figure(10.0, 4.2)
+    left, right = made.subplots(1, 2, width_ratios=[1.0, 1.2])
+    friction = np.array([sliding_ball(float(one)) for one in memory])
+    plot_sliding_ball(left, memory, friction, np.array(BALL_POINTS))
+    deviations = {}
+    for outcome in outcomes:
+        scale = [abs(one.expected) if one.measure == "absolute" else 1.0 for one in outcome.comparisons]
+        errors = np.array([one.error for one in outcome.comparisons]) / scale
+        deviations[outcome.check.name] = errors, np.array([one.bound for one in outcome.comparisons]) / scale
+    plot_deviations(right, deviations)
+    return made
+
+
+def checked(page: str, checks: Iterable[Check], depends_on: tuple[str, ...]) -> list[Outcome] | None:
+    """Run the checks of a page if the code that they depend on has changed; None if not.
 
     Raises
     ------
     RuntimeError
         If a check fails: it is not to be published.
     """
-    state = digest(*DEPENDS_ON)
-    if is_made_of("verification", state):
-        return
-    outcomes = list(run_checks(CHECKS, lambda check: None))
+    if is_made_of(page, digest(*depends_on)):
+        return None
+    outcomes = list(run_checks(checks, lambda check: None))
     failed = [outcome.check.name for outcome in outcomes if not outcome.passed]
     if failed:
-        raise RuntimeError(f"checks of the verification page failed: {', '.join(failed)}")
-    refinements, limit = [make() for make in REFINEMENTS], windows()
-    for name, text in tables(outcomes, refinements, limit).items():
-        write(f"verification/{name}.md", text)
-    for name, image in figures(outcomes, refinements, limit).items():
-        write(f"verification/{name}.svg", image)
-    made_of("verification", state)
+        raise RuntimeError(f"checks of the page of {page} failed: {', '.join(failed)}")
+    return outcomes
+
+
+def generate() -> None:
+    """Run the checks of both pages if their code has changed, and write the results."""
+    outcomes = checked("verification", CHECKS, DEPENDS_ON)
+    if outcomes is not None:
+        refinements, limit = [make() for make in REFINEMENTS], windows()
+        for name, text in tables(outcomes, refinements, limit).items():
+            write(f"verification/{name}.md", text)
+        for name, image in figures(outcomes, refinements, limit).items():
+            write(f"verification/{name}.svg", image)
+        made_of("verification", digest(*DEPENDS_ON))
+    outcomes = checked("published", PUBLISHED, PUBLISHED_DEPENDS_ON)
+    if outcomes is not None:
+        write("published/numbers.md", published_numbers(outcomes))
+        write("published/origins.md", origins(outcomes))
+        with matplotlib.rc_context(STYLE):
+            write("published/deviations.svg", drawn(published_figure(outcomes), "published"))
+        made_of("published", digest(*PUBLISHED_DEPENDS_ON))

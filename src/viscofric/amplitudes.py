@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import sentences, text
-from viscofric.data import DEFORMATIONS, Deformation, read_only, tensile_from_shear
+from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.units import angular_frequency, positive, shown_celsius
@@ -64,11 +64,7 @@ class AmplitudeSweep:
         check_choice(self.deformation, "deformation", *DEFORMATIONS)
         shape = read_only(self.strain_amplitude, "strain_amplitude of an amplitude sweep").shape
         for name in ("strain_amplitude", "storage_modulus", "loss_modulus"):
-            column = read_only(getattr(self, name), f"{name} of an amplitude sweep")
-            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(
-                    f"{name} of an amplitude sweep must be one row of positive numbers, one per amplitude."
-                )
+            column = positive_column(getattr(self, name), f"{name} of an amplitude sweep", shape, "amplitude")
             object.__setattr__(self, name, column)
         if np.any(np.diff(self.strain_amplitude) <= 0.0):
             raise InputError("the amplitudes of an amplitude sweep must ascend without repeats.")

@@ -42,6 +42,15 @@ def read_only(values: object, name: str = "a column of measurements") -> Array:
     return column
 
 
+def positive_column(values: object, name: str, shape: tuple[int, ...], per: str) -> Array:
+    """Return a read-only row of positive numbers of a shape, one per `per`; errors use the name."""
+    column = np.atleast_1d(read_only(values, name))
+    if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
+        raise InputError(f"{name} must be one row of positive numbers, one per {per}.", code="wrong-length")
+    column.flags.writeable = False
+    return column
+
+
 def whole_numbers(values: object, name: str) -> Integers:
     """Return a read-only copy as whole numbers."""
     column = read_only(values, name)
@@ -104,12 +113,7 @@ class Isotherm:
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an isotherm"))
         frequencies = np.atleast_1d(read_only(self.angular_frequency, "angular_frequency of an isotherm"))
         for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
-            column = read_only(getattr(self, name), f"{name} of an isotherm")
-            if column.shape != frequencies.shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(
-                    f"{name} of an isotherm must be one row of positive numbers, one per frequency.",
-                    code="wrong-length",
-                )
+            column = positive_column(getattr(self, name), f"{name} of an isotherm", frequencies.shape, "frequency")
             object.__setattr__(self, name, column)
         if np.any(np.diff(self.angular_frequency) <= 0):
             raise InputError("the frequencies of an isotherm must ascend without repeats.", code="not-ascending")
@@ -280,11 +284,7 @@ class MasterCurve:
     def __post_init__(self) -> None:
         shape = numbers(self.angular_frequency, "angular_frequency of a master curve").shape
         for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
-            column = read_only(getattr(self, name), f"{name} of a master curve")
-            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(
-                    f"{name} of a master curve must be one row of positive numbers, one per point.", code="wrong-length"
-                )
+            column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
             object.__setattr__(self, name, column)
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         if np.any(np.diff(self.angular_frequency) < 0):

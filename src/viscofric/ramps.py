@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import insist_on, number, sentences, text
-from viscofric.data import DEFORMATIONS, Deformation, read_only, tensile_from_shear
+from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.units import angular_frequency, positive, shown_celsius
@@ -53,10 +53,7 @@ class TemperatureRamp:
         columns = {"temperature": temperature, "storage_modulus": storage_modulus, "loss_modulus": loss_modulus}
         shape = read_only(temperature, "temperature of a ramp").shape
         for name, values in columns.items():
-            column = read_only(values, f"{name} of a ramp")
-            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(f"{name} of a ramp must be one row of positive numbers, one per temperature.")
-            object.__setattr__(self, name, column)
+            object.__setattr__(self, name, positive_column(values, f"{name} of a ramp", shape, "temperature"))
         if np.any(np.diff(self.temperature) < 0):
             raise InputError("the temperatures of a ramp must ascend.")
 

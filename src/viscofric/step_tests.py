@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on, numbers, sentences, text, whole_number
-from viscofric.data import DEFORMATIONS, Deformation, read_only, tensile_from_shear
+from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.units import positive
@@ -61,12 +61,7 @@ class StepTest:
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of a step test"))
         times = np.atleast_1d(read_only(self.time, "time of a step test"))
         for name in ("time", "response"):
-            column = np.atleast_1d(read_only(getattr(self, name), f"{name} of a step test"))
-            if column.shape != times.shape or column.ndim != 1 or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(
-                    f"{name} of a step test must be one row of positive numbers, one per time.", code="wrong-column"
-                )
-            column.flags.writeable = False
+            column = positive_column(getattr(self, name), f"{name} of a step test", times.shape, "time")
             object.__setattr__(self, name, column)
         if np.any(np.diff(self.time) <= 0):
             raise InputError("the times of a step test must ascend without repeats.", code="not-ascending")
@@ -230,12 +225,7 @@ class StepMasterCurve:
         check_choice(self.kind, "kind", "creep", "relaxation")
         shape = numbers(self.time, "time of a master curve").shape
         for name in ("time", "response", "temperature"):
-            column = read_only(getattr(self, name), f"{name} of a master curve")
-            if column.ndim != 1 or column.shape != shape or not np.all((column > 0) & np.isfinite(column)):
-                raise InputError(
-                    f"{name} of a master curve must be one row of positive numbers, one per point.",
-                    code="wrong-column",
-                )
+            column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
             object.__setattr__(self, name, column)
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         if np.any(np.diff(self.time) < 0):

@@ -365,7 +365,7 @@ SAID = [
     ),
     (
         lambda: vf.StepTest(300.0, [1.0, 2.0, 3.0], [-1e-6, 2e-6, 3e-6]),
-        "wrong-column",
+        "wrong-length",
         "response of a step test must be one row of positive numbers, one per time.",
     ),
 ]

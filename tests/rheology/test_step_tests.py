@@ -32,9 +32,9 @@ def curve(spectrum: vf.RetardationSpectrum, kind: str, noise: float = 0.0, time=
     [
         ({"time": TIMES[::-1]}, "not-ascending"),
         ({"time": np.append(TIMES[:-1], TIMES[-2])}, "not-ascending"),
-        ({"time": TIMES - TIMES[0]}, "wrong-column"),
-        ({"response": -TIMES}, "wrong-column"),
-        ({"response": TIMES[:-1]}, "wrong-column"),
+        ({"time": TIMES - TIMES[0]}, "wrong-length"),
+        ({"response": -TIMES}, "wrong-length"),
+        ({"response": TIMES[:-1]}, "wrong-length"),
     ],
 )
 def test_columns_that_are_no_test_are_refused(change, code):

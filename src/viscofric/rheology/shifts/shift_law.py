@@ -99,7 +99,7 @@ class ShiftLaw(ABC):
         """
         kelvin = in_kelvin(temperature)
         self._refuse(np.atleast_1d(kelvin))
-        return _in_shape(self._log10(kelvin))
+        return in_shape(self._log10(kelvin))
 
     @overload
     def __call__(self, temperature: Quantity) -> float: ...
@@ -157,7 +157,7 @@ class ShiftLaw(ABC):
         """
         kelvin = in_kelvin(temperature)
         self._refuse(np.atleast_1d(kelvin))
-        return _in_shape(self._standard_error(kelvin))
+        return in_shape(self._standard_error(kelvin))
 
     @overload
     def extrapolates(self, temperature: Quantity) -> bool: ...
@@ -307,7 +307,8 @@ class ShiftLaw(ABC):
         return {"reference_temperature": self.reference}
 
 
-def _in_shape(values: Array) -> Any:
+def in_shape(values: Array) -> Any:
+    """Return a single value as a float."""
     return float(values) if np.ndim(values) == 0 else values
 
 

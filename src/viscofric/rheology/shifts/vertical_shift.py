@@ -13,7 +13,7 @@ import numpy as np
 from viscofric.datasets import dataset, plain
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.columns import as_record, checked_columns
-from viscofric.rheology.shifts.shift_law import NOMINAL
+from viscofric.rheology.shifts.shift_law import NOMINAL, in_kelvin, in_shape
 from viscofric.units import kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
 if TYPE_CHECKING:
@@ -75,15 +75,9 @@ class VerticalShift(ABC):
         InputError
             If a temperature is not above absolute zero, or one where the shift is not known.
         """
-        kelvin = to_si_array(temperature, "K", "temperature")
-        if np.any(kelvin <= 0.0):
-            raise InputError(
-                f"temperature = {float(kelvin.min()):g} K: must be above absolute zero.", code="not-positive"
-            )
-        self._refuse(kelvin)
-        values = self._log10(kelvin)
-        single = isinstance(temperature, str) or np.ndim(getattr(temperature, "magnitude", temperature)) == 0
-        return float(values[0]) if single else values
+        kelvin = in_kelvin(temperature)
+        self._refuse(np.atleast_1d(kelvin))
+        return in_shape(self._log10(kelvin))
 
     def __call__(self, temperature: Quantities) -> Any:
         """Return b(T).

@@ -12,7 +12,7 @@ Numer. Anal. 44 (2006) 2342, doi:10.1137/050625837; A. Talbot, J. Inst. Math. Ap
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -38,8 +38,8 @@ FASTER = 10.0
 NODES = 14
 
 
-class CreepMisfit(Misfit):
-    """Differences of −ln J between modes and a creep compliance; `rates` (N,) ascend, `moduli` (N,) are 1/J in Pa."""
+class StepMisfit(Misfit):
+    """Differences between modes and a step response; `rates` (N,) 1/t ascend, `moduli` (N,) are 1/J or E in Pa."""
 
     glass_within = True
 
@@ -49,9 +49,13 @@ class CreepMisfit(Misfit):
         self.target = np.log(moduli)
         self.least_glass = 1.0 / (STIFFEST * float(np.max(moduli)))
 
-    def of(self, rates: Array, logarithms: Array) -> CreepMisfit:
-        """Return the same for other rates and −ln J (N, 1)."""
-        return CreepMisfit(rates, np.exp(logarithms[:, 0]))
+    def of(self, rates: Array, logarithms: Array) -> Self:
+        """Return the same for other rates and logarithms of the moduli (N, 1)."""
+        return type(self)(rates, np.exp(logarithms[:, 0]))
+
+
+class CreepMisfit(StepMisfit):
+    """Differences of −ln J between modes and a creep compliance."""
 
     def relaxed(self, tau: Array) -> Array:
         """Return 1 − exp(−t/τ), (N, n)."""
@@ -77,26 +81,17 @@ class CreepMisfit(Misfit):
         return self.columns(tau) * self.sizes[:, None], np.ones(len(self.rates))
 
 
-class RelaxationMisfit(Misfit):
-    """Differences of ln E(t) between modes and a relaxation modulus; `rates` (N,) ascend, `moduli` (N,) are in Pa."""
-
-    glass_within = True
+class RelaxationMisfit(StepMisfit):
+    """Differences of ln E(t) between modes and a relaxation modulus."""
 
     def __init__(self, rates: Array, moduli: Array) -> None:
-        self.rates = rates
-        self.sizes = moduli
-        self.target = np.log(moduli)
-        self.least_glass = 1.0 / (STIFFEST * float(np.max(moduli)))
+        super().__init__(rates, moduli)
         self._nodes, self._weights = _contour()
 
     def ends_of(self, lowest: float, highest: float) -> tuple[float, float]:
         """Return the ends of the retardation times, from `FASTER` times below those that creep would show."""
         fastest, slowest = super().ends_of(lowest, highest)
         return fastest - float(np.log(FASTER)), slowest
-
-    def of(self, rates: Array, logarithms: Array) -> RelaxationMisfit:
-        """Return the same for other rates and ln E (N, 1)."""
-        return RelaxationMisfit(rates, np.exp(logarithms[:, 0]))
 
     def relaxed(self, tau: Array) -> ComplexArray:
         """Return 1/(1 + sτ) at all nodes s of all times, (N NODES/2, n)."""

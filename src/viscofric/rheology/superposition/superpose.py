@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
 
 import numpy as np
 
@@ -33,42 +33,31 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 
+class Options(TypedDict, total=False):
+    """The keywords of `superpose`, for its overloads."""
+
+    vertical: Literal["free", "density"] | VerticalShift | None
+    shift: ShiftLaw | None
+    fixed: Mapping[Any, float] | None
+    by: ShiftBy
+    weights: Sequence[float] | None
+
+
+# fmt: off
 @overload
 def superpose(
-    sweeps: IsothermalSweeps,
-    reference: Quantity,
-    poisson_ratio: float = 0.5,
-    *,
-    vertical: Literal["free", "density"] | VerticalShift | None = None,
-    shift: ShiftLaw | None = None,
-    fixed: Mapping[Any, float] | None = None,
-    by: ShiftBy = "both",
-    weights: Sequence[float] | None = None,
+    sweeps: IsothermalSweeps, reference: Quantity, poisson_ratio: float = ..., **options: Unpack[Options]
 ) -> Superposition: ...
 @overload
 def superpose(
-    sweeps: StepTests,
-    reference: Quantity,
-    poisson_ratio: float = 0.5,
-    *,
-    vertical: Literal["free", "density"] | VerticalShift | None = None,
-    shift: ShiftLaw | None = None,
-    fixed: Mapping[Any, float] | None = None,
-    by: ShiftBy = "both",
-    weights: Sequence[float] | None = None,
+    sweeps: StepTests, reference: Quantity, poisson_ratio: float = ..., **options: Unpack[Options]
 ) -> StepSuperposition: ...
 @overload
 def superpose(
-    sweeps: Sequence[IsothermalSweeps | StepTests],
-    reference: Quantity,
-    poisson_ratio: float = 0.5,
-    *,
-    vertical: Literal["free", "density"] | VerticalShift | None = None,
-    shift: ShiftLaw | None = None,
-    fixed: Mapping[Any, float] | None = None,
-    by: ShiftBy = "both",
-    weights: Sequence[float] | None = None,
+    sweeps: Sequence[IsothermalSweeps | StepTests], reference: Quantity, poisson_ratio: float = ...,
+    **options: Unpack[Options],
 ) -> JointSuperposition: ...
+# fmt: on
 @one_blas_thread
 def superpose(
     sweeps: IsothermalSweeps | StepTests | Sequence[IsothermalSweeps | StepTests],
