@@ -44,6 +44,7 @@ ROOMS = {
         "thermal",
         "threads",
         "processes",
+        "limited_process",
         "serving",
         "lazy",
         "datasets",

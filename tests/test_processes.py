@@ -14,7 +14,8 @@ import pytest
 
 from refusals import refused
 from viscofric.errors import ViscofricError
-from viscofric.processes import LimitedProcess, Workers, call_all
+from viscofric.limited_process import LimitedProcess
+from viscofric.processes import Workers, call_all
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -191,7 +192,8 @@ def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text(
         "import statistics\n"
-        "from viscofric.processes import LimitedProcess, Workers, call_all\n"
+        "from viscofric.limited_process import LimitedProcess\n"
+        "from viscofric.processes import Workers, call_all\n"
         "with Workers(2) as workers:\n"
         "    for _ in range(2):\n"
         "        print(call_all(statistics.fmean, [{'data': [1.0]}, {'data': [2.0]}], workers=workers))\n"

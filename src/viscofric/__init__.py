@@ -134,6 +134,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
     from viscofric.roughness.ensemble import RoughFriction as RoughFriction
     from viscofric.roughness.ensemble import predict_rough_friction as predict_rough_friction
+    from viscofric.roughness.line_spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.made import self_affine as self_affine
     from viscofric.roughness.made import surface_from_spectrum as surface_from_spectrum
     from viscofric.roughness.measured_spectrum import line_spectrum as line_spectrum
@@ -146,7 +147,6 @@ if TYPE_CHECKING:
     from viscofric.roughness.reading import read_topography as read_topography
     from viscofric.roughness.scales import FrictionByWavelength as FrictionByWavelength
     from viscofric.roughness.scales import friction_by_wavelength as friction_by_wavelength
-    from viscofric.roughness.spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum
     from viscofric.roughness.topography import Topography as Topography
     from viscofric.step_tests import StepMasterCurve as StepMasterCurve
@@ -308,7 +308,7 @@ _HOME = {
     "read_topography": "viscofric.roughness.reading",
     "FrictionByWavelength": "viscofric.roughness.scales",
     "friction_by_wavelength": "viscofric.roughness.scales",
-    "LineSpectrum": "viscofric.roughness.spectrum",
+    "LineSpectrum": "viscofric.roughness.line_spectrum",
     "PowerSpectrum": "viscofric.roughness.spectrum",
     "Topography": "viscofric.roughness.topography",
     "TractionStep": "viscofric.traction",

@@ -1,4 +1,4 @@
-"""Independent calls distributed over processes, with the same digits as in one process; and calls with limits.
+"""Independent calls distributed over processes, with the same digits as in one process.
 
 Starting a process takes most of a second, mainly for imports: `Workers` stay for several sets of calls.
 
@@ -8,7 +8,6 @@ script needs no guard of its first lines, and a notebook need not be importable.
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import os
 import pickle
@@ -17,7 +16,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections import deque
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -110,105 +108,19 @@ class Workers:
             yield lent
         except BaseException:
             for child in lent:
-                _end(child)
+                end(child)
             raise
         self._idle += lent
 
     def _start(self) -> Child:
         assert self._started is not None
-        child = _started(self._needed)
-        self._started.callback(_end, child)
+        child = started(self._needed)
+        self._started.callback(end, child)
         return child
 
 
-class LimitedProcess:
-    """A process for calls that may never end or fill the memory; it starts with the first call and is kept.
-
-    Parameters
-    ----------
-    seconds : float
-        Time limit of a call.
-    memory : int
-        Limit of its address space in bytes, if the system has such a limit (Windows has none).
-    needed : str, optional
-        Module that the calls need, imported when the process starts.
-
-    Notes
-    -----
-    Calls from several threads each get their own process; one of these is kept.
-    """
-
-    def __init__(self, seconds: float, memory: int, needed: str = "") -> None:
-        self.seconds, self.memory, self.needed = seconds, memory, needed
-        self._idle: deque[Child] = deque(maxlen=1)
-        self._owner = 0
-
-    def call(self, function: Callable[..., Any], **arguments: Any) -> Any:
-        """Call a function, which is importable by its name, with arguments that can be pickled.
-
-        Raises
-        ------
-        TimeoutError
-            If the call takes longer than the limit.
-        MemoryError
-            If it needs more memory than the limit, or its process ends for another reason.
-        OSError
-            If the process cannot be started.
-        Exception
-            What the call raises.
-        """
-        message = pickle.dumps((f"{function.__module__}:{function.__qualname__}", arguments))
-        child = self._free() or _started(
-            self.needed,
-            self.memory,
-            OMP_NUM_THREADS="1",
-            OPENBLAS_NUM_THREADS="1",  # each thread takes address space
-        )
-        end = time.monotonic() + self.seconds
-        alarm = threading.Timer(self.seconds, child.kill)
-        alarm.daemon = True
-        alarm.start()
-        try:
-            kind, value = _reply_of(child, message)
-        except BaseException:
-            _end(child)
-            raise
-        finally:
-            alarm.cancel()
-        if kind == "ended" or isinstance(value, MemoryError):  # its state may be damaged
-            _end(child)
-            raise TimeoutError if time.monotonic() >= end else MemoryError
-        self._keep(child)
-        if kind != "result":
-            raise value if kind == "error" else InputError(value, code="not-picklable")
-        return value
-
-    def _free(self) -> Child | None:
-        if self._owner != os.getpid():  # a fork must not use the process of its parent
-            for child in self._idle:
-                child.returncode = 0
-            self._idle.clear()
-            self._owner = os.getpid()
-            atexit.register(self.close)
-        with contextlib.suppress(IndexError):
-            child = self._idle.pop()
-            if child.poll() is None:
-                return child
-        return None
-
-    def _keep(self, child: Child) -> None:
-        if self._idle:
-            _end(child)
-        else:
-            self._idle.append(child)
-
-    def close(self) -> None:
-        """End the idle process."""
-        while self._idle:
-            _end(self._idle.pop())
-
-
-def _started(needed: str, memory: int = 0, **environment: str) -> Child:
+def started(needed: str, memory: int = 0, **environment: str) -> Child:
+    """Start a process that serves calls; with a limit of its address space in bytes, unless it is zero."""
     program = _SERVE.format(parent=os.getpid(), needed=needed, memory=memory)
     path = os.pathsep.join(path for path in sys.path if path)
     with _interrupts_wait():
@@ -222,7 +134,7 @@ def _started(needed: str, memory: int = 0, **environment: str) -> Child:
         )
 
 
-def _reply_of(child: Child, message: bytes) -> tuple[str, Any]:
+def reply_of(child: Child, message: bytes) -> tuple[str, Any]:
     """Send a call to a process, and return the kind of its end and the value."""
     assert child.stdin is not None
     assert child.stdout is not None
@@ -432,7 +344,7 @@ class _SharedCalls:
                 self.waiting.clear()
 
     def _ask(self, child: Child, index: int) -> tuple[str, Any]:
-        kind, value = _reply_of(child, self.messages[index])
+        kind, value = reply_of(child, self.messages[index])
         if kind == "not understood":
             return "error", _not_sent(self.workers.number, value)
         return kind, value
@@ -458,7 +370,8 @@ def _not_sent(workers: int, reason: object) -> InputError:
     )
 
 
-def _end(child: Child) -> None:
+def end(child: Child) -> None:
+    """Kill a process, and wait for its end."""
     child.kill()
     child.wait()
     for pipe in (child.stdin, child.stdout):

@@ -10,7 +10,8 @@ import scipy.fft
 from viscofric.arguments import MOST_PER_DECADE, whole_number
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief, check_choice
-from viscofric.roughness.spectrum import LineSpectrum, PowerSpectrum
+from viscofric.roughness.line_spectrum import LineSpectrum
+from viscofric.roughness.spectrum import PowerSpectrum
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

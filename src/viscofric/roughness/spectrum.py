@@ -14,23 +14,18 @@ from viscofric.errors import InputError
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
 
 
-#: Weight of the second differences of the surface's density, which matter only where the lines leave it open.
-_SMOOTHNESS = 0.03
-#: Least density, as a share of the median.
-_FLOOR = 1e-2
-_NODES = 12  # of the quadrature in each segment
+#: Nodes of the quadrature in each segment.
+NODES = 12
 
 
 @dataclass(frozen=True, eq=False)
-class _Spectrum:
+class Density:
     """A density that is a power law between its points, and zero beyond them."""
 
     _unit: ClassVar[str]
@@ -45,7 +40,7 @@ class _Spectrum:
 
     def __call__(self, wave_number: ArrayLike) -> Array:
         """Return C at any wave numbers (rad/m), in its own unit; zero beyond the points."""
-        return _interpolated(self.wave_number, self.density, wave_number)
+        return density_at(self.wave_number, self.density, wave_number)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the density over wave numbers (rad/m)."""
@@ -57,7 +52,7 @@ class _Spectrum:
 
 
 @dataclass(frozen=True, eq=False)
-class PowerSpectrum(_Spectrum):
+class PowerSpectrum(Density):
     """Isotropic power spectrum C(q) of a rough surface: a power law between its points, nothing beyond them.
 
     The convention is Persson's: ⟨h²⟩ = ∫ d²q C(q) = 2π ∫ q C(q) dq, C in m⁴ [1]_.  Others put a factor 1/(2π)² before
@@ -160,7 +155,7 @@ class PowerSpectrum(_Spectrum):
             m^(2 − order).
         """
         power = to_si(order, "dimensionless", "order") + 1.0
-        return 2.0 * math.pi * _integral(self.wave_number, self.density, power)
+        return 2.0 * math.pi * integral(self.wave_number, self.density, power)
 
     def limited(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> PowerSpectrum:
         """Return the part between two wavelengths.
@@ -249,63 +244,6 @@ def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[fl
     return positive(rms_slope, "dimensionless", "rms_slope"), 2.0  # type: ignore[arg-type]
 
 
-@dataclass(frozen=True, eq=False)
-class LineSpectrum(_Spectrum):
-    """Power spectrum of line scans: a power law between its points, nothing beyond; ⟨h²⟩ = 2 ∫₀ C(q) dq, C in m³.
-
-    Parameters
-    ----------
-    wave_number : (n,) array
-        q = 2π/wavelength, rad/m, increasing.
-    density : (n,) array
-        C(q), m³, above zero.
-
-    Raises
-    ------
-    InputError
-        If these are not two rows of equal length, positive and finite, with increasing wave numbers.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import viscofric as vf
-    >>> q = np.geomspace(1e3, 1e5, 200)
-    >>> line = vf.LineSpectrum(q, 1e-10 * q**-1.6)
-    >>> f"{line.moment(0) ** 0.5:.1e} m rms"
-    '2.2e-06 m rms'
-    """
-
-    _unit: ClassVar[str] = "m**3"
-    _name: ClassVar[str] = "power spectral density of lines"
-
-    def moment(self, order: float) -> float:
-        """Return 2 ∫ q^order C(q) dq: ⟨h²⟩ for 0, ⟨(dh/dx)²⟩ for 2, ⟨(d²h/dx²)²⟩ for 4."""
-        return 2.0 * _integral(self.wave_number, self.density, to_si(order, "dimensionless", "order"))
-
-    def rms_height(self) -> float:
-        """Return the rms height, m."""
-        return math.sqrt(self.moment(0.0))
-
-    def rms_slope(self) -> float:
-        """Return the rms slope along the line."""
-        return math.sqrt(self.moment(2.0))
-
-    def isotropic(self) -> PowerSpectrum:
-        """Return the power spectrum of the surface, if it is isotropic, that such lines run across.
-
-        Returns
-        -------
-        PowerSpectrum
-            C of C₁(q) = ∫ dp C(√(q² + p²)), by non-negative least squares.
-
-        Notes
-        -----
-        A line crosses waves obliquely, so that long wavelengths of a line are in part short waves of the surface.  What
-        waves there are beyond the shortest of the lines is not known and taken to be none.
-        """
-        return PowerSpectrum(self.wave_number, _isotropic_density(self.wave_number, self))
-
-
 def _checked(q: ArrayLike, density: ArrayLike) -> tuple[Array, Array]:
     """Return wave numbers and densities as read-only rows: positive, finite, increasing; two at least."""
     found = (
@@ -327,7 +265,7 @@ def _checked(q: ArrayLike, density: ArrayLike) -> tuple[Array, Array]:
     return found
 
 
-def _interpolated(q: Array, density: Array, at: ArrayLike) -> Array:
+def density_at(q: Array, density: Array, at: ArrayLike) -> Array:
     """Return the density at any wave numbers; zero outside the points (up to rounding)."""
     where = numbers(at, "wave_number")
     inside = (where >= q[0] * (1.0 - 1e-12)) & (where <= q[-1] * (1.0 + 1e-12))
@@ -335,7 +273,7 @@ def _interpolated(q: Array, density: Array, at: ArrayLike) -> Array:
     return np.asarray(np.where(inside, np.exp(logs), 0.0))
 
 
-def _integral(q: Array, density: Array, power: float) -> float:
+def integral(q: Array, density: Array, power: float) -> float:
     """Return ∫ q^power C(q) dq from the first to the last point."""
     # C q^power dq = C q^(power+1) d ln q: an exponential in ln q within each segment.
     logs = np.log(density) + (power + 1.0) * np.log(q)
@@ -357,34 +295,4 @@ def _cut_out(q: Array, density: Array, first: float, last: float) -> tuple[Array
         )
     within = q[(q > first) & (q < last)]
     kept = np.concatenate([[first], within, [last]])
-    return kept, _interpolated(q, density, kept)
-
-
-def _isotropic_density(q: Array, line: Callable[[Array], Array]) -> Array:
-    """Solve C₁(q) = ∫ dp C(√(q² + p²)) for the density C of a surface at the points of that of its lines, C₁.
-
-    C is sought as C₁(k)/k times a factor that is linear in ln k between the points, not below zero, by least squares of
-    the relative misfit.  For C ∝ k^(−s) the factor is constant, Γ(s/2)/(√π Γ((s−1)/2)).
-    """
-    from scipy.optimize import nnls
-
-    logs, count = np.log(q), len(q)
-    place, weight = np.polynomial.legendre.leggauss(_NODES)
-    rows = np.zeros((count - 1, count))
-    for row in range(count - 1):
-        # Ends of the segments of ln k, as distances p along the other axis, in which the integrand is smooth.
-        ends = np.sqrt(np.maximum(np.square(q[row:]) - q[row] ** 2, 0.0))
-        half = 0.5 * np.diff(ends)
-        p = (0.5 * (ends[:-1] + ends[1:]))[:, None] + half[:, None] * place
-        k = np.sqrt(q[row] ** 2 + np.square(p))
-        values = 2.0 * half[:, None] * weight * line(k) / k
-        segment = row + np.arange(len(half))[:, None]
-        part = (np.log(k) - logs[segment]) / (logs[segment + 1] - logs[segment])
-        np.add.at(rows[row], segment + np.zeros(k.shape, int), (1.0 - part) * values)
-        np.add.at(rows[row], segment + 1 + np.zeros(k.shape, int), part * values)
-    rows /= line(q[:-1])[:, None]
-    bends = _SMOOTHNESS * np.diff(np.eye(count), 2, axis=0)
-    right = np.concatenate([np.ones(count - 1), np.zeros(len(bends))])
-    factor, _ = nnls(np.concatenate([rows, bends]), right)
-    factor = np.maximum(factor, _FLOOR * float(np.median(factor)))
-    return np.asarray(factor * line(q) / q)
+    return kept, density_at(q, density, kept)

@@ -10,12 +10,13 @@ import numpy as np
 
 from viscofric.data import DEFORMATIONS
 from viscofric.errors import DataFileError, InputError, check_choice
-from viscofric.notes import Note, Remedy, setting
+from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
-from viscofric.readers.dma.names import NOT_SAID, said_by_columns, temperature_in_name, tools_in
+from viscofric.readers.dma.names import NOT_SAID, said_by_columns, tools_in
 from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
-from viscofric.readers.source import STRAIN_FACTORS, Source, checked_sheet, insist_on_content, unit_conversion
+from viscofric.readers.source import Source, checked_sheet, insist_on_content
 from viscofric.readers.steps import reptate
+from viscofric.readers.steps.columns import kind_of, response_of, temperature_of, time_of
 from viscofric.readers.steps.starts import start_of
 from viscofric.readers.steps.words import STEPS, kind_in_name
 from viscofric.readers.table import MISSING, make_table
@@ -37,12 +38,8 @@ if TYPE_CHECKING:
 
 #: Temperatures closer than this belong to one test.
 ONE_TEST = 1.0  # K
-#: What is held is constant to this over the second half of a test.
-HELD = 0.02  # relative
 #: Fewest points of a test.
 LEAST_POINTS = 4
-_SI = {"creep": "1/Pa", "relaxation": "Pa"}
-_COLUMN = {"creep": "creep compliance", "relaxation": "relaxation modulus"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +184,7 @@ def step_kind(source: Source) -> StepKind | None:
         return _trios_parts(source, None)[0].kind
     for name, table in find_tables(reptate.with_units(source), STEPS).items():
         if not STEPS.missing(column.quantity for column in table.columns):
-            return _kind(table, name or source.stem)
+            return kind_of(table, name or source.stem)
     return None
 
 
@@ -234,112 +231,17 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     notes: list[str] = []
     columns = tuple(replace(one, unit="") if one.unit == "t" else one for one in table.columns)  # of J(t)
     table = replace(table, columns=columns)
-    time = _time(table, notes)
-    known = kind or _kind(table, name)
-    response, heading, lacks_unit = _response(table, source, known, notes)
+    time = time_of(table, notes)
+    known = kind or kind_of(table, name)
+    response, heading, lacks_unit = response_of(table, source, known, notes)
     filled = [
         column.name
         for place, column in enumerate(table.columns)
         if any(row[place].strip().lower() not in MISSING for row in table.rows)
     ]
     deformation, _ = said_by_columns([heading.replace("(t)", "")], filled, tools_in(table.above))
-    kelvin = _temperature(table, source, name, len(time), notes)
+    kelvin = temperature_of(table, source, name, len(time), notes)
     return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit)
-
-
-def _time(table: Table, notes: list[str]) -> Array:
-    place = table.place("step time")
-    place = table.place("time") if place is None else place
-    if place is None:
-        raise table.refused("missing-columns", f"no column for time; {STEPS.example}, this one has {table.headings()}.")
-    column = table.columns[place]
-    if column.unit:
-        factor, offset = table.conversion(column, "s")
-        return factor * table.numbers_or_missing(place) + offset
-    said = f"The column {column.heading!r} has no unit; it was read in seconds."
-    notes.append(Note("time-without-unit", said))
-    return table.numbers_or_missing(place)
-
-
-def _kind(table: Table, name: str) -> StepKind:
-    """Return creep or relaxation by the columns, the name of the step, or what is held."""
-    creep, relaxation = table.has("creep compliance"), table.has("relaxation modulus")
-    if creep != relaxation:
-        return "creep" if creep else "relaxation"
-    said = kind_in_name(name)
-    if said in ("creep", "relaxation"):
-        return "creep" if said == "creep" else "relaxation"
-    stress, strain = table.place("stress"), table.place("strain")
-    if stress is not None and strain is not None:
-        steady = [_is_held(table.numbers_or_missing(place)) for place in (stress, strain)]
-        if steady[0] != steady[1]:
-            return "creep" if steady[0] else "relaxation"
-    remedy = Remedy(
-        "; give kind='creep' or 'relaxation'.",
-        "; choose --creep or --relaxation of viscofric material fit.",
-        "; name it as creep or as relaxation under [material].",
-        "; choose “Creep tests” or “Relaxation tests” as the source, and drop it there.",
-    )
-    raise table.refused("no-kind", "does not state whether it is creep or relaxation", remedy)
-
-
-def _is_held(values: Array) -> bool:
-    late = values[len(values) // 2 :]
-    late = late[np.isfinite(late)]
-    return bool(late.size) and float(np.ptp(late)) <= HELD * float(np.abs(np.mean(late)))
-
-
-def _response(table: Table, source: Source, kind: StepKind, notes: list[str]) -> tuple[Array, str, bool]:
-    """Return the response in SI units, its heading, and whether its unit is that of the user alone."""
-    place = table.place(_COLUMN[kind])
-    if place is not None:
-        column = table.columns[place]
-        lacks_unit = bool(source.modulus_unit) and not column.unit
-        if lacks_unit:
-            factor, offset = unit_conversion(source.modulus_unit, _SI[kind], "response_unit")
-        elif not column.unit:
-            example = "1/MPa" if kind == "creep" else "MPa"
-            by = setting("material.modulus_unit", "Unit of the moduli", repr(example))
-            remedy = replace(by, python=f"response_unit='{example}'") + "."
-            raise table.refused("no-unit", f"column {column.heading!r} has no unit; give it by ", remedy)
-        else:
-            factor, offset = table.conversion(column, _SI[kind])
-        return factor * table.numbers_or_missing(place) + offset, column.heading, lacks_unit
-    stress, strain = table.place("stress"), table.place("strain")
-    if stress is None or strain is None:
-        raise table.refused(
-            "missing-columns", f"no column for the {_COLUMN[kind]}; {STEPS.example}, this one has {table.headings()}."
-        )
-    factor, _ = table.conversion(table.columns[stress], "Pa")
-    fraction = STRAIN_FACTORS.get(table.columns[strain].unit.strip() or "1")
-    if fraction is None:
-        raise table.refused("wrong-unit", f"column {table.columns[strain].heading!r} has no unit such as '%'.")
-    said = f"The {_COLUMN[kind]} was computed from stress and strain."
-    notes.append(Note("response-computed", said))
-    stresses, strains = factor * table.numbers_or_missing(stress), fraction * table.numbers_or_missing(strain)
-    above, below = (strains, stresses) if kind == "creep" else (stresses, strains)
-    return above / np.where(below == 0.0, np.nan, below), table.columns[stress].heading, False
-
-
-def _temperature(table: Table, source: Source, name: str, count: int, notes: list[str]) -> Array:
-    """Return K: from the column, else from the user, else from the name of file or sheet, with a note."""
-    place = table.place("temperature")
-    place = table.place("set temperature") if place is None else place
-    if place is not None:
-        if source.temperature is not None:
-            problem = f"column {table.columns[place].heading!r} contains the temperatures; leave out temperature."
-            raise DataFileError(table.path, problem, code="temperature-not-needed")
-        factor, offset = table.conversion(table.columns[place], "K")
-        return factor * table.numbers_or_missing(place) + offset
-    if source.temperature is not None:
-        return np.full(count, source.temperature)
-    found = temperature_in_name(name) or temperature_in_name(source.stem)
-    if found is None:
-        problem = f"no column for temperature, this table has {table.headings()}; give it, e.g. "
-        by = setting("material.temperature", "Temperature of the sweep", "'25 degC'")
-        raise table.refused("no-temperature", problem, replace(by, python="temperature='25 degC'") + ".")
-    notes.append(Note("temperature-from-name", "No column holds a temperature; it was taken from the file's name."))
-    return np.full(count, found)
 
 
 def _tests(parts: Sequence[_Part], notes: list[str]) -> list[StepTest]:

@@ -16,7 +16,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
-from viscofric.processes import LimitedProcess
+from viscofric.limited_process import LimitedProcess
 from viscofric.readers.source import Source
 from viscofric.readers.topography.scan import Scan, ScanOptions, name_of
 from viscofric.readers.workbook import is_workbook, sheets
