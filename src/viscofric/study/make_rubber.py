@@ -25,6 +25,7 @@ from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.superposition.superpose import superpose
 from viscofric.step_tests import StepMasterCurve
+from viscofric.study.at_strain import at_strain
 from viscofric.study.rubber import Rubber
 
 if TYPE_CHECKING:
@@ -55,6 +56,10 @@ def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
     DataFileError, SuperpositionError, InputError
         If a file cannot be used or does not state tension or shear, or the fit fails.
     """
+    return at_strain(_at_small_strain(table, liquids), table)
+
+
+def _at_small_strain(table: MaterialTable, liquids: bool) -> Rubber:
     if table.dma is not None:
         return _from_both(table, liquids) if table.steps else _from_sweeps(table, liquids)
     if table.steps:

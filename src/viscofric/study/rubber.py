@@ -12,6 +12,7 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 if TYPE_CHECKING:
     from viscofric.data import IsothermalSweeps, MasterCurve
     from viscofric.rheology.material import Material
+    from viscofric.rheology.payne.kraus_fit import PayneFit
     from viscofric.rheology.ramps.result import RampSuperposition
     from viscofric.rheology.shifts.law_comparison import LawComparison
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
@@ -49,6 +50,12 @@ class Rubber:
         ``"measured"``, or the name of the law in use.
     shift_origin : {"found", "given", "held"}
         Shift factors found from the sweeps, read from a file, or found with some held fixed.
+    payne : PayneFit or None
+        Of an amplitude sweep.
+    strain : float or None
+        Tensile strain that the moduli were scaled to by it, a fraction.
+    linear : Material or None
+        The material at small strain then, as it was fitted.
     notes : tuple of str
         Warnings, changes and omissions, one sentence each.
     """
@@ -66,6 +73,9 @@ class Rubber:
     laws: LawComparison | None = None
     shift_used: str = ""
     shift_origin: str = "found"
+    payne: PayneFit | None = None
+    strain: float | None = None
+    linear: Material | None = None
     notes: tuple[str, ...] = ()
 
     @property
@@ -105,6 +115,8 @@ class Rubber:
             said["material"] = " of ".join(part for part in (name, self.source) if part)
         if self.from_friction:
             said["identified_from_friction"] = 1
+        if self.strain is not None:
+            said["tensile_strain"] = self.strain
         if self.material.citation:
             said["citation"] = self.material.citation
         if self.material.reference is not None:

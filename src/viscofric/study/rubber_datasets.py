@@ -15,6 +15,7 @@ from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperpo
 if TYPE_CHECKING:
     import xarray
 
+    from viscofric.rheology.spectra.modulus_table import ModulusTable
     from viscofric.rheology.superposition.result import Superposition
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.step_tests import StepTests
@@ -34,9 +35,11 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
         groups = _step_groups(rubber, rubber.step_tests, rubber.step_fit) | groups
     if rubber.ramps is not None:
         groups["/ramps"] = rubber.ramps.to_dataset()
-    curve = rubber.master_curve if fit is None else fit.master_curve
-    if curve is not None and isinstance(spectrum, RetardationSpectrum) and spectrum.fit is not None:
-        groups["/master_curve"] = spectrum.master_curve_dataset(curve)
+    if rubber.payne is not None:
+        groups["/amplitude_sweep"] = rubber.payne.to_dataset()
+    curve, fitted = rubber.master_curve if fit is None else fit.master_curve, _fitted(rubber)
+    if curve is not None and isinstance(fitted, RetardationSpectrum) and fitted.fit is not None:
+        groups["/master_curve"] = fitted.master_curve_dataset(curve)
     elif curve is not None:  # of a liquid, which has no spectrum
         groups["/master_curve"] = curve.to_dataset()
     if rubber.laws is not None:
@@ -51,10 +54,15 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
     return groups
 
 
+def _fitted(rubber: Rubber) -> RetardationSpectrum | ModulusTable:
+    """Return the spectrum that was fitted, at small strain."""
+    return (rubber.linear or rubber.material).spectrum
+
+
 def _step_groups(rubber: Rubber, tests: StepTests, fit: StepSuperposition) -> dict[str, xarray.Dataset]:
     """Return the data sets of creep or relaxation tests: tensile points, shift factors, check, master curve."""
     used = tests.in_tension(rubber.material.poisson_ratio).thinned(PER_DECADE)
-    spectrum, curve = rubber.material.spectrum, fit.master_curve
+    spectrum, curve = _fitted(rubber), fit.master_curve
     return {
         "/step_tests": used.to_dataset(),
         "/shift_factors": _factors(rubber, fit, tests.temperatures),

@@ -162,7 +162,7 @@ class BandColumns(NamedTuple):
 
 
 def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples | None:
-    """Return bootstrap samples of a material; None without sweeps, or for 0 samples.
+    """Return bootstrap samples of a material; None without sweeps, scaled to a strain, or for 0 samples.
 
     Raises
     ------
@@ -170,7 +170,7 @@ def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples 
         If its spectrum was not fitted to its sweeps, or there are too few samples.
     """
     spectrum = rubber.material.spectrum
-    fit = rubber.superposed
+    fit = None if rubber.strain is not None else rubber.superposed
     if samples == 0 or fit is None or not isinstance(spectrum, RetardationSpectrum):
         return None
     law = None if rubber.shift_used == "measured" else rubber.shift_used
@@ -212,6 +212,9 @@ class FrictionBands:
         self._drawn = None if self.samples is None else DrawnMaterials(self.samples, rubber.material)
         if self.samples is not None:
             self.notes = tuple(self.samples.notes)
+        elif count and rubber.strain is not None:
+            text = "Friction has no 95 % bands: the uncertainty of a material scaled to a strain is not known."
+            self._note(Note("no-bands", text))
         elif count and rubber.superposed is None:
             text = "Friction has no 95 % bands: the uncertainty of the material is known from its sweeps only."
             self._note(Note("no-bands", text))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 #: Tables of a run file, and their keys that name files.
 FILE_KEYS = {
-    "material": ("dma", "ramps", "creep", "relaxation", "master_curve", "file", "shift_factors"),
+    "material": ("dma", "ramps", "creep", "relaxation", "master_curve", "file", "shift_factors", "amplitude_sweep"),
     "measurement": ("mtm", "curves"),
     "surface": ("file",),
 }

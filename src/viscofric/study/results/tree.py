@@ -13,6 +13,7 @@
 ``/isotherms``                   measured moduli (tensile) in use
 ``/ramps``                       temperature ramps (tensile) in use instead, with α(T) at every point
 ``/step_tests``                  creep or relaxation tests (tensile) in use instead
+``/amplitude_sweep``             moduli over the strain amplitude, with Kraus's law (if there is such a sweep)
 ``/shift_factors``               log10 α of each isotherm with its standard error (and the vertical shift)
 ``/shift_law``                   law in use, or the best one, over the same temperatures
 ``/laws``                        all laws that describe the shift factors, compared

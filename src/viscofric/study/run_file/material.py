@@ -175,6 +175,17 @@ class MaterialTable(Table):
     )
     tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of neighbouring retardation times.")
 
+    amplitude_sweep: FileNames | None = Field(
+        None,
+        description="Amplitude sweep of the material, from which Kraus's law scales it to strain.",
+    )
+    strain: Annotated[Number, Field(gt=0.0, le=10.0)] | None = Field(
+        None, description="Tensile strain to scale the moduli to, a fraction (0.05 is 5 %): an approximation."
+    )
+    measured_at: Annotated[Number, Field(gt=0.0, le=10.0)] | None = Field(
+        None, description="Tensile strain of the sweeps, a fraction; small if left out."
+    )
+
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
         for words in self._doubts():
@@ -236,6 +247,9 @@ class MaterialTable(Table):
             useless = [key for key in _OF_TWO_MODULI if key in self.model_fields_set]
             if useless and getattr(self, name) is not None and self.dma is None:
                 yield f"{' and '.join(useless)} cannot be chosen for {name} tests, only for sweeps (dma)"
+        for name in ("strain", "measured_at"):
+            if getattr(self, name) is not None and self.amplitude_sweep is None:
+                yield f"{name} needs an amplitude_sweep, from which Kraus's law is found"
         if self.assumed_shift is not None and self.ramps is None:
             yield "assumed_shift is for temperature ramps (ramps) only"
         if self.shift_factors is not None and self.fixed_shift_factors:
@@ -254,7 +268,7 @@ class MaterialTable(Table):
     def relative_to(self, folder: Path) -> MaterialTable:
         """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
         changes: dict[str, Any] = {}
-        for name in ("dma", "ramps", "creep", "relaxation"):
+        for name in ("dma", "ramps", "creep", "relaxation", "amplitude_sweep"):
             if (paths := getattr(self, name)) is not None:
                 changes[name] = tuple(path for one in paths for path in files_of(folder, one))
         for name in ("master_curve", "file", "shift_factors"):
@@ -274,6 +288,7 @@ class MaterialTable(Table):
             *(self.dma or ()),
             *self.steps,
             *(self.ramps or ()),
+            *(self.amplitude_sweep or ()),
             *(path for path in (self.master_curve, self.file, self.shift_factors) if path is not None),
         )
 

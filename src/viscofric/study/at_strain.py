@@ -1,0 +1,51 @@
+"""The material of [material] scaled to a strain, by the Kraus law of an amplitude sweep."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from viscofric.errors import DataFileError
+from viscofric.notes import Note
+from viscofric.readers.dma.amplitudes import read_amplitude_sweep
+from viscofric.rheology.payne.at_strain import material_at_strain, on_strain
+from viscofric.rheology.payne.kraus_fit import fit_kraus
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from viscofric.rheology.payne.kraus_fit import PayneFit
+    from viscofric.study.rubber import Rubber
+    from viscofric.study.run_file.material import MaterialTable
+
+
+def payne_of(table: MaterialTable) -> PayneFit | None:
+    """Return Kraus's law of the amplitude sweep of [material], None without one.
+
+    The deformation of [material] counts where the file states none.
+    """
+    if table.amplitude_sweep is None:
+        return None
+    paths: tuple[Path, ...] = table.amplitude_sweep
+    try:
+        sweep = read_amplitude_sweep(*paths)
+    except DataFileError as error:
+        if error.code != "no-deformation" or table.deformation is None:
+            raise
+        sweep = read_amplitude_sweep(*paths, deformation=table.deformation)
+    return fit_kraus(sweep)
+
+
+def at_strain(rubber: Rubber, table: MaterialTable) -> Rubber:
+    """Return the material scaled to the strain of [material], with its amplitude sweep; as it is without one."""
+    fit = payne_of(table)
+    if fit is None:
+        return rubber
+    notes = [*rubber.notes, *(note for note in fit.notes if note not in fit.sweep.notes)]
+    if table.strain is None:
+        said = "The amplitude sweep is not used: strain, to which the moduli would be scaled, is not given."
+        return replace(rubber, payne=fit, notes=(*notes, Note("no-strain", said)))
+    material = material_at_strain(rubber.material, fit.law, table.strain, measured_at=table.measured_at)
+    notes += on_strain(fit.law, table.strain)
+    small = rubber.material
+    return replace(rubber, material=material, linear=small, payne=fit, strain=table.strain, notes=tuple(notes))

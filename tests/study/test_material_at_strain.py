@@ -1,0 +1,66 @@
+"""A material of a run file scaled to a strain by an amplitude sweep."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.notes import codes
+from viscofric.study.make_rubber import make_rubber
+from viscofric.study.rubber_datasets import rubber_groups
+from viscofric.study.run_file.study import material_of
+from viscofric.study.study_rubber import FrictionBands
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+LAW = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tension")
+
+
+@pytest.fixture
+def sweep(tmp_path: Path) -> str:
+    """Write a synthetic amplitude sweep without noise."""
+    rows = ["T (degC),f (Hz),strain (%),E' (MPa),E'' (MPa)"]
+    for strain in np.geomspace(5e-4, 0.5, 25):
+        E = 1e-6 * LAW.complex_modulus(strain)
+        rows.append(f"60,{62.8 / (2.0 * np.pi):.16g},{100 * strain:.16g},{E.real:.16g},{E.imag:.16g}")
+    path = tmp_path / "payne.csv"
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    return str(path)
+
+
+CATALOGUE = {"catalogue": "synthetic fluoroelastomer"}
+
+
+def test_a_run_file_scales_its_material_to_a_strain(sweep: str) -> None:
+    made = make_rubber(material_of(CATALOGUE | {"amplitude_sweep": sweep, "strain": 0.05, "measured_at": 0.001}))
+    expected = vf.material_at_strain(vf.synthetic_fluoroelastomer(), LAW, 0.05, measured_at=0.001)
+    omega = np.array([1.0, 62.8, 1e4])
+    # constants fitted to data of 16 digits
+    np.testing.assert_allclose(
+        made.material.complex_modulus(omega, "60 degC"), expected.complex_modulus(omega, "60 degC"), rtol=1e-5
+    )
+    assert "scaled-to-strain" in codes(made.notes)
+    assert made.attributes["tensile_strain"] == 0.05
+    assert made.linear is not None
+    assert rubber_groups(made)["/amplitude_sweep"].sizes["strain_amplitude"] == 25
+    bands = FrictionBands(made, 20)
+    assert bands.samples is None
+    assert "no-bands" in codes(bands.notes)
+
+
+def test_without_a_strain_the_material_is_as_it_was(sweep: str) -> None:
+    made = make_rubber(material_of(CATALOGUE | {"amplitude_sweep": sweep}))
+    assert made.linear is None
+    assert made.payne is not None
+    assert made.payne.law.constants == pytest.approx(LAW.constants, rel=1e-4)
+    assert "no-strain" in codes(made.notes)
+
+
+def test_a_strain_needs_an_amplitude_sweep() -> None:
+    with refused("contradiction", vf.StudyError):
+        material_of(CATALOGUE | {"strain": 0.05})
