@@ -59,7 +59,7 @@ _AFTERWARDS = (
 def write_overview(formatter: click.HelpFormatter) -> None:
     """Write all commands under their headings, and the meaning of the exit statuses."""
     formatter.write("Usage: viscofric COMMAND [OPTIONS] [ARGUMENTS]\n")
-    formatter.write(f"{_ABOUT}\n\n")
+    formatter.write(f"{_ABOUT}\n")
     for heading, commands in GROUPS.items():
         for row, (name, words) in enumerate(commands.items()):
             formatter.write(f"{heading if row == 0 else '':<9} {name:<11} {words}\n")
