@@ -174,7 +174,7 @@ def test_few_notes_are_printed_and_many_are_counted(
     print_outcome(results)
     printed = capsys.readouterr().err.splitlines()
     assert len(printed) == lines
-    assert printed[0].startswith(f"{notes} notes on the data")
+    assert printed[0].startswith(f"{notes} notes ")
     assert set(printed[1:]) <= {"Note: At −30 °C."}
 
 

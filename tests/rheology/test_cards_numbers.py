@@ -145,6 +145,11 @@ def test_comsol_with_volumetric_and_deviatoric_branches_has_the_modulus_of_the_m
     assert young(bulk, shear) == pytest.approx(rubber().complex_modulus(OMEGA), rel=1e-12)
 
 
+def numbers_in(text):
+    """Return the numbers in a text."""
+    return [float(one) for one in re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?![\w.]*\w)", text)]
+
+
 def test_comsol_with_deviatoric_branches_takes_the_bulk_modulus_of_the_glass(tmp_path):
     text = written(tmp_path, rubber(), "comsol")
     values = parameters(text)
@@ -154,7 +159,7 @@ def test_comsol_with_deviatoric_branches_takes_the_bulk_modulus_of_the_glass(tmp
     assert young(values["K_long_term"], glass) == pytest.approx(130e6, rel=0.01)  # 130 MPa, far too soft
     # In the rubber 3/2.98 - 1 = 0.67 % too stiff, as the card says.
     assert young(values["K_constant"], values["G_long_term"]) == pytest.approx(1e6 * 3 / 2.98, rel=1e-5)
-    assert float(re.search(r"at most ([.\d]+) percent", words(text, "% "))[1]) == pytest.approx(0.67, abs=0.005)
+    assert 0.67 in numbers_in(words(text, "% "))
 
 
 def test_comsol_states_how_far_a_constant_bulk_modulus_is_off_at_a_low_poisson_ratio(tmp_path):
@@ -162,16 +167,15 @@ def test_comsol_states_how_far_a_constant_bulk_modulus_is_off_at_a_low_poisson_r
     values = parameters(text)
     # K = 4/1.5 MPa, G = 0.4 MPa: E = 9KG/(3K + G) = 9.6/8.4 = 1.142857 MPa
     assert young(values["K_constant"], values["G_long_term"]) == pytest.approx(1e6 * 9.6 / 8.4, rel=1e-12)
-    assert float(re.search(r"at most ([.\d]+) percent", words(text, "% "))[1]) == pytest.approx(14.29, abs=0.5)
+    assert any(one == pytest.approx(14.29, abs=0.5) for one in numbers_in(words(text, "% ")))
 
 
 def test_comsol_branches_show_the_bulk_moduli_in_their_comments(tmp_path):
     text = written(tmp_path, rubber(poisson_ratio=0.25), "comsol-branches")
     said = words(text, "% ")
     # K = E/1.5 = (5/3) G
-    assert float(re.search(r"a bulk modulus of ([.\d]+) times", said)[1]) == pytest.approx(5 / 3, rel=DIGITS)
-    assert float(re.search(r"below and bulk modulus ([.\d]+) Pa", said)[1]) == pytest.approx(1e6 / 1.5, rel=DIGITS)
-    assert float(re.search(r"constant: enter ([.\d]+) Pa", said)[1]) == pytest.approx(1e9 / 1.5, rel=DIGITS)
+    for bulk in (5 / 3, 1e6 / 1.5, 1e9 / 1.5):  # in shear moduli; of the rubber and of the glass in Pa
+        assert any(one == pytest.approx(bulk, rel=DIGITS) for one in numbers_in(said)), bulk
     rows = [line.split() for line in text.splitlines() if not line.startswith("%")]
     assert [len(row) for row in rows] == [3, 3]  # number, shear modulus, time: as COMSOL loads it
     assert float(rows[0][1]) == pytest.approx(0.25 * 999e6 / 2.5, rel=DIGITS)

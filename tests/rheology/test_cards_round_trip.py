@@ -118,8 +118,6 @@ def test_an_incompressible_material_comes_back_incompressible(tmp_path, program)
     material = rubber(poisson_ratio=0.5)
     path = write_card(material, tmp_path / "card", program)
     assert_same(read_card(path), material)
-    if program in ("abaqus", "comsol"):
-        assert "use hybrid (mixed) elements" in path.read_text()
 
 
 @pytest.mark.parametrize("program", ["ansys", "ls-dyna"])
@@ -128,7 +126,6 @@ def test_programs_that_need_a_bulk_modulus_say_so(tmp_path, program):
     with refused("incompressible"):
         write_card(material, tmp_path / "card", program, density=1100.0)
     path = write_card(material, tmp_path / "card", program, density=1100.0, poisson_ratio=0.4999)
-    assert "Poisson ratio is 0.5; this card" in path.read_text().replace("\n! ", " ").replace("\n$ ", " ")
     assert_same(read_card(path), material)  # the material's own ratio, and its E
 
 
@@ -142,7 +139,6 @@ def test_temperatures_in_degrees_celsius_come_back(tmp_path, program, law):
         return
     path = write_card(material, tmp_path / "card", program, density=1e3, temperature_unit="degC")
     assert_same(read_card(path), material)
-    assert "temperatures in degrees Celsius" in path.read_text()
     if law == "wlf":
         assert "298.15" not in "".join(line for line in path.read_text().splitlines() if "viscofric>" not in line)
 
@@ -153,7 +149,6 @@ def test_abaqus_in_the_frequency_domain_keeps_its_shift_in_comments(tmp_path):
     text = path.read_text()
     assert "*VISCOELASTIC, FREQUENCY=PRONY" in text
     assert "*TRS" not in text  # which belongs to the time domain
-    assert "is valid at 25 degrees Celsius only" in text
     assert_same(read_card(path), material)
 
 
@@ -224,8 +219,6 @@ def test_vertical_shift_and_citation_are_kept(tmp_path, program, vertical):
     assert back.citation == material.citation
     assert back.vertical_shift.log10(310.0) == pytest.approx(vertical.log10(310.0), rel=1e-12)
     assert pytest.approx(material.at("40 degC").E0, rel=1e-12) == back.at("40 degC").E0
-    if program in FINITE_ELEMENTS:
-        assert "vertical shift of the modulus" in (tmp_path / "card").read_text()
 
 
 def table_material():

@@ -138,7 +138,7 @@ def test_bands_over_frequency() -> None:
     band, data = samples.modulus_band([1.0, 1e3], level=0.9), samples.to_dataset([1.0, 1e3], level=0.9)
     np.testing.assert_array_equal(data.storage_modulus_lower, band.lower.real)
     np.testing.assert_array_equal(data.loss_modulus_upper, band.upper.imag)
-    assert data.storage_modulus_lower.attrs["long_name"] == "lower end of the 90 % band of the storage modulus"
+    assert "90 %" in data.storage_modulus_lower.attrs["long_name"]
 
 
 def test_measurements_and_master_curve(fit: vf.Superposition) -> None:

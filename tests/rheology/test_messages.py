@@ -11,6 +11,7 @@ import pytest
 
 import viscofric as vf
 from rheology.test_cards_foreign import ABAQUS, ANSYS, COMSOL, LS_DYNA
+from rheology.test_cards_round_trip import rubber
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
 
@@ -466,3 +467,25 @@ def test_remarks_on_limits_of_a_fit(known: dict[str, Any], remarks: tuple[str | 
 def test_entries_without_a_shift_are_valid_at_one_temperature_only() -> None:
     for entry in vf.catalogue():
         assert ("valid at one temperature only" in entry.holds) == (vf.catalogue_material(entry.name).shift is None)
+
+
+@pytest.mark.parametrize(
+    ("change", "program", "settings", "remark"),
+    [
+        ({"poisson_ratio": 0.5}, "abaqus", {}, "use hybrid (mixed) elements"),
+        ({"poisson_ratio": 0.5}, "comsol", {}, "use hybrid (mixed) elements"),
+        ({"poisson_ratio": 0.5}, "ansys", {"poisson_ratio": 0.4999}, "Poisson ratio is 0.5; this card"),
+        ({"poisson_ratio": 0.5}, "ls-dyna", {"poisson_ratio": 0.4999}, "Poisson ratio is 0.5; this card"),
+        ({}, "abaqus", {"temperature_unit": "degC"}, "temperatures in degrees Celsius"),
+        ({}, "ansys", {"temperature_unit": "degC"}, "temperatures in degrees Celsius"),
+        ({}, "ls-dyna", {"temperature_unit": "degC"}, "temperatures in degrees Celsius"),
+        ({}, "abaqus", {"domain": "frequency"}, "is valid at 25 degrees Celsius only"),
+        ({"vertical_shift": vf.DensityShift(298.15)}, "ansys", {}, "vertical shift of the modulus"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_remarks_in_cards(
+    tmp_path: Path, change: dict[str, Any], program: Any, settings: dict[str, Any], remark: str
+) -> None:
+    path = vf.write_card(rubber("wlf", **change), tmp_path / "card", program, density=1100.0, **settings)
+    assert remark in " ".join(path.read_text().replace("\n! ", " ").replace("\n$ ", " ").split())

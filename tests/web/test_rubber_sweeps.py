@@ -62,7 +62,7 @@ def test_left_out_readings_and_outliers_are_flagged_with_their_place(workspace: 
     assert left_out["place"] == "line 5"
     assert left_out["storage_modulus"] == -1e6
     assert found["left_out"] == 1
-    assert outlier["why"] == "far off its neighbours (storage modulus), kept"
+    assert "storage modulus" in outlier["why"]
     assert outlier["place"] == "line 15"
     assert outlier["storage_modulus"] == 60e6
 
