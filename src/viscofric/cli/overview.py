@@ -49,21 +49,21 @@ GROUPS = {
 COMMANDS = {name: words for group in GROUPS.values() for name, words in group.items()}
 
 _ABOUT = "Hysteresis friction (rolling resistance) of rubber, from laboratory data."
-_AFTERWARDS = (
-    "viscofric COMMAND --help describes a command, --version prints the version.",
-    "Exit status: 0 success, 1 bad input or not solved, 2 wrong usage, 3 some cases",
+_STATUSES = (
+    "0 success, 1 bad input or not solved, 2 wrong usage, 3 some cases",
     "failed, 130 interrupted, 143 terminated.",
 )
 
 
 def write_overview(formatter: click.HelpFormatter) -> None:
     """Write all commands under their headings, and the meaning of the exit statuses."""
-    formatter.write("Usage: viscofric COMMAND [OPTIONS] [ARGUMENTS]\n")
-    formatter.write(f"{_ABOUT}\n")
+    formatter.write("Usage: viscofric [--version] COMMAND [--help] [OPTIONS] [ARGUMENTS]\n")
+    formatter.write(f"{_ABOUT}\n\n")
     for heading, commands in GROUPS.items():
         for row, (name, words) in enumerate(commands.items()):
             formatter.write(f"{heading if row == 0 else '':<9} {name:<11} {words}\n")
-    formatter.write("\n" + "".join(f"{line}\n" for line in _AFTERWARDS))
+    for row, line in enumerate(_STATUSES):
+        formatter.write(f"{'Status' if row == 0 else '':<9} {line}\n")
 
 
 class LazyGroup(click.Group):
