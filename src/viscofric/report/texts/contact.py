@@ -25,7 +25,7 @@ _ROUND_OFF = 1e-12
 _LEAST_LATERAL = 1e-5
 
 # Units of what `contact_record` holds beside the numbers of the contact.
-_UNITS = {"direction": "1", "E0": "Pa", "E_inf": "Pa", "C": "1/Pa", "tau": "s", "seconds": "s"}
+_UNITS = {"temperature": "K", "direction": "1", "E0": "Pa", "E_inf": "Pa", "C": "1/Pa", "tau": "s", "seconds": "s"}
 # Numbers of a contact that are inputs, or work of the solver.
 _NO_RESULTS = ("speed", "temperature", "energy_balance", "complementarity", "cells", "spacing", "products")
 
