@@ -332,6 +332,9 @@ CALLS: dict[str, Any] = {
     "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "history": vf.History([0.0, 0.1],
         load=[0.0, 1.0], temperature=300.0), "times": np.array([0.05, 0.1]), "accuracy": 1e-2, "layer": None,
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None},
+    "solve_cycle": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "one_period": vf.History([0.0, 0.1, 0.2],
+        load=[0.5, 1.0, 0.5], temperature=300.0), "accuracy": 1e-2, "layer": None, "indenter_modulus": 1e9,
+        "indenter_poisson_ratio": 0.3, "most_periods": 60, "progress": None},
     "solve_impact": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "mass": 0.03, "speed": 0.1, "gravity":
         9.81, "rebounds": 1, "temperature": 300.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
         0.3},

@@ -101,6 +101,7 @@ RETURNED = {
     "Superposition",
     "SuperpositionCheck",
     "TractionStep",
+    "CycleSolution",
     "ImpactContact",
     "ImpactSolution",
     "RestitutionCurve",

@@ -66,6 +66,8 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
     from viscofric.literature.citations import Citations as Citations
     from viscofric.literature.citations import citations as citations
+    from viscofric.motion.cycle import solve_cycle as solve_cycle
+    from viscofric.motion.cycle_solution import CycleSolution as CycleSolution
     from viscofric.motion.history import History as History
     from viscofric.motion.history_files import read_history as read_history
     from viscofric.motion.impact import restitution_curve as restitution_curve
@@ -191,6 +193,8 @@ _HOME = {
     "ContactSolution": "viscofric.contact.solution",
     "Diagnostics": "viscofric.contact.solution",
     "solve_steady": "viscofric.contact.steady",
+    "CycleSolution": "viscofric.motion.cycle_solution",
+    "solve_cycle": "viscofric.motion.cycle",
     "History": "viscofric.motion.history",
     "read_history": "viscofric.motion.history_files",
     "ImpactContact": "viscofric.motion.impact_solution",

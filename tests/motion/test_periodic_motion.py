@@ -78,6 +78,7 @@ def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float) -> None:
     assert whole.stored == pytest.approx(float((weights * np.abs(q[0]) ** 2).sum()), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cells", [1, 8, 32])
 def test_steady_sliding_is_met_exactly_by_coarse_steps(cells: int) -> None:
     # One wave, vτ = λ/8: 12 λ later the start is forgotten to e⁻⁹⁶; the tolerance is that of the contact solver.
@@ -130,6 +131,7 @@ def test_what_was_there_before_goes_on(before: str) -> None:
     assert others[-1].dissipated == pytest.approx(first.friction_force[0] * speed, rel=1e-4, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_growing_contact_is_elastic_with_the_creep_compliance() -> None:
     # E. H. Lee, J. R. M. Radok, J. Appl. Mech. 27 (1960) 438: while a contact grows, depth and extent under a constant
     # load are those of an elastic solid with the modulus 1/J(t); Westergaard's wave among them.
@@ -146,6 +148,7 @@ def test_growing_contact_is_elastic_with_the_creep_compliance() -> None:
         assert run.contact_area[i] == pytest.approx(closed.area_fraction, abs=1.5 / points)  # an edge is within a point
 
 
+@pytest.mark.slow
 def test_sliding_of_a_second_solver() -> None:
     # There and back under a rising pressure.  The second solver moves by whole points; its error falls as their square.
     speed, errors = 0.1, []
@@ -193,6 +196,7 @@ def test_normal_motion_of_a_second_solver() -> None:
     assert [each.area for each in seen] == pytest.approx((found > 0.0).mean(axis=1), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_pressure_may_go_and_come_back() -> None:
     history = vf.History([0.0, 1e-3, 2e-3, 3e-3, 8e-3], pressure=[1e3, 1e3, 0.0, 0.0, 1e3], speed=0.05)
     run = vf.solve_transient(TWO_MODES, profile(48), history, times=[1e-3, 2.5e-3, 8e-3], accuracy=1e-2)
@@ -202,6 +206,7 @@ def test_pressure_may_go_and_come_back() -> None:
     assert 0.0 < run.indentation[1] < run.indentation[0]  # the dent has not recovered
 
 
+@pytest.mark.slow
 def test_work_is_stored_or_dissipated() -> None:
     # From rest into sliding, aside, and to rest: work, stored and dissipated energy are computed independently.
     path = [[0.0, 0.0], [2e-4, 0.0], [3e-4, 1e-4], [3e-4, 1e-4]]

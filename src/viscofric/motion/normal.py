@@ -15,7 +15,7 @@ since it is a mean of those of the springs.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -172,6 +172,24 @@ class NormalMotion:
             raise ConvergenceError(
                 f"at time {time:.4g} s the contact is wider than the row of springs.", code="beyond-springs"
             )
+
+    def memory_of(self, state: SpringState) -> Array:
+        """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
+        return self._energy_scale * state.memory
+
+    def with_memory(self, state: SpringState, memory: Array) -> SpringState:
+        """Return a state with another memory, which has not dissipated anything yet."""
+        return replace(state, memory=memory / self._energy_scale, dissipated=0.0)
+
+    def recovered(self, change: Array, start: Instant, end: Instant) -> Array:
+        """Return the change of a memory over a period, over 1 − e^(−T/τ)."""
+        return np.asarray(change / -np.expm1(-(end.clock - start.clock) / self.tau))
+
+    @cached_property
+    def _energy_scale(self) -> Array:
+        """√(c w) of each spring and mode; that of a spring without weight makes no difference."""
+        weights = np.maximum(self.weights, 1e-12 * self.weights.max())
+        return np.asarray(np.sqrt(weights[:, None] * self.compliances))
 
     @cached_property
     def _transform(self) -> tuple[Array, Array]:

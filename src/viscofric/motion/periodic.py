@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -29,6 +30,8 @@ from viscofric.motion.wave_memory import StepResponse, advance
 from viscofric.motion.waves import Waves
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.motion.problem import Problem
@@ -194,6 +197,29 @@ class PeriodicMover:
         """Return None: a step may end at any time."""
         return
 
+    def memory_of(self, state: PeriodicState) -> NDArray[Any]:
+        """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
+        return self._energy_scale * state.memory
+
+    def with_memory(self, state: PeriodicState, memory: NDArray[Any]) -> PeriodicState:
+        """Return a state with another memory, which has not dissipated anything yet."""
+        scale = self._energy_scale
+        # Waves that displace nothing keep the memory that they have.
+        found = np.divide(memory, scale, out=state.memory.copy(), where=scale > 0.0)
+        change = float(np.vdot(memory, memory).real - np.linalg.norm(self.memory_of(state)) ** 2)
+        return replace(state, memory=found, stored=state.stored + 0.5 * change, dissipated=0.0)
+
+    def recovered(self, change: NDArray[Any], start: Instant, end: Instant) -> NDArray[Any]:
+        """Return the change of a memory over a period, over 1 − e^z."""
+        turn = self.grid.turn(np.asarray(end.position) - np.asarray(start.position))
+        steps = ((end.clock - start.clock) / self.modes.tau)[:, None, None]
+        return change / -np.expm1(-steps + 1j * turn)
+
+    @cached_property
+    def _energy_scale(self) -> Array:
+        """√(C w G) of each mode and wave."""
+        return np.asarray(np.sqrt(self.modes.C[:, None, None] * (self.grid.weights * self._shape)))
+
     def _state(
         self,
         pressure: Array,
@@ -259,6 +285,14 @@ class PeriodicMover:
             indentation = self.mean_height - end.gap / self.depth_unit
             if indentation <= float(height.min()):
                 return np.zeros(height.shape), indentation
+        if load is not None and guess is not None and guess.min() > 0.0:
+            # Full contact, if it goes on, is a linear problem.
+            level = float(height.mean())
+            pressure = problem.exact.precondition(level - height)
+            pressure += load / height.size - float(pressure.mean())
+            if float(pressure.min()) >= 0.0:
+                self.products += 1
+                return pressure, level
         target = _Target(load, indentation, self._tolerance(end, guess))
         before = problem.exact.products + problem.single.products
         result = self._quickly(problem, height, target, guess)

@@ -1,0 +1,217 @@
+"""The state of a contact that repeats itself from period to period, found without waiting for it.
+
+Over a period a mode's delayed pressure becomes q(T) = e^z q(0) + c, with z = −T/τ (+ iq·Δs of a wave that the indenter
+passes), and c depends on the pressures of the period only.  If these stayed as they were, the repeating state would be
+q* = q(0) + [q(T) − q(0)]/(1 − e^z), at once for all modes, however slow.  They change with the state; so this is
+iterated, with Anderson's acceleration [1]_, until it changes nothing.
+
+.. [1] D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol, cast
+
+import numpy as np
+
+from viscofric.arguments import insist_on_function, whole_number
+from viscofric.errors import ConvergenceError, InputError
+from viscofric.motion.chains import Link, Pair
+from viscofric.motion.cycle_solution import CycleSolution
+from viscofric.motion.march import march
+from viscofric.motion.mover import Mover, State
+from viscofric.motion.solve import assemble, checked_problem, mover_of
+from viscofric.threads import one_blas_thread
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from viscofric.arrays import Array
+    from viscofric.contact.bodies import Layer
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.motion.history import History
+    from viscofric.motion.problem import Problem
+    from viscofric.motion.schedule import Instant
+    from viscofric.rheology.material import Material
+    from viscofric.units import Quantity
+
+# Distance from the repeating state as a part of the accuracy, by the norm of the stored energy.
+_CLOSE = 0.3
+# Earlier iterations that the acceleration uses.
+_KEPT = 10
+# Relative difference of the ends of a period that is rounding.
+_ROUNDING = 1e-9
+
+
+class RepeatingMover(Mover[State], Protocol[State]):
+    """A mover whose memory can be read and set."""
+
+    def memory_of(self, state: State) -> NDArray[Any]:
+        """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
+        ...
+
+    def with_memory(self, state: State, memory: NDArray[Any]) -> State:
+        """Return a state with another memory, which has not dissipated anything yet."""
+        ...
+
+    def recovered(self, change: NDArray[Any], start: Instant, end: Instant) -> NDArray[Any]:
+        """Return the change of a memory over a period, over 1 − e^z."""
+        ...
+
+
+@one_blas_thread
+def solve_cycle(
+    material: Material,
+    indenter: Indenter | PeriodicSurface,
+    one_period: History,
+    *,
+    accuracy: float = 1e-3,
+    layer: Layer | None = None,
+    indenter_modulus: Quantity | None = None,
+    indenter_poisson_ratio: float = 0.3,
+    most_periods: int = 60,
+    progress: Callable[[int, float], object] | None = None,
+) -> CycleSolution:
+    """Solve a contact that does the same again and again, in the state that repeats itself.
+
+    Parameters
+    ----------
+    material : Material
+        A table of moduli is described by modes fitted to it.
+    indenter : Indenter or PeriodicSurface
+    one_period : History
+        Of load or depth, path and temperature; it ends as it begins.  A periodic surface may go on to another place.
+    accuracy : float
+        As for `solve_transient`; and of the state that repeats itself, by the energy stored.
+    layer : Layer, optional
+        Thickness and base of the material; a half-space without.
+    indenter_modulus : float, str or pint.Quantity, optional
+        Young's modulus of an elastic indenter, Pa; rigid without it.
+    indenter_poisson_ratio : float
+        Of an elastic indenter.
+    most_periods : int
+        Periods after which the solver gives up.
+    progress : callable, optional
+        Called after each period with their number and the relative distance from the repeating state.
+
+    Returns
+    -------
+    CycleSolution
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the history does not end as it begins.
+    ConvergenceError
+        If the state does not repeat itself to the accuracy after `most_periods`, or the accuracy in time is not
+        reached.
+
+    Examples
+    --------
+    Oscillating indentation, as in a dynamic indentation test:
+
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+    >>> phase = np.linspace(0.0, 2.0 * np.pi, 49)
+    >>> period = vf.History(time=phase / 100.0, indentation=1e-4 + 3e-6 * np.sin(phase))
+    >>> cycle = vf.solve_cycle(rubber, vf.Ball("10 mm"), period)
+    >>> print(f"{cycle.storage_stiffness:.3g} N/m, loss tangent {cycle.loss_tangent:.3g}")
+    2.92e+03 N/m, loss tangent 0.81
+    """
+    if progress is not None:
+        insist_on_function(progress, "progress")
+    whole_number(most_periods, "most_periods", 1)
+    problem = checked_problem(material, indenter, one_period, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
+    _insist_on_period(one_period, problem.kind)
+    found, method = mover_of(problem, one_period)
+    if not hasattr(found, "memory_of"):
+        raise InputError(
+            "indenter: the repeating state of this contact is not available; repeat its history in solve_transient.",
+            code="not-available",
+        )
+    mover = cast("RepeatingMover[Any]", found)
+    schedule = problem.schedule
+    first, last = schedule.at(schedule.start), schedule.at(schedule.end, after=False)
+    state = mover.begin()
+    if schedule.before == "untouched":
+        state = mover.step(state, schedule.at(schedule.start, after=False), first)
+    mixing, far = _Anderson(_damping(problem)), np.inf
+    for period in range(1, most_periods + 1):
+        memory = mover.memory_of(state)
+        # The pressure that goes with this memory, at once.
+        begun = mover.step(mover.with_memory(state, memory), first, first)
+        link = Link(begun, mover.observe(begun), 0.0)
+        track = march(mover, schedule, accuracy=accuracy, fields=False, begin=Pair(link, link))
+        if track.interrupted:
+            raise KeyboardInterrupt
+        state = track.final.fine.state
+        reached = mover.memory_of(state)
+        change = mover.recovered(reached - memory, first, last)
+        size = float(np.linalg.norm(reached))
+        far = float(np.linalg.norm(change)) / size if size > 0.0 else 0.0
+        if progress is not None:
+            progress(period, far)
+        if far <= _CLOSE * accuracy:
+            run = assemble(track, problem, one_period, method, continued=True)
+            return CycleSolution.of(run, problem.schedule.control, period, far)
+        state = mover.with_memory(state, mixing.next(memory, change))
+    raise ConvergenceError(
+        f"the state did not repeat itself after {most_periods} periods: its memory was {far:.2g} of itself away; allow "
+        "more periods (most_periods=).",
+        code="not-repeating",
+    )
+
+
+def _damping(problem: Problem) -> float:
+    """Return the part of a change of memory that is made.
+
+    At a given depth, pressures fall by E_inf/E0 − 1 times as much as slow modes rise: this damping makes them meet.
+    """
+    spectrum = problem.schedule.spectrum
+    given_depth = problem.schedule.control in ("indentation", "gap")
+    return float(spectrum.E0 / spectrum.E_inf) if given_depth else 1.0
+
+
+def _insist_on_period(history: History, kind: str) -> None:
+    columns = {history.control: getattr(history, history.control), "temperature": history.temperature}
+    if kind != "periodic":
+        columns["position"] = history.position
+    for name, values in columns.items():
+        if values is None:
+            continue
+        away = float(np.max(np.abs(values[-1] - values[0])))
+        if away > _ROUNDING * float(np.ptp(values, axis=0).max()):
+            raise InputError(
+                f"one_period: {name} ends {away:.3g} (SI) away from where it begins; a period ends as it begins.",
+                code="not-a-period",
+            )
+
+
+class _Anderson:
+    """Combines the latest iterations so that what they change cancels best."""
+
+    def __init__(self, damping: float) -> None:
+        self._damping = damping
+        self._points: list[Array] = []
+        self._changes: list[Array] = []
+
+    def next(self, point: NDArray[Any], change: NDArray[Any]) -> NDArray[Any]:
+        """Return the next point of an iteration x ← x + λ f(x), with the damping λ."""
+        x, f = _flat(point), _flat(change)
+        self._points = [*self._points[-_KEPT:], x]
+        self._changes = [*self._changes[-_KEPT:], f]
+        found = x + self._damping * f
+        if len(self._points) > 1:
+            moved = np.diff(np.array(self._points), axis=0)
+            differences = np.diff(np.array(self._changes), axis=0)
+            weights = np.linalg.lstsq(differences.T, f, rcond=1e-8)[0]
+            found = found - weights @ (moved + self._damping * differences)
+        return found.view(point.dtype).reshape(point.shape)
+
+
+def _flat(values: NDArray[Any]) -> Array:
+    return np.ascontiguousarray(values).reshape(-1).view(np.float64)

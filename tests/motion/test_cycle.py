@@ -1,0 +1,105 @@
+"""States that repeat themselves: closed forms, reference values, and the same state by waiting."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.errors import ConvergenceError
+
+SLS = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+BALL = vf.Ball("10 mm")
+
+
+def sine(points: int, mean: float, amplitude: float) -> tuple[np.ndarray, np.ndarray]:
+    """Phases, and a polygon whose first harmonic has the amplitude: sampling takes (π/n)²/3 of it."""
+    phase = np.linspace(0.0, 2.0 * np.pi, points + 1)
+    values = mean + amplitude / np.sinc(1.0 / points) ** 2 * np.sin(phase)
+    values[-1] = values[0]
+    return phase, values
+
+
+@pytest.mark.slow
+def test_small_oscillation_has_the_stiffness_of_the_complex_modulus() -> None:
+    # dF/dδ = 2a E(ω)/(1 − ν²) with a² = Rδ.  Springs at the edge are touched for a part of the period only, which
+    # lowers the loss by an eighth of the relative amplitude, 2.5e-3.
+    omega, depth = 100.0, 1e-4
+    phase, values = sine(24, depth, 0.02 * depth)
+    cycle = vf.solve_cycle(SLS, BALL, vf.History(phase / omega, indentation=values), accuracy=1e-4)
+    modulus = complex(SLS.spectrum.complex_modulus(omega))
+    radius = np.sqrt(1e-2 * depth)
+    stiffness = 2.0 * radius * modulus / 0.75
+    assert cycle.storage_stiffness == pytest.approx(stiffness.real, rel=2e-3)
+    assert cycle.loss_stiffness == pytest.approx(stiffness.imag, rel=4e-3)
+    assert cycle.loss_tangent == pytest.approx(modulus.imag / modulus.real, rel=4e-3)
+    assert cycle.energy_per_cycle == pytest.approx(np.pi * stiffness.imag * (0.02 * depth) ** 2, rel=5e-3)
+    assert cycle.mean_friction_coefficient is None
+
+
+@pytest.mark.slow
+def test_contact_that_is_lost_in_every_period() -> None:
+    # Independent solution: MDR, three refinements, extrapolated; 3e-6.  The rest is the sampling of the sine.
+    phase, values = sine(128, 1.0, 1.5)
+    cycle = vf.solve_cycle(SLS, BALL, vf.History(phase / 100.0, load=np.maximum(values, 0.0)))
+    assert cycle.energy_per_cycle == pytest.approx(0.0005514448777747074, rel=1e-3)
+    assert cycle.run.indentation.max() == pytest.approx(0.0005149900095594225, rel=5e-3)
+    assert cycle.run.load[-1] == pytest.approx(cycle.run.load[0])
+    assert cycle.run.indentation[-1] == pytest.approx(cycle.run.indentation[0], rel=1e-4)
+    assert cycle.run.energy_imbalance < 1e-4
+    assert cycle.periods <= 6
+
+
+def test_modes_a_million_times_slower_than_the_period_do_not_wait() -> None:
+    # The slow mode ends as if the mean of the load had acted for ever: waiting would take a million periods.
+    slow = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [4e-7, 5e-7], [1e-2, 1e4]))
+    history = vf.History([0.0, 0.01], indentation=[1e-4, 1e-4], before="untouched")
+    cycle = vf.solve_cycle(slow, BALL, history)
+    force = 4.0 / 3.0 * 1e6 / 0.75 * 0.1 * 1e-4**1.5  # at rest for ever: Hertz with E0
+    assert cycle.run.load == pytest.approx(force, rel=1e-3)
+    assert cycle.energy_per_cycle == pytest.approx(0.0, abs=1e-4 * force * 1e-4)
+    assert cycle.storage_stiffness is None
+    assert cycle.periods <= 8
+
+
+def wave(points: int = 24) -> vf.PeriodicSurface:
+    x = 2.0 * np.pi * np.arange(points) / points
+    return vf.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), 1e-3 / points)
+
+
+@pytest.mark.slow
+def test_constant_sliding_is_the_steady_state() -> None:
+    speed = 0.05
+    history = vf.History([0.0, 4e-3], pressure=1e3, speed=speed)
+    cycle = vf.solve_cycle(SLS, wave(25), history, accuracy=1e-2)
+    steady = vf.solve_periodic(SLS, wave(25), speed=speed, pressure=1e3)
+    assert cycle.mean_friction_coefficient == pytest.approx(steady.friction_coefficient, rel=3e-3)
+    assert cycle.energy_per_cycle == pytest.approx(steady.friction_coefficient * 1e3 * speed * 4e-3, rel=1e-2)
+
+
+@pytest.mark.slow
+def test_reciprocation_is_reached_by_waiting_too() -> None:
+    # In full contact, where few steps are enough.
+    there, back, pressure = 2e-4, 2e-3, 2e5  # m, s, Pa
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    one = vf.History([0.0, back, 2.0 * back], pressure=pressure, position=[0.0, there, 0.0])
+    cycle = vf.solve_cycle(rubber, wave(), one)
+    path = there * (np.arange(7) % 2)
+    longer = vf.History(back * np.arange(7), pressure=pressure, position=path)
+    waited = vf.solve_transient(rubber, wave(), longer, times=longer.time[-3:])
+    assert cycle.run.contact_area.min() == 1.0
+    assert cycle.energy_per_cycle == pytest.approx(waited.dissipated[-1] - waited.dissipated[0], rel=3e-3)
+    assert cycle.run.friction_force[[0, -1]] == pytest.approx(
+        waited.friction_force[-1], abs=3e-3 * np.abs(waited.friction_force).max()
+    )
+    assert cycle.run.work[-1] == pytest.approx(cycle.energy_per_cycle, rel=1e-3)
+    assert cycle.mean_friction_coefficient == pytest.approx(cycle.energy_per_cycle / (2.0 * there * pressure), rel=1e-3)
+    assert cycle.to_dataset().attrs["periods"] == cycle.periods
+
+
+def test_what_does_not_repeat_itself_is_refused() -> None:
+    with refused("not-a-period"):
+        vf.solve_cycle(SLS, BALL, vf.History([0.0, 1.0], load=[1.0, 2.0]))
+    with refused("not-repeating", ConvergenceError):
+        vf.solve_cycle(SLS, BALL, vf.History([0.0, 1e-3], load=1.0), most_periods=1)
