@@ -7,6 +7,7 @@ from viscofric.verification import (
     ball,
     elastic,
     line,
+    over_time,
     refinement,
     restated,
     similarity,
@@ -29,6 +30,7 @@ CHECKS: tuple[Check, ...] = (
     *slopes.CHECKS,
     *refinement.CHECKS,
     *windows.CHECKS,
+    *over_time.CHECKS,
 )
 
 __all__ = ["CHECKS", "Check", "Comparison", "Outcome", "run_checks", "select"]
