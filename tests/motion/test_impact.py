@@ -158,6 +158,15 @@ def test_a_cone_of_an_elastic_body_bounces_back_as_fast():
     assert hit.largest_indentation == pytest.approx(depth, rel=1e-4)
 
 
+def test_a_punch_bounces_as_a_mass_on_a_spring():
+    """F = 2 a E* δ: half a period is π √(m/2aE*)."""
+    hit = vf.solve_impact(rubber(1e9), vf.FlatPunch("1 mm"), mass=MASS, speed=SPEED)
+    stiffness = 2.0 * 1e-3 * 1e7 / 0.75
+    assert hit.restitution == pytest.approx(1.0, abs=1e-4)
+    assert hit.contact_time == pytest.approx(math.pi * math.sqrt(MASS / stiffness), rel=1e-4)
+    assert hit.largest_indentation == pytest.approx(SPEED * math.sqrt(MASS / stiffness), rel=1e-4)
+
+
 def test_an_elastic_ball_adds_its_compliance():
     """With E_i* = E∞*, depths are those of half the modulus."""
     hit = vf.solve_impact(

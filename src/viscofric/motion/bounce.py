@@ -27,7 +27,7 @@ from viscofric.motion.steps import StepParts, step_parts
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.arrays import Array
+    from viscofric.arrays import Array, Indices
 
 #: Steps of the first run, by the time of the contact's own oscillation, and their growth.
 _BY_STIFFNESS, _GROWTH = 0.14, 1.4
@@ -36,6 +36,8 @@ _MOST_STEPS, _MOST_REVERSALS = 20_000, 4
 #: Under gravity, the same after so many steps of the first run at a part of the first speed.
 _RESTING, _SLOW = 500, 0.01
 _SECANTS = 60
+#: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
+_RISE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +50,28 @@ class Springs:
     instantaneous: float  # plane-strain compliance, 1/Pa
     compliances: Array  # (modes,)
     tau: Array
+    walled: bool = False  # whether the last spring is at the edge of a punch
+
+
+class _Step(NamedTuple):
+    """Coefficients of a step, of all modes together where they are needed so."""
+
+    fading: Array  # (modes,) c decay
+    start: float  # Σ c start
+    compliance: float
+    decay: Array  # (modes, 1)
+    ends: Array  # (modes, 2): start, end
+    own: Array  # (modes,), with c
+    mixed: Array
+    new: float
+
+    @classmethod
+    def of(cls, springs: Springs, parts: StepParts) -> _Step:
+        c = springs.compliances
+        compliance = springs.instantaneous + float(c @ parts.end)
+        ends = np.stack([parts.start, parts.end], axis=1)
+        own, mixed, new = c * parts.own, 2.0 * c * parts.mixed, float(c @ parts.new)
+        return cls(c * parts.decay, float(c @ parts.start), compliance, parts.decay[:, None], ends, own, mixed, new)
 
 
 class Contact(NamedTuple):
@@ -93,11 +117,12 @@ class Bounce:
         self._planned = self._parts_of_meshes()
         self._force = np.zeros(len(springs.g))
         self._memory = np.zeros((len(springs.tau), len(springs.g)))
-        self._lost = 0.0
+        self._lost = self._most = self._rise = 0.0
         time, depth = 0.0, float(springs.g[0])
         for number in range(rebounds):
             contact, depth = self._contact(number, time, depth, speed)
             self.contacts.append(contact)
+            self._insist_on_disc()
             if not contact.separates or number + 1 == rebounds:
                 break
             flight = self._flight(depth, contact.speed_out)
@@ -113,7 +138,7 @@ class Bounce:
         planned = iter(() if mesh is None else [one / self.division for one in mesh for _ in range(self.division)])
         time, v, force = 0.0, speed, 0.0
         taken: list[float] = []
-        deepest, deepest_time, peak, last_forces = depth, 0.0, 0.0, [(0.0, 0.0)]
+        deepest, deepest_time, peak, last_forces = depth, 0.0, 0.0, ((0.0, 0.0), (0.0, 0.0))
         step, stiffness, reversals = self.first_step, 0.0, 0
         self._record(start, depth, v, 0.0, 0.0)
         for _ in range(_MOST_STEPS):
@@ -137,7 +162,11 @@ class Bounce:
             share = step**2 / (6.0 * m * compliance)
             total = np.cumsum(weights)
             depths = (free + share * np.cumsum(weights * b)) / (1.0 + share * total)
-            last = int(np.argmax(depths <= np.append(b[1:], np.inf)))
+            enough = depths[:-1] <= b[1:]
+            last = int(np.argmax(enough))
+            last = last if enough[last] else len(enough)
+            if last == len(enough) and not self.springs.walled:
+                raise ConvergenceError("the contact is wider than the row of springs.", code="beyond-springs")
             new, stiffness = float(depths[last]), float(total[last]) / compliance
             spring_forces = np.maximum(new - threshold, 0.0) / compliance
             force = float(self.springs.weights @ spring_forces)
@@ -153,12 +182,11 @@ class Bounce:
             if v * v1 < 0.0:
                 reversals += 1
             depth, v, time = new, v1, time + step
-            last_forces = [*last_forces[-2:], (time, force)]
-            peak = max(peak, _top(last_forces))
+            peak = max(peak, _top(last_forces, (time, force))) if force >= 0.5 * peak else peak
+            last_forces = (last_forces[1], (time, force))
             taken.append(step)
             if self.recorded:
-                edge = self._edge(threshold, new)
-                self._record(start + time, depth, v, force, edge)
+                self._record(start + time, depth, v, force, self._edge(order, b, new, last))
             resting = self.gravity > 0.0 and len(taken) >= _RESTING * self.division and abs(v) < _SLOW * speed
             if reversals >= _MOST_REVERSALS or resting:
                 self.taken.append(taken)
@@ -172,38 +200,50 @@ class Bounce:
             return step
         return min(_GROWTH * step, _BY_STIFFNESS * math.sqrt(self.mass / stiffness))
 
-    def _parts_of_meshes(self) -> dict[float, StepParts]:
+    def _parts_of_meshes(self) -> dict[float, _Step]:
         """Return the coefficients of all steps that are planned, computed at once."""
         steps = sorted({one / self.division for mesh in self.meshes or () for one in mesh})
         if not steps:
             return {}
         every = step_parts(np.array(steps)[:, None] / self.springs.tau)
-        return {step: StepParts(*(part[place] for part in every)) for place, step in enumerate(steps)}
+        each = (StepParts(*(part[place] for part in every)) for place in range(len(steps)))
+        return {step: _Step.of(self.springs, parts) for step, parts in zip(steps, each, strict=True)}
 
     def _predict(self, step: float) -> tuple[Array, float]:
         """Return the depths at which springs touch at the end of a step, and by how much they give way."""
         if step != self._step:
             self._step = step
-            self._coefficients = self._planned.get(step) or step_parts(step / self.springs.tau)
-        c, parts = self.springs.compliances, self._coefficients
-        known = (c * parts.decay) @ self._memory + float(c @ parts.start) * self._force
-        return self.springs.g + known, self.springs.instantaneous + float(c @ parts.end)
+            found = self._planned.get(step)
+            self._now = found or _Step.of(self.springs, step_parts(step / self.springs.tau))
+        threshold = self._now.fading @ self._memory
+        threshold += self._now.start * self._force
+        threshold += self.springs.g
+        return threshold, self._now.compliance
 
     def _complete(self, force: Array) -> None:
         """Advance memory and dissipated energy over the step that was predicted."""
-        parts = self._coefficients
+        now = self._now
         if self.recorded:
-            c, weights = self.springs.compliances, self.springs.weights
+            weights = self.springs.weights
             away, change = self._force - self._memory, force - self._force
+            weighted = weights * change
             self._lost += float(
-                ((c * parts.own) @ np.square(away)) @ weights
-                + 2.0 * ((c * parts.mixed) @ away) @ (weights * change)
-                + float(c @ parts.new) * (weights @ np.square(change))
+                (now.own @ np.square(away)) @ weights + (now.mixed @ away) @ weighted + now.new * (weighted @ change)
             )
-        self._memory *= parts.decay[:, None]
-        self._memory += parts.start[:, None] * self._force
-        self._memory += parts.end[:, None] * force
+            self._most = max(self._most, float(force[0]))
+            self._rise = max(self._rise, float(np.max(force[1:] - force[:-1])))
+        # decay q₀ + start f₀ + end f₁
+        self._memory *= now.decay
+        self._memory += now.ends @ np.stack([self._force, force])
         self._force = force
+
+    def _insist_on_disc(self) -> None:
+        # Springs just touched are off by what a step leaves out: held against the largest force of all.
+        if self._rise > _RISE * self._most:
+            raise ConvergenceError(
+                "the pressure is no longer that of one disc, for which alone the row of springs is exact.",
+                code="not-one-disc",
+            )
 
     def _separation(self, depth: float, v: float, a: float, step: float) -> float:
         """Return the part of a step after which the indenter only just touches, found by regula falsi."""
@@ -234,13 +274,13 @@ class Bounce:
         self._complete(np.zeros_like(self._force))
         return time, depth - speed_out * time + 0.5 * g * time**2, g * time - speed_out
 
-    def _edge(self, threshold: Array, depth: float) -> float:
-        touching = np.flatnonzero(threshold < depth)
-        last, s = int(touching[-1]), self.springs.s
-        if last + 1 == len(s):
-            return float(s[-1])
-        inside, outside = depth - threshold[last], threshold[last + 1] - depth
-        return float(s[last] + (s[last + 1] - s[last]) * inside / (inside + outside))
+    def _edge(self, order: Indices, b: Array, depth: float, last: int) -> float:
+        """Return the contact radius between the last spring that touches and the next one."""
+        if last + 1 == len(b):
+            return float(self.springs.s[-1])
+        inner, outer = self.springs.s[order[last]], self.springs.s[order[last + 1]]
+        share = (depth - b[last]) / (b[last + 1] - b[last]) if b[last + 1] > b[last] else 0.0
+        return float(inner + (outer - inner) * share)
 
     def _record(self, time: float, depth: float, speed: float, force: float, radius: float) -> None:
         if self.recorded:
@@ -259,15 +299,14 @@ def _root_of_speed(v: float, start: float, end: float) -> float:
     return min(max(2.0 * v / (root - start), 0.0), 1.0)
 
 
-def _top(points: list[tuple[float, float]]) -> float:
-    """Return the largest value of the last points, or of the parabola through three if its top lies among them."""
-    most = max(value for _, value in points)
-    if len(points) < 3:
-        return most
-    (x0, y0), (x1, y1), (x2, y2) = points
+def _top(before: tuple[tuple[float, float], tuple[float, float]], last: tuple[float, float]) -> float:
+    """Return the last value, or the top of the parabola through three points where it lies among them."""
+    ((x0, y0), (x1, y1)), (x2, y2) = before, last
+    if not x0 < x1:
+        return y2
     first, second = (y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1)
     if not first > 0.0 > second:
-        return most
+        return y2
     bend = (second - first) / (x2 - x0)
     slope = first + bend * (x1 - x0)  # at x1
     return y1 - 0.25 * slope**2 / bend

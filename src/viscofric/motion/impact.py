@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 TIGHTEST, LOOSEST = 1e-6, 1e-2  # accuracies
 #: Springs in the contact for an accuracy of 1e-4, and most of them; their error of a force is 0.4/N².
 _SPRINGS, _MOST_SPRINGS = 250, 2500
-#: Divisions of the steps of the first run; the last two are extrapolated.
-_DIVISIONS = (4, 8, 16, 32, 64)
+#: Steps of a contact in the first run that counts; the following ones halve them, and the last two are extrapolated.
+_STEPS, _LEAST_DIVISION, _HALVINGS = 120, 3, 5
 #: The largest edge is that on an elastic half-space of E0, and a little more.
 _MARGIN = 1.03
 _MOST_CONTACTS = 1000
@@ -264,12 +264,13 @@ class _Falling(NamedTuple):
         if rebounds == 1:
             modes = Modes.for_history(spectrum, shortest, longest, error=_MERGING * self.accuracy)
         count = min(max(_SPRINGS, math.ceil(_SPRINGS * math.sqrt(1e-4 / self.accuracy))), _MOST_SPRINGS)
-        s, g, weights = row(indenter, _MARGIN * soft, count)
+        s, g, weights = row(indenter, soft if indenter.has_walls else _MARGIN * soft, count)
         instantaneous = plane_strain * modes.instantaneous + self.counterface
-        springs = Springs(g, s, weights, instantaneous, plane_strain * modes.C, modes.tau)
+        springs = Springs(g, s, weights, instantaneous, plane_strain * modes.C, modes.tau, indenter.has_walls)
         first = Bounce(springs, self.mass, self.gravity, _FIRST * depth / speed).run(speed, rebounds)
         coarse = None
-        for division in _DIVISIONS:
+        least = max(_LEAST_DIVISION, round(_STEPS / max(len(mesh) for mesh in first.taken)))
+        for division in (least * 2**halving for halving in range(_HALVINGS)):
             fine = Bounce(springs, self.mass, self.gravity, 0.0, first.taken, division, recorded=coarse is not None)
             fine.run(speed, rebounds)
             if coarse is not None:
