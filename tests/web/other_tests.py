@@ -1,4 +1,4 @@
-"""Creep tests, sweeps and temperature ramps of the synthetic fluoroelastomer, as tables."""
+"""Creep tests, sweeps, temperature ramps and an amplitude sweep, synthetic, as tables."""
 
 from __future__ import annotations
 
@@ -46,3 +46,13 @@ def ramp(folder: Path, *hertz: float) -> Path:
         moduli = {f: 1e-6 * rubber.complex_modulus(2.0 * np.pi * f, one + 273.15) for f in hertz}
         rows += [f"{one},{f},{E.real:.8g},{E.imag:.8g}" for f, E in moduli.items()]
     return _write(folder / "ramp.csv", rows)
+
+
+def amplitudes(folder: Path) -> Path:
+    """Write an amplitude sweep at 10 Hz and 60 °C."""
+    law = vf.KrausLaw(6e6, 3e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tension")
+    rows = ["T (degC),f (Hz),strain (%),E' (MPa),E'' (MPa)"]
+    for strain in np.geomspace(5e-4, 0.5, 25):
+        E = 1e-6 * law.complex_modulus(strain)
+        rows.append(f"60,10,{100.0 * strain:.8g},{E.real:.8g},{E.imag:.8g}")
+    return _write(folder / "payne.csv", rows)

@@ -97,3 +97,20 @@ def test_a_ramp_at_one_frequency_asks_for_a_law(tab: Tab, tmp_path: Path) -> Non
     drawn(tab, "shift-factors", 1)
     tab.screenshot("ramp-shift")
     friction_is_predicted(tab)
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.apart
+def test_an_amplitude_sweep_scales_the_material_of_the_contact(tab: Tab, tmp_path: Path) -> None:
+    dropped(tab, samples.amplitudes(tmp_path))
+    drawn(tab, "amplitude-sweep", 4)
+    assert "Kraus" in tab.text("#step-sweeps")
+    tab.page.get_by_role("button", name="Use the strain of the contact").click()
+    tab.until("page.state.state.get('material.strain') > 0", 60.0)
+    material = tab.value("page.state.state.get('material')")
+    assert material["catalogue"] == "synthetic fluoroelastomer"
+    assert material["amplitude_sweep"] == "payne.csv"
+    assert 0.005 < material["strain"] < 0.1  # 0.2 a/R of 10 N on a ball of 9.525 mm
+    assert "instead of" in tab.text("#step-sweeps")
+    tab.until("page.state.state.result('rubber')?.name.includes('scaled')")
+    tab.screenshot("amplitude")

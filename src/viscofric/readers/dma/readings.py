@@ -37,14 +37,14 @@ AS_RAMPS = Remedy(
     "; use read_ramps for it.",
     "; `viscofric material ramp` reads it.",
     "; name it as ramps.",
-    "; read it by `viscofric material ramp`, and choose the material file that it writes.",
+    "; under “Data” choose “Temperature ramps” as the source, and drop it there.",
     "material.dma",
 )
 AS_AMPLITUDES = Remedy(
     "; use read_amplitude_sweep for it.",
     "; `viscofric material amplitude` reads it.",
-    "; `viscofric material amplitude` reads it, and scales a material to a strain.",
-    "; `viscofric material amplitude` reads it.",
+    "; name it as amplitude_sweep, beside the source of the material.",
+    "; drop it under “Data” alone, beside the source of the material.",
     "material.dma",
 )
 

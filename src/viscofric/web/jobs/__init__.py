@@ -33,6 +33,7 @@ KINDS: dict[str, Kind] = {
     # sweeps and what is made of them
     "recognise": Kind("viscofric.web.jobs.recognise", seconds=60.0, memory=2 * _GB),
     "sweeps": Kind("viscofric.web.jobs.sweeps", seconds=60.0, memory=2 * _GB),
+    "amplitude": Kind("viscofric.web.jobs.amplitude", seconds=120.0, memory=3 * _GB),
     "rubber": Kind("viscofric.web.jobs.rubber", seconds=300.0, memory=3 * _GB),
     "moduli": Kind("viscofric.web.jobs.moduli", seconds=300.0, memory=3 * _GB),
     "isotherm_misfit": Kind("viscofric.web.jobs.isotherm_misfit", seconds=60.0, memory=3 * _GB),

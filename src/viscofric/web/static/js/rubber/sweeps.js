@@ -1,6 +1,7 @@
 // Step 1: where the rubber comes from; what its files were taken for, what they hold, and what was flagged in them.
 
 import { shows } from "../inputs.js";
+import { amplitudeCard } from "./amplitude.js";
 import { FIRST_REFERENCE, follow, named, sourceOf } from "./made.js";
 import * as shownBy from "./sweeps_figures.js";
 import { sourceForm } from "./sweeps_form.js";
@@ -31,7 +32,7 @@ export function mount(section, app) {
     { class: "row" },
     button({ label: "Shift the isotherms", kind: "main", onClick: () => app.goTo("shift") }),
   );
-  section.append(h("div", { class: "columns" }, h("div", {}, form, onward), h("div", {}, recognised)), pictures);
+  section.append(h("div", { class: "columns" }, h("div", {}, form, onward), h("div", {}, recognised, amplitudeCard(app))), pictures);
 
   const figures = MODULI.map(([key, label, primes]) => {
     const place = h("div", { class: "card" });

@@ -5,7 +5,6 @@ import { FIRST_REFERENCE, SOURCES, TESTS, sourceOf } from "./made.js";
 
 const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "assumed_shift"];
 const OF_SHIFTS = ["fixed_shift_factors", "shift_factors", "shift_factor_columns", "shift_factor_sheet"];
-const READY = ["name", "reference_temperature"];
 
 /** [material] of other files: what says how a rubber is made stays, what belonged to the old files goes. */
 function materialOf(source, value, before = {}) {
@@ -13,7 +12,8 @@ function materialOf(source, value, before = {}) {
     ([key]) => !SOURCES.some(([source_]) => source_ === key) && ![...OF_FILES, ...OF_SHIFTS].includes(key),
   );
   if (source === "catalogue" || source === "file") {
-    return { [source]: value, ...Object.fromEntries(kept.filter(([key]) => READY.includes(key) && key === "name")) };
+    const stays = ["name", "amplitude_sweep", "strain", "measured_at"];
+    return { [source]: value, ...Object.fromEntries(kept.filter(([key]) => stays.includes(key))) };
   }
   const rest = Object.fromEntries(kept);
   if (source === "master_curve") {
@@ -67,19 +67,22 @@ export function sourceForm(app, onError) {
     const chosen = TESTS.includes(shown) ? shown : "dma";
     try {
       const { kinds } = await api.runJob("recognise", { study: {}, options: { files: names } });
-      if (kinds.amplitude)
-        onError(new Error(`${kinds.amplitude.join(", ")}: an amplitude sweep; viscofric material amplitude reads it.`));
-      delete kinds.amplitude;
       return kinds;
     } catch {
       return { [chosen]: names }; // reading it says what is wrong
     }
+  };
+  /** An amplitude sweep is no source: it stays with the material, which may be scaled to a strain by it. */
+  const takeAmplitude = (kinds) => {
+    if (kinds.amplitude) state.set("material.amplitude_sweep", one(kinds.amplitude));
+    delete kinds.amplitude;
   };
   const takeTests = async (files) => {
     try {
       onError(null);
       const kinds = await sorted((await api.uploadFiles(files)).sort(inOrder));
       const [first, ...others] = TESTS.filter((key) => kinds[key]);
+      takeAmplitude(kinds);
       if (first) choose(first, kinds[first], undefined, Object.fromEntries(others.map((key) => [key, one(kinds[key])])));
     } catch (error) {
       onError(error);
@@ -125,6 +128,7 @@ export function sourceForm(app, onError) {
     try {
       const kinds = await sorted(await api.uploadFiles(files));
       const [material] = [state.get("material")].flat();
+      takeAmplitude(kinds);
       const changes = Object.entries(kinds).map(([key, names]) => [
         `material.${key}`,
         one([...new Set([...allOf(material, key), ...names])].sort(inOrder)),
@@ -196,7 +200,7 @@ export function sourceForm(app, onError) {
     { class: "panel" },
     fields.fileDrop({
       label: "Drop tests here, or choose files",
-      help: "Frequency sweeps, temperature ramps, creep or relaxation tests: exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, delimited text; recognised by content.",
+      help: "Frequency sweeps, temperature ramps, creep or relaxation tests, amplitude sweeps: exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, delimited text; recognised by content.",
       onFiles: takeTests,
     }),
     present,

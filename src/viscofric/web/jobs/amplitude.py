@@ -1,0 +1,98 @@
+"""Job ``amplitude``: the amplitude sweep of [material] with Kraus's law, and the strain of the study's contact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict
+
+from viscofric.datasets import plain, record
+from viscofric.errors import InputError
+from viscofric.notes import listed
+from viscofric.study.at_strain import payne_of
+from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.rubbers import (
+    checked_tables,
+    made_rubber,
+    named_without_folder,
+    notes_without_folder,
+)
+
+if TYPE_CHECKING:
+    from viscofric.rheology.payne.kraus_fit import PayneFit
+    from viscofric.web.jobs.context import Context
+
+_DIGITS = 6
+#: Friction is compared to this, relative.
+_ACCURACY = 0.02
+
+
+class Options(BaseModel):
+    """Whether the strain of the study's first contact is wanted."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    contact: bool = False
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Fit Kraus's law to the amplitude sweep of [material].
+
+    Returns
+    -------
+    dict
+        The sweep and the law as their data set names them, ``words`` (the law), ``linear`` (its linear ranges in
+        words), ``notes`` and ``contact``: None, or ``strain`` of the contact, ``friction`` at it and ``linear``
+        friction, ``speed`` and ``temperature``.
+
+    Raises
+    ------
+    JobError, InputError
+        If there is no amplitude sweep, or it or the contact cannot be used.
+    """
+    table, _ = checked_tables(study, context)
+    try:
+        fit = payne_of(table)
+    except InputError as error:
+        raise named_without_folder(error, context) from None
+    if fit is None:
+        raise JobError("The study has no amplitude sweep; drop one under “Data”.", "material.amplitude_sweep")
+    return record(fit.to_dataset(), _DIGITS) | {
+        "deformation": fit.sweep.deformation,
+        "words": str(fit.law),
+        "linear": [str(one) for one in fit.linear_ranges],
+        "contact": _contact(study, fit, table.measured_at, context) if options.contact else None,
+        **listed("notes", notes_without_folder(fit.notes, context)),
+    }
+
+
+def _contact(study: dict[str, Any], fit: PayneFit, measured_at: float | None, context: Context) -> dict[str, Any]:
+    """Solve the first contact of the study, with a rigid indenter, with the moduli of its own strain."""
+    from viscofric.friction.contact_strain import solve_at_contact_strain
+    from viscofric.study.cases.indenter_case import IndenterCase
+    from viscofric.web.jobs.combinations import of_combination, page_sweep
+    from viscofric.web.study_text import study_of
+
+    _, checked = study_of(study, context.files)
+    case = of_combination(page_sweep(checked), 0)
+    if not isinstance(case, IndenterCase):
+        raise JobError("The strain of a contact is known for indenters, not for rough surfaces.", code="rough-surface")
+    rubber = made_rubber(study, context)
+    found = solve_at_contact_strain(
+        rubber.linear or rubber.material,
+        fit.law,
+        case.indenter,
+        speed=case.speed,
+        load=case.load,
+        temperature=case.temperature,
+        measured_at=measured_at,
+        layer=case.layer,
+        accuracy=max(_ACCURACY, checked.solver.accuracy),
+    )
+    return {
+        "strain": plain(found.strain),
+        "friction": plain(found.scaled.friction_coefficient),
+        "linear": plain(found.linear.friction_coefficient),
+        "speed": plain(case.speed),
+        "temperature": plain(case.temperature),
+    }

@@ -1,0 +1,97 @@
+// The amplitude sweep of the material: Kraus's law, the linear range, and the strain that the moduli are scaled to.
+
+import { shows } from "../inputs.js";
+
+/** The card, hidden without an amplitude sweep. */
+export function amplitudeCard(app) {
+  const { state, fields, figures, units, api } = app;
+  const { h, card, button, note } = fields;
+  const words = note([]);
+  const problem = note([], "error");
+  const contact = h("p", { class: "help", "aria-live": "polite" });
+  const place = h("div", {});
+  const handle = figures.figure(place, { id: "amplitude-sweep", title: "Amplitude sweep", x: {}, y: {}, traces: [] });
+  const strain = fields.numberField({
+    path: "material.strain",
+    label: "Scale the moduli to this tensile strain",
+    min: 0,
+    max: 10,
+    placeholder: "not scaled",
+    help: "A fraction: 0.05 is 5 %. An approximation by Kraus’s law, without 95 % bands.",
+  });
+  const small = fields.numberField({
+    path: "material.measured_at",
+    label: "Tensile strain of the frequency sweeps",
+    min: 0,
+    max: 10,
+    placeholder: "small",
+  });
+  const use = button({ label: "Use the strain of the contact", onClick: () => request(true) });
+  const remove = () =>
+    state.change({
+      "material.amplitude_sweep": undefined,
+      "material.strain": undefined,
+      "material.measured_at": undefined,
+    });
+  const away = button({ label: "Remove the amplitude sweep", kind: "quiet small", onClick: remove });
+  const element = card("Amplitude sweep", problem, words, place, strain, small, contact, h("div", { class: "row" }, use, away));
+
+  let running = null;
+  async function request(ofContact) {
+    running?.abort();
+    running = new AbortController();
+    const mine = running;
+    const study = ofContact ? state.study : { material: state.get("material") };
+    contact.textContent = ofContact ? "Solving the contact" : contact.textContent;
+    try {
+      const found = await api.runJob("amplitude", { study, options: { contact: ofContact } }, { signal: mine.signal });
+      if (running !== mine) return;
+      problem.set([]);
+      draw(found);
+      if (!found.contact) return;
+      const { strain: of, friction, linear, speed, temperature } = found.contact;
+      contact.textContent =
+        `At ${units.show(speed, "speed")}, ${units.show(temperature, "temperature")} the strain of the contact is ` +
+        `${(100 * of).toPrecision(2)} %: friction ${friction.toPrecision(3)} instead of ${linear.toPrecision(3)} (small strain).`;
+      state.set("material.strain", Number(of.toPrecision(2)));
+    } catch (error) {
+      if (running !== mine || error.name === "AbortError") return;
+      contact.textContent = "";
+      problem.set([app.explain(error, "amplitude")]);
+    }
+  }
+
+  function draw(found) {
+    const letter = found.deformation === "shear" ? "G" : "E";
+    const percent = found.strain_amplitude.map((one) => 100 * one);
+    const both = [
+      ["storage", `${letter}′`, "square", "blue"],
+      ["loss", `${letter}″`, "circle", "vermilion"],
+    ];
+    shows(words, found);
+    words.set([found.words, ...found.linear, ...found.notes]);
+    handle.update({
+      of: found,
+      x: { label: "strain amplitude (%)", log: true },
+      y: { label: "modulus", kind: "modulus", log: true },
+      caption: "Points: as measured; lines: Kraus’s law.",
+      synthetic: state.get("data_origin") === "synthetic",
+      traces: both.flatMap(([key, name, symbol, colour]) => [
+        { name, mode: "markers", symbol, colour, size: 5, x: percent, y: found[`${key}_modulus`] },
+        { name: `${name}, Kraus`, colour, legend: false, x: percent, y: found[`${key}_fitted`] },
+      ]),
+    });
+  }
+
+  let last = null;
+  const refresh = () => {
+    const file = state.get("material.amplitude_sweep");
+    element.hidden = file === undefined;
+    const now = JSON.stringify([file, state.get("material.measured_at"), state.get("material.deformation")]);
+    if (file !== undefined && now !== last) request(false);
+    last = now;
+  };
+  state.subscribe("material", refresh);
+  refresh();
+  return element;
+}
