@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import DataFileError
+from viscofric.files import file_path
 from viscofric.notes import setting
 from viscofric.readers.given_files import bytes_of
 from viscofric.readers.headings import option_of
@@ -33,7 +34,7 @@ def table_of(
     InputError
         If `columns` or `sheet` are no headings, or no name.
     """
-    source = Source(str(path), b"", columns=vocabulary.checked(columns), sheet=checked_sheet(sheet))
+    source = Source(str(file_path(path)), b"", columns=vocabulary.checked(columns), sheet=checked_sheet(sheet))
     source = replace(source, data=bytes_of(source.path))
     return one_table(source, vocabulary)
 
