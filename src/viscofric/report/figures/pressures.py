@@ -154,7 +154,9 @@ def pressure_strip(run: TransientSolution, times: Quantities | None = None, titl
         If the pressure of a time was not kept.
     """
     frames = frames_of(run, times)
-    figure = new_figure(2.2 * len(frames.times) + 1.2, 2.8)
+    (left, right), (low, high) = frames.reach
+    across = min((high - low) / (right - left), 2.0) if frames.are_maps else 0.9
+    figure = new_figure(2.2 * len(frames.times) + 1.2, 2.0 * across + (1.15 if title else 0.9))
     panels = figure.subplots(1, len(frames.times), squeeze=False, sharey=True)[0]
     mesh = None
     for place, panel in enumerate(panels):
