@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import SuperpositionError
+from viscofric.rheology.ramps.correlated_curves import CorrelatedSmoother, whitened
 from viscofric.rheology.shifts.law_families import family_of
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.superposition.common_curve import KNOT_SPACING, Smoother
-from viscofric.rheology.superposition.shift_problem import inflation
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Mask
@@ -39,9 +39,6 @@ PASSES, STEPS = 12, 8
 LARGEST_STEP, CONVERGED = 0.3, 1e-6
 #: Second derivatives are taken for this part at least of what Gauss and Newton say.
 SMALLEST_PART = 0.2
-#: Factor of the covariance for what the choice of knots and smoothing by the same points adds, found in planted tests:
-#: without it 95 % intervals hold 89 to 97 % (`benchmarks/rheology/ramps.py`).
-CHOICE = 1.15
 #: Step of the logarithm of a constant for differences of the gradient.
 DIFFERENCE = 1e-4
 
@@ -92,8 +89,7 @@ class _State:
     cost: float
     gradient: Array
     normal: Array
-    score: Array
-    residual: Array
+    residual: Array  # (n, 2), decades
     freedom: float
 
 
@@ -136,14 +132,14 @@ class _Problem:
             raise SuperpositionError("the law pulls the points apart, so that hardly any lie over each other.")
         return reduced
 
-    def smoother(self, logs: Array) -> Smoother:
-        """Choose knots and smoothing anew."""
-        return Smoother.fitted(self.reduced(logs), self.points.moduli)
+    def smoother(self, logs: Array) -> CorrelatedSmoother:
+        """Choose knots, smoothing and the correlation of errors anew."""
+        return CorrelatedSmoother.fitted(self.reduced(logs), self.points.moduli, self.points.same)
 
     def misfit(self, logs: Array) -> float:
         """Return the sum of the logarithms of both scatters, infinite where the law does not hold."""
         try:
-            return float(np.sum(np.log(self.smoother(logs).scatter)))
+            return float(np.sum(np.log(Smoother.fitted(self.reduced(logs), self.points.moduli).scatter)))
         except (ValueError, np.linalg.LinAlgError):  # `InputError` is one: below the pole
             return np.inf
 
@@ -176,30 +172,27 @@ class _Problem:
         loss = self.points.moduli[:, 1] - self.points.moduli[:, 0]
         return float(self.points.temperature[np.argmax(loss)])
 
-    def state(self, logs: Array, smoother: Smoother) -> _State:
+    def state(self, logs: Array, smoother: CorrelatedSmoother) -> _State:
         """Draw the curves at these constants and differentiate; both derivatives are those of variable projection."""
         constants = np.exp(logs)
         moved = self.family.gradient(constants)[self.back] * constants
         moved = moved - moved.mean(axis=0)
-        curves = smoother.curves(self.reduced(logs), self.points.moduli)
-        slopes = curves.slopes_of_basis @ curves.coefficients
-        weights = smoother.scatter**-2.0
+        reduced = self.reduced(logs)
         count = len(logs)
-        gradient, normal, score = np.zeros(count), np.zeros((count, count)), np.zeros((count, count))
-        for modulus, weight in enumerate(weights):
-            columns = slopes[:, modulus, None] * moved
-            residual = curves.residual[:, modulus]
-            onto = curves.basis.T @ columns
-            information = columns.T @ columns - onto.T @ curves.inverse[modulus] @ onto
-            gradient += weight * columns.T @ residual
-            normal += weight * information
-            hat = curves.basis @ curves.inverse[modulus]
-            own = float(np.mean(np.sum(hat * curves.basis, axis=1)))
-            next_to = float(np.mean(np.sum(hat[1:] * curves.basis[:-1], axis=1)[self.points.same]))
-            score += weight * inflation(residual, self.points.same, (own, next_to)) * information
-        return _State(curves.cost(weights), gradient, normal, score, curves.residual, curves.freedom)
+        cost, freedom, gradient, normal = 0.0, 0.0, np.zeros(count), np.zeros((count, count))
+        away = np.zeros_like(self.points.moduli)
+        for modulus, scatter in enumerate(smoother.scatter):
+            curve = smoother.curve(modulus, reduced, self.points.moduli[:, modulus])
+            columns = whitened(curve.slope[:, None] * moved, smoother.same, float(smoother.alike[modulus]))
+            onto = curve.basis.T @ columns
+            gradient += columns.T @ curve.residual / scatter**2
+            normal += (columns.T @ columns - onto.T @ curve.inverse @ onto) / scatter**2
+            cost += curve.cost / scatter**2
+            freedom += curve.freedom
+            away[:, modulus] = curve.away
+        return _State(cost, gradient, normal, away, freedom)
 
-    def descend(self, logs: Array, smoother: Smoother) -> Array:
+    def descend(self, logs: Array, smoother: CorrelatedSmoother) -> Array:
         """Take damped Gauss–Newton steps with knots and smoothing held."""
         state = self.state(logs, smoother)
         for _ in range(STEPS):
@@ -219,7 +212,7 @@ class _Problem:
         return logs
 
 
-def _covariance(problem: _Problem, logs: Array, smoother: Smoother, state: _State) -> Array:
+def _covariance(problem: _Problem, logs: Array, smoother: CorrelatedSmoother, state: _State) -> Array:
     """Return the covariance of the logarithms of the constants: score about exact curvature, as for isotherms."""
     count = len(logs)
     curvature = np.zeros((count, count))
@@ -233,4 +226,4 @@ def _covariance(problem: _Problem, logs: Array, smoother: Smoother, state: _Stat
     back = np.linalg.solve(root.T, modes)
     inverse = back / np.maximum(parts, SMALLEST_PART) @ back.T
     left = max(state.freedom - count, 1.0)
-    return np.asarray(CHOICE * state.freedom / left * inverse @ state.score @ inverse)
+    return np.asarray(state.freedom / left * inverse @ state.normal @ inverse)

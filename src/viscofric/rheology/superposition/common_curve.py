@@ -48,27 +48,27 @@ class Smoother:
         vertical shifts, or other quantities; `weights` (n,) are the inverse variances of the points relative to each
         other, all equal if None.
         """
-        knots, degree = _knots(frequency)
-        penalty = _penalty(knots, degree)
-        basis = _splines(knots, degree, frequency)[0]
+        knots, degree = knots_for(frequency)
+        penalty = roughness(knots, degree)
+        basis = splines(knots, degree, frequency)[0]
         root = _roots(frequency, weights)
-        smoothing, scatter = _restricted_likelihood(basis * root, penalty, moduli * root)
+        smoothing, scatter, _ = restricted_likelihood(basis * root, penalty, moduli * root)
         return cls(knots, degree, penalty, smoothing, scatter)
 
     def basis(self, frequency: Array) -> Array:
         """Return the basis functions (n, K) at other places."""
-        return np.asarray(_splines(self.knots, self.degree, frequency)[0])
+        return np.asarray(splines(self.knots, self.degree, frequency)[0])
 
     def curves(self, frequency: Array, moduli: Array, weights: Array | None = None) -> Curves:
         """Draw the curves through points; shapes as for `fitted`."""
         root = _roots(frequency, weights)
-        splines = _splines(self.knots, self.degree, frequency) * root
-        basis = splines[0]
+        found = splines(self.knots, self.degree, frequency) * root
+        basis = found[0]
         moduli = moduli * root
-        square = _ridged(basis.T @ basis)
+        square = ridged(basis.T @ basis)
         inverse = np.linalg.inv(square + self.smoothing[:, None, None] * self.penalty)
         coefficients = np.einsum("mij,jm->im", inverse, basis.T @ moduli)
-        return Curves(self, root, splines, np.asarray(inverse), coefficients, moduli - basis @ coefficients)
+        return Curves(self, root, found, np.asarray(inverse), coefficients, moduli - basis @ coefficients)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,12 +113,12 @@ def _roots(frequency: Array, weights: Array | None) -> Array:
     return np.ones((len(frequency), 1)) if weights is None else np.sqrt(weights)[:, None]
 
 
-def _knots(frequency: Array) -> tuple[Array, int]:
-    """Place knots so that every interval holds measured points."""
+def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, int]:
+    """Place knots so that every interval holds so many measured points; return them with the degree of the splines."""
     frequency = np.sort(frequency)
     inner, last = [float(frequency[0])], 0
-    for place in range(1, len(frequency) - POINTS_PER_KNOT):
-        if place - last >= POINTS_PER_KNOT and frequency[place] - inner[-1] >= KNOT_SPACING:
+    for place in range(1, len(frequency) - points):
+        if place - last >= points and frequency[place] - inner[-1] >= KNOT_SPACING:
             inner.append(float(0.5 * (frequency[place] + frequency[place - 1])))
             last = place
     degree = min(3, len(frequency) - 1)
@@ -126,7 +126,7 @@ def _knots(frequency: Array) -> tuple[Array, int]:
     return np.concatenate([frequency[0] * ends, inner[1:], frequency[-1] * ends]), degree
 
 
-def _splines(knots: Array, degree: int, at: Array) -> Array:
+def splines(knots: Array, degree: int, at: Array) -> Array:
     """Return basis functions at points (n,), and their first and second derivatives: (3, n, K).
 
     Beyond the ends the outermost polynomials continue.  C. de Boor, J. Approx. Theory 6 (1972) 50.
@@ -149,7 +149,7 @@ def _splines(knots: Array, degree: int, at: Array) -> Array:
     return every.reshape(3, count, size)
 
 
-def _penalty(knots: Array, degree: int) -> Array:
+def roughness(knots: Array, degree: int) -> Array:
     """Integrate products of third derivatives, which are step functions for cubics."""
     size = len(knots) - degree - 1
     if degree < ROUGHNESS:
@@ -161,18 +161,18 @@ def _penalty(knots: Array, degree: int) -> Array:
     return np.asarray((rough * np.diff(inner)[:, None]).T @ rough)
 
 
-def _ridged(square: Array) -> Array:
+def ridged(square: Array) -> Array:
     return np.asarray(square + RIDGE * np.trace(square) / len(square) * np.eye(len(square)))
 
 
-def _restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[Array, Array]:
-    """Return the smoothing of each quantity that maximises its restricted likelihood, and the scatter then.
+def restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[Array, Array, Array]:
+    """Return the smoothing of each quantity that maximises its restricted likelihood, the scatter, and −2 log of it.
 
     In the basis that makes BᵀB the identity and the penalty diagonal (d), the likelihood of all smoothings λ is
     −2 log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and q the number of
     coefficients without penalty; S/(n − q) is the squared scatter.
     """
-    factor = np.linalg.cholesky(_ridged(basis.T @ basis))
+    factor = np.linalg.cholesky(ridged(basis.T @ basis))
     whitened = np.linalg.solve(factor, np.linalg.solve(factor, penalty).T)
     rough, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))
     unpenalised = min(ROUGHNESS, len(rough))
@@ -188,4 +188,6 @@ def _restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple
     penalised = len(rough) - unpenalised
     criterion = freedom * np.log(squares) + np.sum(np.log(growth), axis=1) - penalised * np.log(SMOOTHING)
     best = np.argmin(criterion, axis=1)
-    return SMOOTHING[best], np.sqrt(squares[np.arange(len(best)), best] / freedom)
+    chosen = np.arange(len(best)), best
+    constant = 2.0 * np.sum(np.log(np.diag(factor)))
+    return SMOOTHING[best], np.sqrt(squares[chosen] / freedom), criterion[chosen] + constant
