@@ -77,11 +77,16 @@ def offset_problems() -> list[dict[str, Any]]:
         found.append({"material": material, "noise": 0.005, "offset": 0.01, "vertical": "free", "rising": True})
         found.append({"material": material, "noise": 0.005, "offset": 0.0, "vertical": "free", "rising": True})
         found.append({"material": material, "noise": 0.005, "offset": 0.0, "rising": True})
+        found += [
+            {"material": material, "noise": 0.005, "offset": 0.01, "by": by}
+            for by in ("storage", "loss", "loss-tangent")
+        ]
     for one in found:
         how = "shared " if one.get("shared") else ""
         b = f", b = ρT {'fitted' if 'vertical' in one else 'left out'}" if one.get("rising") else ""
         short = one["material"].removeprefix("synthetic ")
-        one["title"] = f"{short}: {one['noise']:.1%}, {how}{one['offset']:.0%}{b}"
+        by = f", by {one['by']}" if "by" in one else ""
+        one["title"] = f"{short}: {one['noise']:.1%}, {how}{one['offset']:.0%}{b}{by}"
     return found
 
 

@@ -65,7 +65,7 @@ def round_trip(modes: int = 60) -> dict[str, Any]:
     return {"tool": "viscofric", "modes": modes, "error": max(error, in_modulus), "seconds": seconds}
 
 
-def coverage(material: str, seeds: int, samples: int = 200) -> dict[str, Any]:
+def coverage(material: str, seeds: range, samples: int = 200) -> dict[str, Any]:
     """Count how often planted α(T) and E(ω) lie within the stated 95 % bands."""
     from cases import planted_case
 
@@ -73,7 +73,7 @@ def coverage(material: str, seeds: int, samples: int = 200) -> dict[str, Any]:
 
     start = time.process_time()
     alpha, storage, loss = [], [], []
-    for seed in range(seeds):
+    for seed in seeds:
         case = planted_case(seed, material)
         fit = vf.superpose(case.sweeps, case.reference)
         factors = fit.shift_factors
@@ -86,11 +86,15 @@ def coverage(material: str, seeds: int, samples: int = 200) -> dict[str, Any]:
         modulus = case.truth.complex_modulus(omega, case.reference)
         storage.append(_inside(modulus.real, band.lower.real, band.upper.real))
         loss.append(_inside(modulus.imag, band.lower.imag, band.upper.imag))
-    row = {"tool": f"viscofric, {material}", "seeds": seeds, "seconds": (time.process_time() - start) / max(seeds, 1)}
+    row = {
+        "tool": f"viscofric, {material}",
+        "seeds": len(seeds),
+        "seconds": (time.process_time() - start) / max(len(seeds), 1),
+    }
     return row | {"alpha": _mean(alpha), "storage": _mean(storage), "loss": _mean(loss)}
 
 
-def with_offsets(problem: dict[str, Any], seeds: int, samples: int = 100) -> dict[str, Any]:
+def with_offsets(problem: dict[str, Any], seeds: range, samples: int = 100) -> dict[str, Any]:
     """Count the same for a problem of `cases.OFFSET_PROBLEMS`; tan δ and friction at both ends of the temperatures.
 
     Friction is that of a ball at the second and the last but one temperature.
@@ -104,9 +108,9 @@ def with_offsets(problem: dict[str, Any], seeds: int, samples: int = 100) -> dic
     inside: dict[str, list[float]] = {kind: [] for kind in kinds}
     widths: dict[str, list[float]] = {"alpha_error": [], "loss_width": []}
     doubtful = 0
-    for seed in range(seeds):
+    for seed in seeds:
         planted, reference = offset_case(problem, seed)
-        fit = vf.superpose(planted.sweeps, reference, vertical=problem.get("vertical"))
+        fit = vf.superpose(planted.sweeps, reference, vertical=problem.get("vertical"), by=problem.get("by", "both"))
         factors, curve = fit.shift_factors, fit.master_curve
         known = factors.standard_errors > 1e-9
         away = np.abs(factors.log10_values - planted.log10_alpha(factors.temperatures, reference))[known]
@@ -126,12 +130,12 @@ def with_offsets(problem: dict[str, Any], seeds: int, samples: int = 100) -> dic
             true = _tangent(planted.complex_modulus(rates, kelvin))
             inside["tangent"].append(_inside(true, limits.lower, limits.upper))
             inside["friction"].append(_friction_inside(fit, drawn, planted, kelvin))
-    row = {"tool": problem["title"], "seeds": seeds, "seconds": (time.process_time() - start) / max(seeds, 1)}
+    row = {"tool": problem["title"], "seeds": len(seeds), "seconds": (time.process_time() - start) / max(len(seeds), 1)}
     row |= {kind: _mean(shares) for kind, shares in (inside | widths).items()}
     return row | {"doubtful": doubtful}
 
 
-def steps(problem: dict[str, Any], seeds: int, samples: int = 100) -> dict[str, Any]:
+def steps(problem: dict[str, Any], seeds: range, samples: int = 100) -> dict[str, Any]:
     """Count the same for creep and relaxation tests; the response over the master curve, E(ω) over its range."""
     from cases import step_case
 
@@ -140,7 +144,7 @@ def steps(problem: dict[str, Any], seeds: int, samples: int = 100) -> dict[str, 
     start = time.process_time()
     inside: dict[str, list[float]] = {kind: [] for kind in ("alpha", "response", "storage", "loss")}
     errors, doubtful = [], 0
-    for seed in range(seeds):
+    for seed in seeds:
         tests, material, reference = step_case(problem, seed)
         fit = vf.superpose(tests, reference)
         factors, curve = fit.shift_factors, fit.master_curve
@@ -158,7 +162,7 @@ def steps(problem: dict[str, Any], seeds: int, samples: int = 100) -> dict[str, 
         band, modulus = drawn.modulus_band(omega), spectrum.complex_modulus(omega)
         inside["storage"].append(_inside(modulus.real, band.lower.real, band.upper.real))
         inside["loss"].append(_inside(modulus.imag, band.lower.imag, band.upper.imag))
-    row = {"tool": problem["title"], "seeds": seeds, "seconds": (time.process_time() - start) / max(seeds, 1)}
+    row = {"tool": problem["title"], "seeds": len(seeds), "seconds": (time.process_time() - start) / max(len(seeds), 1)}
     return (
         row
         | {kind: _mean(shares) for kind, shares in inside.items()}

@@ -1,7 +1,7 @@
 """viscofric's rheology beside its peers, on the same data and in the same run.
 
-Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--steps N] [--only TEXT] [--json FILE]
-       [--environment FOLDER] [--limit SECONDS]
+Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--steps N] [--first N] [--only TEXT]
+       [--json FILE] [--environment FOLDER] [--limit SECONDS]
 
 Shifting of measured and of planted sweeps, spectra of the master curve, honesty of the stated 95 % bands over many
 planted sweeps, exactness of the conversion of spectra.  README.md beside this file says how each is measured.
@@ -95,19 +95,25 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
     if options.peers:
         rows += [others.spectrum(tool, curve, options.environment, options.limit) for tool in others.FITTERS]
     tables[f"spectrum: {given[0].name}"] = rows
+
+    def seeds(count: int) -> range:
+        return range(options.first, options.first + count)
+
     if options.seeds:
         tables["planted truth within the stated 95 % bands"] = [
-            own.coverage(material, options.seeds) for material in cases.MATERIALS
+            own.coverage(material, seeds(options.seeds)) for material in cases.MATERIALS
         ]
     if options.offsets:
         tables["offsets of isotherms: planted truth within the stated 95 % bands"] = [
-            own.with_offsets(problem, options.offsets)
+            own.with_offsets(problem, seeds(options.offsets))
             for problem in cases.offset_problems()
             if options.only in problem["title"]
         ]
     if options.steps:
         tables["step tests: planted truth within the stated 95 % bands"] = [
-            own.steps(problem, options.steps) for problem in cases.step_problems() if options.only in problem["title"]
+            own.steps(problem, seeds(options.steps))
+            for problem in cases.step_problems()
+            if options.only in problem["title"]
         ]
     tables["retardation spectrum to Prony series and back"] = [own.round_trip()]
     return {"tables": tables, "left_out": left_out}
@@ -154,6 +160,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--seeds", type=int, default=20, help="planted sweeps for the bands; 0 leaves them out")
     parser.add_argument("--offsets", type=int, default=0, help="planted sweeps with offsets of isotherms (minutes)")
     parser.add_argument("--steps", type=int, default=0, help="planted creep and relaxation tests (minutes)")
+    parser.add_argument("--first", type=int, default=0, help="first seed: others than those a method was set with")
     parser.add_argument("--only", default="", metavar="TEXT", help="of both, problems whose title holds a text")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--environment", type=Path, default=HERE / ".peers", help="the peers' environment")

@@ -68,6 +68,21 @@ def test_a_loss_modulus_that_is_wrong_does_not_move_factors_from_storage_alone()
     np.testing.assert_allclose(after.log10_values, before.log10_values, atol=1e-12)
 
 
+@pytest.mark.parametrize("by", ["storage", "loss", "loss-tangent"])
+def test_offsets_that_both_moduli_show_are_in_the_errors_of_one(by):
+    planted = planted_sweeps(7, 0.005, **POLYMER, offset=0.02)
+    factors = {way: vf.superpose(planted.sweeps, REFERENCE, by=way) for way in (by, "both")}
+    found, joint = factors[by], factors["both"]
+    assert found.offsets is not None
+    assert joint.offsets is not None
+    # Eleven isotherms determine a size to a quarter.
+    assert found.offsets.standard_deviations * np.log(10.0) == pytest.approx([0.02, 0.02], rel=0.6)
+    assert found.offsets.standard_deviations == pytest.approx(joint.offsets.standard_deviations, rel=0.01)
+    # One modulus shows a shift less well than both, whose offsets partly cancel.
+    errors, of_both = (np.median(one.shift_factors.standard_errors) for one in (found, joint))
+    assert errors > 0.9 * of_both
+
+
 def test_tan_delta_is_free_of_vertical_shifts():
     b = DensityShift(REFERENCE).log10
     plain, shifted = scores(4, by="loss-tangent"), scores(4, b, by="loss-tangent")

@@ -2,7 +2,7 @@
 
 A drift of the oven, of the clamping or of the static load gives neighbouring points of a ramp errors that are alike.
 They are described by an autoregression of first order along each ramp, for E' and for E''.  Its coefficient and the
-smoothing of the curve follow together from restricted maximum likelihood: a smoothing chosen as for independent errors
+smoothing of the curve follow together from the restricted likelihood: a smoothing chosen as for independent errors
 lets the curve follow the correlated ones, and the residuals then hide them (J. D. Opsomer, Y. Wang, Y. Yang, Statist.
 Sci. 16 (2001) 134).
 """
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 #: Points per knot.  Near the pole of a law neighbouring points of a ramp are up to a decade apart: with five points per
 #: knot, as for isotherms, curves cut the corner of E'' in the glass, and C2 was wrong by 1.5 standard errors.
 POINTS_PER_KNOT = 2
-#: Correlations of neighbours that are tried, at equal distances of artanh; between them follows a parabola.
+#: Correlations of neighbours that are tried, equally likely before and at equal distances of artanh.
 CORRELATIONS = np.tanh(np.linspace(0.0, 2.0, 13))
 
 
@@ -55,7 +55,7 @@ class CorrelatedSmoother:
         penalty = roughness(knots, degree)
         basis = splines(knots, degree, frequency)[0]
         criteria = np.array([_likelihood(basis, penalty, moduli, same, alike)[2] for alike in CORRELATIONS])
-        alike = np.array([_lowest(one) for one in criteria.T])
+        alike = np.array([_expected(one) for one in criteria.T])
         chosen = [
             _likelihood(basis, penalty, moduli[:, [number]], same, float(one)) for number, one in enumerate(alike)
         ]
@@ -115,11 +115,13 @@ def _likelihood(basis: Array, penalty: Array, moduli: Array, same: Mask, alike: 
     return smoothing, scatter, criterion + np.count_nonzero(same) * np.log1p(-(alike**2))
 
 
-def _lowest(criterion: Array) -> float:
-    """Return the correlation where −2 log of the likelihood, given at `CORRELATIONS`, is lowest."""
-    place = int(np.argmin(criterion))
-    if place in (0, len(criterion) - 1):
-        return float(CORRELATIONS[place])
-    before, here, after = criterion[place - 1 : place + 2]
-    step = float(np.arctanh(CORRELATIONS[1]))
-    return float(np.tanh(step * (place + 0.5 * (before - after) / (before - 2.0 * here + after))))
+def _expected(criterion: Array) -> float:
+    """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`.
+
+    The variance of what ramps determine grows by (1 + ρ)/(1 − ρ), and the mean of this over the likelihood counts: the
+    most likely ρ of 250 points with 0.7 is 0.68, and standard errors were 4 % too small with it.
+    """
+    weight = np.exp(0.5 * (criterion.min() - criterion))
+    weight[[0, -1]] *= 0.5
+    growth = float(np.average((1.0 + CORRELATIONS) / (1.0 - CORRELATIONS), weights=weight))
+    return (growth - 1.0) / (growth + 1.0)

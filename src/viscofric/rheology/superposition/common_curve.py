@@ -162,6 +162,7 @@ def roughness(knots: Array, degree: int) -> Array:
 
 
 def ridged(square: Array) -> Array:
+    """Return BᵀB with a small multiple of the identity, for bases that the points do not determine."""
     return np.asarray(square + RIDGE * np.trace(square) / len(square) * np.eye(len(square)))
 
 

@@ -8,13 +8,14 @@ so that the covariance of the shifts is meaningful; pairwise overlaps would use 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.rheology.superposition.gauge import continued, continued_covariance, identified
-from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets, Offsets, estimated
-from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, parted
+from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, Offsets, estimated
+from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, join, parted
 from viscofric.rheology.superposition.quantity import BOTH
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
 from viscofric.rheology.superposition.step_profiles import StepProfiles
@@ -73,15 +74,16 @@ def common_shifts(
     that disagree in E'' alone, as at a resonance of the instrument, do not increase the misfit of a flexible curve once
     they are apart.
 
-    `sweeps` contain the `quantities`, which may be other ones than log E' and log E'', or have other weights.
+    `sweeps` contain the moduli measured.  The `quantities` shifted may be one of them or tan δ, or have other weights;
+    `joins` are those of the quantities.
     """
-    search, apart = _torn_apart(sweeps, joins, gauge, quantities)
+    search, apart = _torn_apart(quantities.of(sweeps), joins, gauge, quantities)
     inside = identified(search.signal, gauge)
     if inside is None:
         return replace(_with_offsets(search, sweeps, quantities), parted=tuple(sorted(apart)))
     first, last = inside
     part = sweeps[first:last]
-    search, apart = _torn_apart(part, joins[first : last - 1], gauge.within(first, last), quantities)
+    search, apart = _torn_apart(quantities.of(part), joins[first : last - 1], gauge.within(first, last), quantities)
     found = _with_offsets(search, part, quantities)
     nothing = np.zeros(len(sweeps))
     return replace(
@@ -154,7 +156,34 @@ def _search(problem: ShiftProblem, joins: list[Join]) -> _Search:
 
 
 def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantities) -> CommonShifts:
-    """Continue with offsets of whole isotherms; errors include these, and the profiles of the steps."""
+    """Continue with offsets of whole isotherms; errors include these, and the profiles of the steps.
+
+    A curve of one modulus hardly shows offsets, since a shift takes most of each.  Where one quantity is shifted, both
+    moduli, with shifts of their own, show the offsets that its errors include; the shifts found depend on it alone.
+    """
+    search, own, gradient = _beside_offsets(search)
+    problem, offsets, seen, onto = search.problem, own, np.eye(len(own.covariance)), quantities.onto_moduli
+    if quantities.alone:
+        both = _of_both(sweeps, problem.gauge)
+        if np.max(np.diag(both.covariance)) <= LARGEST**2:
+            offsets, seen, onto = both, quantities.seen, np.eye(2)
+    covariance, freedom, inverse = _covariance(search, own.expected)
+    size, moduli = problem.size, problem.moduli
+    gain = inverse @ gradient / search.noise**2
+    follow = np.zeros((2 * size, seen.shape[1] * size))
+    follow[: len(gain)] = gain @ np.kron(seen @ offsets.covariance, np.eye(size))
+    spread = np.kron(seen @ offsets.covariance @ seen.T, np.eye(size))
+    levels = spread + np.kron(np.ones((moduli, moduli)), problem.vertical_prior())
+    profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), levels)
+    covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
+    return replace(
+        _result(search, covariance, freedom),
+        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto),
+    )
+
+
+def _beside_offsets(search: _Search) -> tuple[_Search, Offsets, Array]:
+    """Continue with offsets of the quantities shifted; return these, and their effect on the gradient."""
     problem, expected = search.problem, None
     for _ in range(OFFSET_PASSES):
         offsets, gradient = _offsets(search, expected)
@@ -162,19 +191,13 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
         smoothers = problem.smoothers(search.parameters, expected)
         noise = _noise(problem, smoothers)
         search = _Search(problem, _descend(problem, search.parameters, smoothers, noise), smoothers, noise)
-    covariance, freedom, inverse = _covariance(search, expected)
-    size, moduli = problem.size, problem.moduli
-    both = np.zeros((2 * size, moduli * size))
-    gain = inverse @ gradient / search.noise**2
-    spread = np.kron(offsets.covariance, np.eye(size))
-    both[: len(gain)] = gain @ spread
-    levels = spread + np.kron(np.ones((moduli, moduli)), problem.vertical_prior())
-    profiles = StepProfiles(problem, search.smoothers, sweeps, levels)
-    covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
-    return replace(
-        _result(search, covariance, freedom),
-        offsets=IsothermOffsets(offsets.covariance, both, offsets.sizes, quantities.onto_moduli),
-    )
+    return search, offsets, gradient
+
+
+def _of_both(sweeps: list[LogSweep], gauge: Gauge) -> Offsets:
+    """Return the offsets of isotherms that E' and E'' show together."""
+    joins = [join(colder, warmer) for colder, warmer in pairwise(sweeps)]
+    return _beside_offsets(_torn_apart(sweeps, joins, gauge, BOTH)[0])[1]
 
 
 def _result(search: _Search, covariance: Array, freedom: float) -> CommonShifts:

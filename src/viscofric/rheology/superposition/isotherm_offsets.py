@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.gauge import Gauge
 
 
+#: Where one modulus is shifted, offsets larger than this in both are no offsets: the other modulus is wrong.  Sweeps of
+#: one sample repeat to 0.02 decades (`consistency.REPRODUCIBILITY`); the sizes found scatter by a third.
+LARGEST = 0.027  # decades
 #: Standard deviations tried, decades, 0.1 to 25 % …
 SIZES = np.logspace(-3.4, -1.0, 13)
 #: … and none, whose prior probability is this many times that of all these together.
@@ -52,9 +55,10 @@ class OffsetSizes:
 
 @dataclass(frozen=True, eq=False)
 class IsothermOffsets:
-    """Offsets that all points of an isotherm share, of the m quantities shifted, and how found shifts follow them.
+    """Offsets that all points of an isotherm share, of m quantities, and how found shifts follow them.
 
-    The quantities are log E' and log E'', or one of them, or log tan δ.
+    The quantities are log E' and log E'', whichever of them was shifted by; or one of them, or log tan δ, where the
+    other modulus is wrong; or the one of step tests.
 
     Parameters
     ----------

@@ -72,6 +72,11 @@ class Quantities:
         """Smallest offsets of log E' and log E'' per offset of each quantity, (2, m)."""
         return np.asarray(np.linalg.pinv(self.seen))
 
+    @property
+    def alone(self) -> bool:
+        """Whether one quantity is shifted where two moduli were measured."""
+        return bool(len(self.seen) < self.seen.shape[1])
+
     def of(self, sweeps: list[LogSweep]) -> list[LogSweep]:
         """Return the quantities of isotherms given by log E' and log E''."""
         return [LogSweep(one.frequency, one.moduli @ self.seen.T, one.weights) for one in sweeps]

@@ -98,7 +98,7 @@ def fitted_shifts(
     joined: JoinedIsotherms[Any], reference: float, held: dict[int, float], free: bool, quantities: Quantities = BOTH
 ) -> CommonShifts:
     """Fit all shifts except those `held` (log10 α by index); with `free`, vertical shifts too.  See `common_shifts`."""
-    temperatures, sweeps = _temperatures(joined), quantities.of(joined.logs)
+    temperatures, sweeps = _temperatures(joined), joined.logs
     around = _gauge(temperatures, reference, {}, free)
     if not held or np.max(around.weights) == 1.0:
         return common_shifts(sweeps, joined.joins, _gauge(temperatures, reference, held, free), quantities)

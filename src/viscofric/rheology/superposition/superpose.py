@@ -122,7 +122,9 @@ def superpose(
     identifies a shift is thereby its weight.  tan δ has no term of its own: log tan δ is the difference of the
     two, so it is fitted already, and it would count the same points twice.  Where one of the moduli is known to be
     wrong, as by inertia or by clamping, `by` and `weights` leave it out or let it count for less; all else is the same,
-    and a note says which.  Vertical shifts cancel in tan δ: ``"free"`` ones are fitted to both moduli in a second
+    and a note says which.  The errors include offsets of isotherms as both moduli show them, since one alone hardly
+    does; where these exceed 6 %, the other modulus is taken to be wrong, and the offsets are those of the one.
+    Vertical shifts cancel in tan δ: ``"free"`` ones are fitted to both moduli in a second
     superposition with these shift factors as `shift`.
 
     A shift along a plateau cannot be seen.  There log10 α follows the trend of its neighbours in 1/T,
