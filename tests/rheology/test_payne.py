@@ -63,6 +63,14 @@ def test_a_material_at_a_strain_meets_the_law_where_it_was_measured(strain):
     assert codes(on_strain(LAW, strain)) == {"scaled-to-strain"}
 
 
+def test_the_glass_keeps_its_modulus_at_any_strain():
+    # at 2 % E' falls to half and E'' rises fourfold; the glass is a thousand times stiffer than the filler network
+    loud = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 2.0 * np.pi * 10.0, 333.15, "shear")
+    rubber = vf.synthetic_fluoroelastomer()
+    scaled = vf.material_at_strain(rubber, loud, 0.02)
+    assert scaled.spectrum.E_inf == pytest.approx(rubber.spectrum.E_inf, rel=0.02)
+
+
 def test_at_the_strain_of_the_sweeps_nothing_changes():
     rubber = vf.synthetic_fluoroelastomer()
     same = vf.material_at_strain(rubber, LAW, 0.001, measured_at=0.001)

@@ -19,6 +19,8 @@ from viscofric.units import shown_celsius
 BEYOND = 1.5
 #: Strain of a contact over the slope of its edge: D. Tabor, The Hardness of Metals, 1951, ch. V.
 TABOR = 0.2
+#: ωτ at which the effect of the filler network has faded by half on the way to the glass.
+FADED = 1e-3
 
 
 def contact_strain(slope: float) -> float:
@@ -87,9 +89,9 @@ def material_at_strain(
     At the frequency ω and the temperature of the amplitude sweep the law gives a factor for E' and one for E''.  The
     relaxed modulus and modes that are slow there are multiplied by one number, fast ones by another, with weights
     (ωτ)²/(1 + (ωτ)²) between: the two that meet both factors.  So E' and E'' still belong to each other (Kramers and
-    Kronig).  That the same numbers hold at other frequencies and temperatures is assumed; the effect of the filler
-    network fades towards the glass, where this overstates it.  A contact strains its rubber unevenly and not
-    sinusoidally: one amplitude for all of it is rough, too.
+    Kronig).  The second number fades to 1 towards the glass, which the filler network hardly changes: by half at
+    ωτ = 0.001.  That width is assumed, and so is that the same numbers hold at other temperatures.  A contact strains
+    its rubber unevenly and not sinusoidally: one amplitude for all of it is rough, too.
 
     Examples
     --------
@@ -119,17 +121,19 @@ def material_at_strain(
     relaxation = spectrum.to_relaxation()
     product = omega * relaxation.tau
     slow = product**2 / (1.0 + product**2)
-    parts = relaxation.E * 1j * product / (1.0 + 1j * product)
-    parts = np.array([relaxation.E0 + np.sum(slow * parts), np.sum((1.0 - slow) * parts)])
-    whole = parts.sum()
-    factors = np.linalg.solve(np.array([parts.real, parts.imag]), [storage * whole.real, loss * whole.imag])
+    lasting = product / (product + FADED)
+    weights = np.stack([slow, (1.0 - slow) * lasting, (1.0 - slow) * (1.0 - lasting)])  # slow, fast, and the glass
+    parts = weights @ (relaxation.E * 1j * product / (1.0 + 1j * product)) + [relaxation.E0, 0.0, 0.0]
+    whole, glass = parts.sum(), parts[2]
+    wanted = [storage * whole.real - glass.real, loss * whole.imag - glass.imag]
+    factors = np.linalg.solve(np.array([parts[:2].real, parts[:2].imag]), wanted)
     if np.any(factors <= 0.0):
         raise InputError(
             f"at {100 * amplitude:.3g} % strain the law asks for negative relaxation strengths: its E' and E'' there "
             "do not go with this material.",
             code="no-relaxed-modulus",
         )
-    strengths = (factors[0] * slow + factors[1] * (1.0 - slow)) * relaxation.E
+    strengths = (np.array([*factors, 1.0]) @ weights) * relaxation.E
     scaled = RelaxationSpectrum(factors[0] * relaxation.E0, strengths, relaxation.tau).to_retardation()
     name = f"{material.name or 'material'} scaled to {100 * amplitude:.3g} % strain (approximation)"
     return replace(material, spectrum=scaled, name=name)
