@@ -241,7 +241,7 @@ class _Falling(NamedTuple):
         insist_on_indenter(indenter)
         if not is_body_of_revolution(indenter):
             raise InputError(
-                f"indenter: a {indenter.noun} is no body of revolution; available: a ball, a cone or another body of "
+                f"indenter: the {indenter.noun} is no body of revolution; available: a ball, a cone or another body of "
                 "revolution that falls along its axis.",
                 code="not-available",
             )

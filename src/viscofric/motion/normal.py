@@ -41,7 +41,7 @@ _FAR, _FARTHEST = 60, 4.0
 #: Points of a pressure, roughly.
 _POINTS = 230
 #: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
-_RISE = 1e-3
+_RISE = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +163,7 @@ class NormalMotion:
         if most <= 0.0:
             return
         # Springs just touched are off by what a step leaves out, little against the largest forces of the history.
-        if np.max(np.diff(force)) > _RISE * max(10.0 * most, self._typical):
+        if np.max(force - np.minimum.accumulate(force)) > _RISE * max(most, self._typical):
             raise ConvergenceError(
                 f"at time {time:.4g} s the pressure is no longer that of one disc, for which alone the row of springs "
                 "is exact.",
