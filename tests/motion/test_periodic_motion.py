@@ -63,19 +63,19 @@ def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float) -> None:
     generator = np.random.default_rng(3)
     turn = np.array([[0.0, 1e-5, 0.3, -4.0]])
     q0, p0, p1 = generator.normal(size=(3, 1, 4)) + 1j * generator.normal(size=(3, 1, 4))
-    modes, weights = Modes(1.0, np.array([2.0]), np.array([1.0])), np.array([[1.0, 0.3, 2.0, 0.7]])
-    whole = advance(StepResponse.of(modes, kappa, turn), modes, q0[None], p0, p1, weights)
+    modes = Modes(1.0, np.array([2.0]), np.array([1.0]))
+    whole = advance(StepResponse.of(modes, kappa, turn), modes, q0[None], p0, p1)
     parts = 400
     small = StepResponse.of(modes, kappa / parts, turn / parts)
     q, squares = q0[None], []
     for i in range(parts + 1):
         p = p0 + (p1 - p0) * i / parts
-        squares.append(float((weights * np.abs(p - q[0]) ** 2).sum()))
-        q = advance(small, modes, q, p, p0 + (p1 - p0) * (i + 1) / parts, weights).memory if i < parts else q
+        squares.append(float((np.abs(p - q[0]) ** 2).sum()))
+        q = advance(small, modes, q, p, p0 + (p1 - p0) * (i + 1) / parts).memory if i < parts else q
     simpson = squares[0] + squares[-1] + 4.0 * sum(squares[1::2]) + 2.0 * sum(squares[2:-1:2])
     assert whole.memory == pytest.approx(q, rel=1e-9, abs=1e-9)
     assert whole.dissipated == pytest.approx(2.0 * kappa * simpson / (3 * parts), rel=1e-4)
-    assert whole.stored == pytest.approx(float((weights * np.abs(q[0]) ** 2).sum()), rel=1e-9)
+    assert whole.stored == pytest.approx(float((np.abs(q[0]) ** 2).sum()), rel=1e-9)
 
 
 @pytest.mark.slow
@@ -124,7 +124,8 @@ def test_what_was_there_before_goes_on(before: str) -> None:
     one = mover(TWO_MODES, crossed(), vf.History([0.0, 1.0], pressure=2e3, speed=speed, before=before))
     first, *others = stepped(one, [0.0, 1e-5, 2e-3, 1.0])
     for later in others:
-        assert later.friction_force == pytest.approx(first.friction_force, rel=1e-5, abs=1e-6)
+        # Without friction, to 1e-5 of pressure times slope.
+        assert later.friction_force == pytest.approx(first.friction_force, rel=1e-5, abs=1e-4)
         assert later.depth == pytest.approx(first.depth, rel=1e-5)
         assert later.stored == pytest.approx(first.stored, rel=1e-5)
     # Sliding dissipates friction times path, rest nothing.
@@ -252,9 +253,7 @@ def test_few_modes_do_for_a_broad_spectrum() -> None:
 def test_memory_is_finite_for_instant_steps() -> None:
     response = StepResponse.of(Modes(1.0, np.array([1.0]), np.array([1.0])), 0.0, np.array([[0.0, 0.5]]))
     memory = np.array([[[1.0 + 0.0j, 2.0]]])
-    found = advance(
-        response, Modes(1.0, np.array([1.0]), np.array([1.0])), memory, *np.zeros((2, 1, 2)), np.ones((1, 2))
-    )
+    found = advance(response, Modes(1.0, np.array([1.0]), np.array([1.0])), memory, *np.zeros((2, 1, 2)))
     assert found.memory[0, 0] == pytest.approx([1.0, 2.0 * np.exp(0.5j)])
     assert found.dissipated == 0.0
     assert math.isclose(found.stored, 2.5)

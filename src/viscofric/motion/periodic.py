@@ -39,16 +39,17 @@ if TYPE_CHECKING:
 
 
 # Of the solver that starts from the pressure of the step before; see `viscofric.contact.periodic.one_grid`.
-_PATIENCE, _DIRECTIONS, _DOUBT, _FEW_PRODUCTS = 6, 12, 2.0, 200
+_PATIENCE, _DIRECTIONS, _DOUBT, _FEW_PRODUCTS = 6, 12, 0.0, 200
 _MOST_PRODUCTS = 10_000
 # Complementarity of a step, as a part of the accuracy, over the displacement (from the least one on, in rms heights).
-_TIGHTNESS, _LEAST_DISPLACEMENT = 1e-3, 1e-5
+_TIGHTNESS, _LEAST_DISPLACEMENT = 1e-2, 1e-5
 # Friction coefficient, over the rms slope of the surface, that is resolved to the accuracy.
 _LEAST_FRICTION = 0.1
 # Steps whose transfer functions are kept: one, and its halves.
 _KEPT = 2
-# Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval.
-_MERGING, _SHORTEST = 2e-2, 1e-5
+# Error by merging modes, as a part of the accuracy; the shortest time that is resolved at rest, as a part of each
+# interval; that in motion is the passage of a point.
+_MERGING, _SHORTEST = 0.2, 1e-5
 # Points from which on residuals are extended, which saves products but costs time.
 _EXTENDED = 10_000
 _SAME = 1e-12  # relative difference up to which steps are the same
@@ -63,7 +64,7 @@ def merged_modes(problem: Problem) -> Modes:
         clock = schedule.at(end, after=False).clock - schedule.at(start).clock
         speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
         passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
-        shortest = min(shortest, _SHORTEST * clock, passing)
+        shortest = min(shortest, passing if speed > 0.0 else _SHORTEST * clock)
     return Modes.for_history(schedule.spectrum, shortest, schedule.duration, _MERGING * problem.accuracy)
 
 
@@ -73,7 +74,7 @@ class PeriodicState:
 
     pressure: Array  # (nx, ny)
     waves: ComplexArray  # (rows, columns) of the pressure
-    memory: ComplexArray = field(repr=False)  # (n, rows, columns) delayed pressure of each mode
+    memory: ComplexArray = field(repr=False)  # (n, rows, columns) delayed pressure of each mode times √(w G)
     depth: float
     friction: tuple[float, float]  # per area, along x and y
     stored: float  # per area
@@ -116,6 +117,9 @@ class PeriodicMover:
         self.pressure_unit = self.depth_unit / self.compliance_unit
         self.modes = Modes(spectrum.instantaneous / spectrum.relaxed, spectrum.C / spectrum.relaxed, spectrum.tau)
         self._shape = self.grid.response / self.response_unit
+        # Memory is kept with the factor √(w G).
+        self._scale = np.sqrt(self.grid.weights * self._shape)
+        self._unscaled = np.sqrt(self._shape / self.grid.weights)
         self._rigid = self.grid.rigid_factor * (problem.counterface / self.compliance_unit)
         self.height = (surface.z.max() - surface.z) / self.depth_unit
         self.mean_height = float(self.height.mean())
@@ -152,8 +156,9 @@ class PeriodicMover:
         past = np.zeros(turn.shape, complex)
         pressure, depth = self._solved(problem, past, first, None)
         waves = self.grid.of(pressure)
-        memory = np.array([share * waves for share in shares]).reshape(len(modes), *waves.shape)
-        stored = sum(0.5 * C * self._norm(self._shape, one) for C, one in zip(modes.C, memory, strict=True))
+        scaled = self._scale * waves
+        memory = np.array([share * scaled for share in shares]).reshape(len(modes), *waves.shape)
+        stored = 0.5 * float(np.linalg.norm(self._roots * memory)) ** 2
         return self._state(pressure, waves, memory, problem.response, past, depth, (stored, 0.0), None)
 
     def step(self, state: PeriodicState, start: Instant, end: Instant) -> PeriodicState:
@@ -161,13 +166,14 @@ class PeriodicMover:
         path = np.asarray(end.position) - np.asarray(start.position)
         clock_step = end.clock - start.clock
         problem = self._step_of(clock_step, path)
-        past = problem.response.known(self.modes, state.memory, state.waves)
+        before = self._scale * state.waves
+        past = problem.response.known(self.modes, state.memory, before)
         guess = state.pressure
         if state.trend is not None and clock_step > 0.0:
             guess = guess + clock_step * state.trend
         pressure, depth = self._solved(problem, past, end, guess)
         waves = self.grid.of(pressure)
-        after = advance(problem.response, self.modes, state.memory, state.waves, waves, self.grid.weights * self._shape)
+        after = advance(problem.response, self.modes, state.memory, before, self._scale * waves)
         trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
         energies = after.stored, state.dissipated + after.dissipated
         return self._state(pressure, waves, after.memory, problem.response, past, depth, energies, trend)
@@ -199,14 +205,12 @@ class PeriodicMover:
 
     def memory_of(self, state: PeriodicState) -> NDArray[Any]:
         """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
-        return self._energy_scale * state.memory
+        return np.asarray(self._roots * state.memory)
 
     def with_memory(self, state: PeriodicState, memory: NDArray[Any]) -> PeriodicState:
         """Return a state with another memory, which has not dissipated anything yet."""
-        scale = self._energy_scale
-        # Waves that displace nothing keep the memory that they have.
-        found = np.divide(memory, scale, out=state.memory.copy(), where=scale > 0.0)
-        change = float(np.vdot(memory, memory).real - np.linalg.norm(self.memory_of(state)) ** 2)
+        change = float(np.linalg.norm(memory) ** 2 - np.linalg.norm(self.memory_of(state)) ** 2)
+        found = np.asarray(memory / self._roots, dtype=complex)
         return replace(state, memory=found, stored=state.stored + 0.5 * change, dissipated=0.0)
 
     def recovered(self, change: NDArray[Any], start: Instant, end: Instant) -> NDArray[Any]:
@@ -216,9 +220,9 @@ class PeriodicMover:
         return change / -np.expm1(-steps + 1j * turn)
 
     @cached_property
-    def _energy_scale(self) -> Array:
-        """√(C w G) of each mode and wave."""
-        return np.asarray(np.sqrt(self.modes.C[:, None, None] * (self.grid.weights * self._shape)))
+    def _roots(self) -> Array:
+        """√C of each mode."""
+        return np.asarray(np.sqrt(self.modes.C)[:, None, None])
 
     def _state(
         self,
@@ -232,7 +236,7 @@ class PeriodicMover:
         trend: Array | None,
     ) -> PeriodicState:
         """Return a solved state, given the energy that its modes store and all that has been dissipated."""
-        displacement = self._shape * (response.end * waves + past)
+        displacement = self._shape * (response.end * waves) + self._unscaled * past
         depth += float(displacement[0, 0].real) / pressure.size
         # The mean of −p ∂u/∂x, to which an elastic indenter adds nothing.
         work = self.grid.weights * (np.conj(waves) * displacement).imag
@@ -273,7 +277,7 @@ class PeriodicMover:
 
     def _solved(self, problem: _Step, past: ComplexArray, end: Instant, guess: Array | None) -> tuple[Array, float]:
         """Return the pressure and the depth, without the mean displacement, at the end of a step."""
-        known = self._shape * past
+        known = self._unscaled * past
         known[0, 0] = 0.0  # a mean displacement is added to the depth afterwards
         height = self.height + self.grid.field(known)
         load = indentation = None

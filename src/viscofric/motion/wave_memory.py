@@ -1,12 +1,19 @@
 """Memory of every wave of a periodic contact, with the energies that its modes store and dissipate.
 
 Within a step the pressure p0 + Δp θ of a wave is linear in its time θ, from 0 to 1.  The delayed pressure is, with
-z = −κ + iq·Δs and s = −κ/z, ::
+z = −κ + ib, b = q·Δs and s = −κ/z, ::
 
-    q(θ) = (q0 − A) e^{zθ} + A + B θ,      B = s Δp,   A = s (p0 − B/κ),
+    q(θ) = (q0 − A) e^{zθ} + A + B θ,      B = s Δp,   A = s (p0 − B/κ).
 
-and a mode dissipates C G |p − q|²/τ, whose integral over the step is a closed form too.  For |z| near zero, where A
-and B cancel, power series take its place.
+A mode dissipates C G |r|²/τ with r = p − q, which obeys dr/dθ = z r + f, f = Δp − ib (p0 + Δp θ).  So ::
+
+    κ ∫|r|² dθ = ½ (|r0|² − |r1|²) + Re ∫ r* f dθ,
+
+and the integrals of r and r θ follow from that equation.  For |z| near zero, where A and B cancel, power series take
+their place.
+
+Waves of pressures and memory are multiplied by √(w G), w their weights in a mean over the grid: their squares are
+energies.
 """
 
 from __future__ import annotations
@@ -19,7 +26,7 @@ import numpy as np
 from viscofric.motion.memory import step_coefficients
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray
+    from viscofric.arrays import Array, ComplexArray, Mask
     from viscofric.motion.memory import Modes
 
 
@@ -53,7 +60,10 @@ class StepResponse:
         return cls(steps, turn, np.exp(1j * turn) if moves else None, start, end)
 
     def known(self, modes: Modes, memory: ComplexArray, pressure: ComplexArray) -> ComplexArray:
-        """Waves of the displacement, for a response of one, that the past causes at the end of the step."""
+        """Waves of the displacement, for a response of one, that the past causes at the end of the step.
+
+        With the factor that memory (n, rows, columns) and pressure (rows, columns) have.
+        """
         found = np.tensordot(modes.C * np.exp(-self.steps), memory, 1)
         if self.phase is not None:
             found *= self.phase
@@ -62,71 +72,132 @@ class StepResponse:
 
 
 class Advanced(NamedTuple):
-    """Memory at the end of a step, and energies for a weight of each wave."""
+    """Memory at the end of a step, and energies."""
 
     memory: ComplexArray  # (n, rows, columns)
-    stored: float  # ½ Σ C w |q|² at the end
-    dissipated: float  # Σ C w ∫ |p − q|²/τ dt in the step
+    stored: float  # ½ Σ C |q|² at the end
+    dissipated: float  # Σ C ∫ |p − q|²/τ dt in the step
+
+
+class _Pressures(NamedTuple):
+    """What all modes share in a block of waves."""
+
+    turn: Array
+    phase: ComplexArray | None
+    before: ComplexArray
+    change: ComplexArray
+    # f = constant + linear θ, its integral and that of θ f
+    constant: ComplexArray
+    linear: ComplexArray
+    whole: ComplexArray
+    first: ComplexArray
 
 
 def advance(
-    response: StepResponse,
-    modes: Modes,
-    memory: ComplexArray,
-    before: ComplexArray,
-    after: ComplexArray,
-    weights: Array,
+    response: StepResponse, modes: Modes, memory: ComplexArray, before: ComplexArray, after: ComplexArray
 ) -> Advanced:
     """Return the memory (n, rows, columns) after a step from one pressure to another, both (rows, columns)."""
     found = np.empty_like(memory)
     stored = dissipated = 0.0
     turns, befores, afters = response.turn.reshape(-1), before.reshape(-1), after.reshape(-1)
-    factors = weights.reshape(-1)
-    phase = None if response.phase is None else response.phase.reshape(-1)
-    rows_in, rows_out = memory.reshape(len(modes), -1), found.reshape(len(modes), -1)
-    for first in range(0, turns.size, _BLOCK):
-        part = slice(first, first + _BLOCK)
-        turn, p0, weight = turns[part], befores[part], factors[part]
-        change = afters[part] - p0
-        turned = None if phase is None else phase[part]
+    phases = None if response.phase is None else response.phase.reshape(-1)
+    old, new = memory.reshape(len(modes), -1), found.reshape(len(modes), -1)
+    for start in range(0, turns.size, _BLOCK):
+        part = slice(start, start + _BLOCK)
+        given = _pressures(
+            turns[part], None if phases is None else phases[part], befores[part], afters[part] - befores[part]
+        )
         for k, (compliance, kappa) in enumerate(zip(modes.C, response.steps, strict=True)):
-            q0 = rows_in[k, part]
-            q1, loss = _one(float(kappa), turn, turned, q0, p0, change)
-            rows_out[k, part] = q1
-            stored += 0.5 * compliance * float(weight @ _square(q1))
-            dissipated += compliance * float(weight @ loss)
-    return Advanced(found, stored, dissipated)
+            loss = _one(float(kappa), given, old[k, part], new[k, part])
+            dissipated += compliance * loss
+            stored += 0.5 * compliance * _square(new[k, part])
+    return Advanced(found, float(stored), float(dissipated))
 
 
-def _square(values: ComplexArray) -> Array:
-    return np.asarray(np.square(values.real) + np.square(values.imag))
+def _pressures(turn: Array, phase: ComplexArray | None, before: ComplexArray, change: ComplexArray) -> _Pressures:
+    if phase is None:
+        return _Pressures(turn, phase, before, change, change, np.zeros_like(change), change, 0.5 * change)
+    rate = -1j * turn
+    constant, linear = change + rate * before, rate * change
+    return _Pressures(
+        turn, phase, before, change, constant, linear, constant + 0.5 * linear, 0.5 * constant + linear / 3.0
+    )
 
 
-def _one(
-    kappa: float, turn: Array, phase: ComplexArray | None, q0: ComplexArray, p0: ComplexArray, change: ComplexArray
-) -> tuple[ComplexArray, Array]:
-    """Return q after a step, and κ ∫ |p − q|² dθ."""
+def _square(values: ComplexArray) -> float:
+    return float(np.vdot(values, values).real)
+
+
+def _one(kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray) -> float:
+    """Write q after a step into q1; return κ ∫ |p − q|² dθ, summed over the waves."""
+    turn, phase, p0, change = given[:4]
     decay = np.exp(-kappa) if phase is None else np.exp(-kappa) * phase
     if kappa == 0.0:
-        return decay * q0, np.zeros(q0.shape)
+        np.multiply(decay, q0, out=q1)
+        return 0.0
     small = np.hypot(kappa, turn) < _SERIES_BELOW if kappa < _SERIES_BELOW else None
-    share = 1.0 / (1.0 - (1j / kappa) * turn) if phase is not None else np.ones(1)
-    slope = share * change
-    level = share * (p0 - slope / kappa)
-    fading = q0 - level
-    q1 = decay * fading + level + slope
-    # r = p − q = −fading e^{zθ} + lag + drift θ
-    lag, drift = p0 - level, change - slope
-    first = share * ((1.0 - decay) / kappa)  # ∫ e^{zθ} dθ = (e^z − 1)/z
-    second = share * ((first - decay) / kappa)  # ∫ e^{zθ} θ dθ = (e^z − φ1)/z
-    mixed = np.conj(lag) * first + np.conj(drift) * second
-    loss = _square(fading) * (-np.expm1(-2.0 * kappa) / (2.0 * kappa)) - 2.0 * (fading * mixed).real
-    loss += _square(lag) + (np.conj(lag) * drift).real + _square(drift) / 3.0
-    loss *= kappa
+    if phase is None:
+        slope = change
+        level = p0 - change / kappa
+    else:
+        share = _share(kappa, turn)
+        slope = share * change
+        level = slope * (-1.0 / kappa)
+        level += p0
+        level *= share
+    np.subtract(q0, level, out=q1)
+    q1 *= decay
+    q1 += level
+    q1 += slope
+    r0 = p0 - q0
+    r1 = p0 - q1
+    r1 += change
     if small is not None and small.any():
-        near = step_coefficients(kappa, turn[small])
-        at_end = near.decay * q0[small] + (near.start + near.end) * p0[small] + near.end * change[small]
-        q1[small] = at_end
-        r0, r1 = p0[small] - q0[small], p0[small] + change[small] - at_end
-        loss[small] = kappa / 3.0 * (_square(r0) + _square(r1) + (np.conj(r0) * r1).real)
-    return q1, loss
+        return _near(kappa, given, q0, q1, small, r0, r1)
+    return 0.5 * (_square(r0) - _square(r1)) + _work(kappa, given, r0, r1, None if phase is None else share)
+
+
+def _share(kappa: float, turn: Array) -> ComplexArray:
+    """Return s = 1/(1 − ib/κ)."""
+    found = np.empty(turn.shape, complex)
+    slant = turn * (1.0 / kappa)
+    size = slant * slant
+    size += 1.0
+    np.reciprocal(size, out=size)
+    found.real = size
+    np.multiply(slant, size, out=found.imag)
+    return found
+
+
+def _work(kappa: float, given: _Pressures, r0: ComplexArray, r1: ComplexArray, share: ComplexArray | None) -> float:
+    """Return Re ∫ r* f dθ, summed over the waves."""
+    whole = r0 - r1
+    whole += given.whole
+    whole *= 1.0 / kappa
+    if share is None:
+        return float(np.vdot(whole, given.constant).real)
+    whole *= share  # ∫ r dθ
+    first = whole - r1
+    first += given.first
+    first *= share
+    first *= 1.0 / kappa  # ∫ r θ dθ
+    return float((np.vdot(whole, given.constant) + np.vdot(first, given.linear)).real)
+
+
+def _near(
+    kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray, small: Mask, r0: ComplexArray, r1: ComplexArray
+) -> float:
+    """Do the same where some |z| are near zero: there r is nearly linear."""
+    near = step_coefficients(kappa, given.turn[small] if given.phase is not None else 0.0)
+    p0, change = given.before[small], given.change[small]
+    q1[small] = near.decay * q0[small] + (near.start + near.end) * p0 + near.end * change
+    first, last = r0[small], p0 + change - q1[small]
+    loss = kappa / 3.0 * (_square(first) + _square(last) + float(np.vdot(first, last).real))
+    far = ~small
+    if not far.any():
+        return loss
+    phase = None if given.phase is None else given.phase[far]
+    rest = _pressures(given.turn[far], phase, given.before[far], given.change[far])
+    ends = r0[far], r1[far]
+    share = _share(kappa, rest.turn)
+    return loss + 0.5 * (_square(ends[0]) - _square(ends[1])) + _work(kappa, rest, *ends, share)
