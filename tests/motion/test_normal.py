@@ -13,6 +13,8 @@ from refusals import refused
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.reference.hertz import hertz_ball
 from viscofric.errors import ConvergenceError
+from viscofric.motion.march import march
+from viscofric.motion.solve import checked_problem, mover_of
 
 BALL = vf.Ball("10 mm")
 E0, E_INF, TAU = 1e6, 1e7, 0.01
@@ -249,6 +251,19 @@ class Rippled(Indenter):
 def test_a_contact_that_is_no_disc_is_refused():
     with refused("not-one-disc", ConvergenceError):
         vf.solve_transient(RUBBER, Rippled(), vf.History([0.0, 1.0], load=1.0))
+
+
+def test_a_march_continues_from_a_stored_state():
+    """In two parts with one mover, as in one; steps differ, within the accuracy."""
+    whole = vf.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.2])
+    problem = checked_problem(RUBBER, BALL, whole, 1e-3, None, None, 0.3)
+    mover, _ = mover_of(problem, whole)
+    first = march(mover, vf.History([0.0, 0.02], load=[0.0, 1.0]).schedule(RUBBER, "point"), accuracy=1e-3)
+    second = vf.History([0.02, 0.04], load=[1.0, 0.2]).schedule(RUBBER, "point")
+    found = march(mover, second, accuracy=1e-3, begin=first.final).moments[-1]
+    run = vf.solve_transient(RUBBER, BALL, whole, times=[0.04])
+    assert found.seen.depth == pytest.approx(run.indentation[-1], rel=1e-3)
+    assert found.work == pytest.approx(run.work[-1], rel=1e-3)
 
 
 def test_interruption_keeps_what_was_found():

@@ -102,7 +102,7 @@ def march(
     progress : callable, optional
         Called with the time reached and the last time, s.
     begin : optional
-        `Track.final` of the march to continue.
+        `Track.final` of the march to continue, with the same mover: its states belong to its cells or springs.
 
     Raises
     ------
