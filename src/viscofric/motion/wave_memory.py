@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 # |z| below which series are used: the closed forms lose 1e-16/|z| of their digits there, the series 1e-12.
 _SERIES_BELOW = 1e-3
 # Waves that are worked on at once; their arrays stay in the processor's cache.
-_BLOCK = 4096
+_BLOCK = 8192
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,11 +53,20 @@ class StepResponse:
         moves = bool(turn.any())
         kind = complex if moves else float
         start, end = np.zeros(turn.shape, kind), np.full(turn.shape, modes.instantaneous, kind)
+        phase = np.exp(1j * turn) if moves else None
         for compliance, kappa in zip(modes.C, steps, strict=True):
-            found = step_coefficients(kappa, turn if moves else 0.0)
-            start += compliance * found.start
-            end += compliance * found.end
-        return cls(steps, turn, np.exp(1j * turn) if moves else None, start, end)
+            if phase is None or kappa < _SERIES_BELOW:
+                found = step_coefficients(kappa, turn if moves else 0.0)
+                start += compliance * found.start
+                end += compliance * found.end
+                continue
+            share = _share(float(kappa), turn)
+            both = share * (1.0 - np.exp(-kappa) * phase)  # α + β
+            share *= 1.0 - both / kappa  # β
+            both -= share
+            start += compliance * both
+            end += compliance * share
+        return cls(steps, turn, phase, start, end)
 
     def known(self, modes: Modes, memory: ComplexArray, pressure: ComplexArray) -> ComplexArray:
         """Waves of the displacement, for a response of one, that the past causes at the end of the step.
