@@ -250,6 +250,17 @@ def test_few_modes_do_for_a_broad_spectrum() -> None:
         assert other.depth == pytest.approx(one.depth, rel=1e-3)
 
 
+@pytest.mark.parametrize("speed", [0.0, 1e-9, 1e3])
+def test_modes_are_merged_at_any_speed(speed: float) -> None:
+    surface, creep = profile(32), TWO_MODES.spectrum.creep_compliance
+    history = vf.History([0.0, 0.05], pressure=2e3, speed=speed)
+    problem = Problem(TWO_MODES, surface, history.schedule(TWO_MODES, "periodic"), 1e-3, None, 0.0)
+    modes = merged_modes(problem)
+    assert modes.error <= 1e-3
+    assert modes.relaxed == pytest.approx(1e-6)
+    assert modes.creep_compliance(0.05) == pytest.approx(creep(0.05), rel=1e-3)
+
+
 def test_memory_is_finite_for_instant_steps() -> None:
     response = StepResponse.of(Modes(1.0, np.array([1.0]), np.array([1.0])), 0.0, np.array([[0.0, 0.5]]))
     memory = np.array([[[1.0 + 0.0j, 2.0]]])

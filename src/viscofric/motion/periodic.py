@@ -47,9 +47,9 @@ _TIGHTNESS, _LEAST_DISPLACEMENT = 1e-2, 1e-5
 _LEAST_FRICTION = 0.1
 # Steps whose transfer functions are kept: one, and its halves.
 _KEPT = 2
-# Error by merging modes, as a part of the accuracy; the shortest time that is resolved at rest, as a part of each
-# interval; that in motion is the passage of a point.
-_MERGING, _SHORTEST = 0.2, 1e-5
+# Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
+# that part of it in which a point is passed from which on the passage is the shortest time.
+_MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
 # Points from which on residuals are extended, which saves products but costs time.
 _EXTENDED = 10_000
 _SAME = 1e-12  # relative difference up to which steps are the same
@@ -64,7 +64,7 @@ def merged_modes(problem: Problem) -> Modes:
         clock = schedule.at(end, after=False).clock - schedule.at(start).clock
         speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
         passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
-        shortest = min(shortest, passing if speed > 0.0 else _SHORTEST * clock)
+        shortest = min(shortest, passing if passing < _QUICK * clock else _SHORTEST * clock)
     return Modes.for_history(schedule.spectrum, shortest, schedule.duration, _MERGING * problem.accuracy)
 
 
