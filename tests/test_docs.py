@@ -117,6 +117,7 @@ def test_every_key_of_a_run_file_is_in_the_reference(extensions: dict[str, Modul
         "layer": run_file.LayerTable,
         "conditions": run_file.ConditionsTable,
         "sweep": run_file.SweepTable,
+        "history": run_file.HistoryTable,
         "measurement": run_file.MeasurementTable,
         "solver": run_file.SolverTable,
         "uncertainty": run_file.UncertaintyTable,

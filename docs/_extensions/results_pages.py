@@ -37,6 +37,7 @@ _WORDS = {
     "/friction_shift_factors": "log10 α found from the measured friction alone, beside that of the material.",
     "/agreement": "Prediction against measurement, at each temperature.",
     "/assumptions": "Assumptions of the predictions, and their checks.",
+    "/history": "With `[history]`: the cases over time.",
     "/fields/<n>": "Pressure and displacement of the case with the number n, if they were kept.",
     "/materials/<n>/…": "For several materials, the groups of each from `/isotherms` to `/spectrum_curve`.",
 }

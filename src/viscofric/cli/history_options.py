@@ -117,7 +117,7 @@ def _from_file(parameters: dict[str, Any], reference: float | None) -> History:
 
 def _from_stages(parameters: dict[str, Any], unit: str, reference: float | None) -> History:
     """Return a load put on at once or in some time, a dwell, and a slide forth and back."""
-    from viscofric.motion.history import History
+    from viscofric.motion.stages import staged_history
     from viscofric.units import positive, to_si
 
     given = {name: parameters[name] for name in ("load", "indentation") if parameters[name] is not None}
@@ -129,38 +129,21 @@ def _from_stages(parameters: dict[str, Any], unit: str, reference: float | None)
         raise click.UsageError("--slide and --speed belong together: the length of the path, and how fast it is.")
     if parameters["strokes"] is not None and parameters["slide"] is None:
         raise click.UsageError("--strokes is for --slide only.")
-    time, values, speeds = [0.0], [value], [0.0]
-
-    def stage(duration: float, speed: float) -> None:
-        """Go on for a time; a change of the speed is a jump."""
-        if speed != speeds[-1]:
-            if len(time) > 1:
-                time.append(time[-1])
-                values.append(value)
-                speeds.append(speed)
-            else:
-                speeds[-1] = speed
-        time.append(time[-1] + duration)
-        values.append(value)
-        speeds.append(speed)
-
-    if parameters["load_time"] is not None:
-        values[0] = 0.0
-        stage(positive(parameters["load_time"], "s", "load_time"), 0.0)
-    if parameters["dwell"] is not None:
-        stage(positive(parameters["dwell"], "s", "dwell"), 0.0)
-    if parameters["slide"] is not None:
-        speed = positive(parameters["speed"], "m/s", "speed")
-        duration = positive(parameters["slide"], "m", "slide") / speed
-        for stroke in range(parameters["strokes"] or 1):
-            stage(duration, speed if stroke % 2 == 0 else -speed)
-    if len(time) == 1:
+    stages = {
+        name: positive(parameters[name], stage_unit, name)
+        for name, stage_unit in (("load_time", "s"), ("dwell", "s"), ("slide", "m"), ("speed", "m/s"))
+        if parameters[name] is not None
+    }
+    if not stages:
         raise click.UsageError("the history has no duration; give --dwell, --load-time, or --slide with --speed.")
-    return History(
-        time,
-        **{control: values},
-        speed=speeds,
-        temperature=reference if parameters["temperature"] is None else parameters["temperature"],
+    return staged_history(
+        control,
+        value,
+        **stages,
+        strokes=parameters["strokes"] or 1,
+        temperature=reference
+        if parameters["temperature"] is None
+        else positive(parameters["temperature"], "K", "temperature"),
         before=parameters["before"],
         direction=chosen_direction(parameters["direction"]),
     )

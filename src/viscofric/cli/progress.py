@@ -25,6 +25,7 @@ _WORDS = {
     "measurement": "Measurement: Coulomb and viscoelastic friction",
     "shift": "Measurement: one friction curve of all temperatures",
     "contacts": "Contacts: requested, measured, along the master curve",
+    "histories": "Contacts over time",
     "report": "Figures and report",
 }
 #: What is not watched gets a line so often.

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.report.figures.histories import MOST_LINES as HISTORIES
 from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
 from viscofric.report.figures.stored_contacts import shown_contacts
 from viscofric.report.figures.sweeps import panel_count
@@ -78,6 +79,7 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         "lie on one line.",
         "isotherms": f"Storage and loss modulus {'of the synthetic sweeps' if made else 'as measured'}, one curve "
         "for each temperature.",
+        "contacts_over_time": _of_histories(tree),
         "contacts": _of_contacts(tree),
         "recovery_trail": "Surface on the centre line, seen from the side; the indenter moves to the right. "
         "Behind the contact the material has not yet recovered: the surface lies below the mirror image of the surface "
@@ -113,6 +115,17 @@ def _of_sweep(tree: xr.DataTree) -> str:
     solved = np.isfinite(friction["friction_coefficient"].values).all()
     missing = "" if solved else f" Crosses: not solved{', for one seed or more' if seeds else ''}."
     return f"{said}.{missing}"
+
+
+def _of_histories(tree: xr.DataTree) -> str:
+    """Say what is drawn over time, and how many cases are left out."""
+    data = group(tree, "history")
+    if data is None:
+        return ""
+    count = data["time"].size // data.sizes["instant"]
+    some = f" ({HISTORIES} of {count} cases are drawn)" if count > HISTORIES else ""
+    before = {"untouched": "untouched material", "at rest": "a contact at rest", "sliding": "steady sliding"}
+    return f"Contacts over time, from {before[str(data.attrs['before'])]}{some}."
 
 
 def _of_map(tree: xr.DataTree) -> str:

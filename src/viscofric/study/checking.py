@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.errors import InputError, StudyError
 from viscofric.study.cases.case import moved
 from viscofric.study.cases.surfaces import surface_of
+from viscofric.study.histories import checked_table
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import estimate
@@ -124,6 +125,12 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     except InputError as error:
         wrong.append(error.note.at("surface"))
         field = field or "surface"
+    if study.history is not None and study.history.file is not None:
+        try:
+            checked_table(study.history, study)
+        except InputError as error:
+            wrong.append(error.note)
+            field = field or error.field or "history.file"
     if wrong:
         raise StudyError(f"{path}: its data cannot be used:", wrong, field=field)
     return CheckedStudy(study, sweep, tuple(rubbers), measured)

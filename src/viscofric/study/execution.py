@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from viscofric.notes import Note, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
+from viscofric.study.histories import Histories
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
@@ -121,14 +123,26 @@ def run_study(
         hashes = input_hashes(study.inputs, path.parent)
         rubbers, measured = _inputs(study, _staged(progress))
         contacts = Contacts(study, rubbers, measured)
+        histories = Histories.of(study, contacts.sweep, contacts.plan.rubbers)
         damaged = run_plan(contacts.plan, store, executor, progress)
-        tree = tree_of(contacts, _damage(damaged, finished_only))
+        if histories is not None:
+            damaged += run_plan(histories, store, executor, _as_stage(progress, "histories"))
+        tree = tree_of(contacts, _damage(damaged, finished_only), histories)
         tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)
         results = StudyResults(tree, folder)
         for form in study.outputs.formats:
             results.export(form)
     return results
+
+
+def _as_stage(progress: Progress, name: str) -> Progress:
+    """Return a callback that reports the events of contacts as those of another stage."""
+
+    def report(event: Event) -> None:
+        progress(replace(event, stage=name))
+
+    return report
 
 
 def _staged(progress: Progress) -> Callable[[str, Callable[[], Any]], Any]:
@@ -174,13 +188,14 @@ def _damage(labels: Sequence[str], finished_only: bool) -> list[str]:
     return [Note("damaged-cases", f"{many} not match the checksum) and {done}: {shown}.")]
 
 
-def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree:
+def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), histories: Histories | None = None) -> xarray.DataTree:
     """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved."""
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
     requested, at_points, along = contacts.results()
     failures = list(dict.fromkeys(one.note for part in (requested, at_points, along) for one in part.failures))
+    failures += histories.failures if histories is not None else []
     if not requested.records:
         raise StudyError(f"no case could be solved; the first one failed: {failures[0]}", code="nothing-solved")
     groups, about = material_groups(
@@ -206,6 +221,9 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
             pairs = zip(at_points.cases, points, strict=True)
             inside = [one is not None and rubbers[0].is_within(case, one) for case, one in pairs]
             groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
+    over_time = None if histories is None else histories.dataset()
+    if over_time is not None:
+        groups["/history"] = over_time
     checked = assumption_checks(contacts, requested, at_points)
     groups |= assumptions(checked)
     tree = xarray.DataTree.from_dict(groups)
@@ -223,6 +241,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = ()) -> xarray.DataTree
                 *doubts((requested, at_points, along), rubbers),
                 *assumption_warnings(checked),
                 *_missed_accuracy(groups["/prediction"], study),
+                *(histories.warnings if histories is not None else ()),
             ]
         ),
         "failures": _listed(failures),

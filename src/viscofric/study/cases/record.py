@@ -155,6 +155,8 @@ class Record:
     @classmethod
     def from_values(cls, values: dict[str, Any]) -> Self:
         """Return a record from `values`, without fields; raise ValueError, TypeError or KeyError if it is invalid."""
+        if "history" in values:
+            return HistoryRecord.stored(values)  # type: ignore[return-value]
         given = {**values, "warnings": tuple(values["warnings"])}
         if "contact_area_fraction" not in values and (stored := values["sensitivity"]) is not None:
             columns = {name: np.array(stored[name], dtype=float) for name in _COLUMNS}
@@ -177,6 +179,41 @@ class Record:
             stored = {field.name: getattr(self.sensitivity, field.name) for field in fields(self.sensitivity)}
             values["sensitivity"] = stored | {name: stored[name].tolist() for name in _COLUMNS}
         return values
+
+
+class Column(NamedTuple):
+    """Values over time with their unit and long name."""
+
+    values: list[float]
+    unit: str
+    words: str
+
+
+@dataclass(frozen=True)
+class HistoryRecord(Record):
+    """Stored part of one contact over time.
+
+    Attributes
+    ----------
+    columns : dict of str to Column
+        Over the stored times, SI.
+    """
+
+    columns: dict[str, Column] = field(default_factory=dict)
+
+    def values(self) -> dict[str, Any]:
+        """Return everything in types that JSON stores exactly."""
+        return {"history": {name: list(one) for name, one in self.columns.items()}, "warnings": self.warnings}
+
+    @classmethod
+    def stored(cls, values: dict[str, Any]) -> Self:
+        """Return a record from `values`; raise ValueError, TypeError or KeyError if it is invalid."""
+        columns = {name: Column(*one) for name, one in values["history"].items()}
+        lengths = {len(one.values) for one in columns.values()}
+        sound = all(is_number(value) for one in columns.values() for value in one.values)
+        if len(lengths) != 1 or not sound or not all(isinstance(text, str) for text in values["warnings"]):
+            raise ValueError("a history is invalid.")
+        return cls({}, tuple(values["warnings"]), columns=columns)
 
 
 def indenter_record(

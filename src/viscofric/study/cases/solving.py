@@ -160,7 +160,7 @@ def written(value: Any) -> object:
 #: Files outside the solver that determine the records.
 _OWN = {
     "friction": ("sensitivity.py",),
-    "study": ("cases/solving.py", "cases/record.py", "cases/surfaces.py"),
+    "study": ("cases/solving.py", "cases/record.py", "cases/surfaces.py", "cases/history.py"),
 }
 
 
@@ -168,7 +168,7 @@ _OWN = {
 def solver_fingerprint() -> str:
     """Return a digest of the solver's source, so that stored cases of another version are not reused."""
     digest = hashlib.sha256()
-    for room in ("contact", "roughness", "readers/topography"):
+    for room in ("contact", "motion", "roughness", "readers/topography"):
         for name, source in _sources(files("viscofric") / room):
             digest.update(name.encode() + b"\0" + source)
     for room, names in _OWN.items():

@@ -4,6 +4,7 @@
 ``/prediction``                  all cases over the axes with more than one point; `failed` is 1 for cases without a
                                  solution, whose numbers are NaN, with the reasons in the root's attribute `failures`
 ``/prediction_master``           friction at the reference temperature over the reduced speeds α(T)·v
+``/history``                     the cases over time: also over the dwell, where there are several, and over `instant`
 ``/fields/<n>``                  pressure and displacement of case n, where they are kept
 ``/measurement``                 separated measurement, and the prediction at the same points (if measured)
 ``/measurement_master``          measured friction over the reduced speed, at the load of the master curve
@@ -131,7 +132,7 @@ def prediction(
     columns["interpolated"] = [record.interpolated for record in records]
     if within is not None:
         columns[_WITHIN] = within
-    meaning = _meaning(sweep.geometry)
+    meaning = meaning_of(sweep.geometry)
     dimensions = [axis.name for axis in sweep.axes if len(axis) > 1]
     shape = [len(axis) for axis in sweep.axes if len(axis) > 1]
 
@@ -145,7 +146,7 @@ def prediction(
             continue
         variables[name] = labelled(name, whole)
     variables["failed"] = labelled("failed", (~solved).astype(np.int8))
-    coordinates = {name: value for axis in sweep.axes for name, value in _coordinates(axis, meaning).items()}
+    coordinates = {name: value for axis in sweep.axes for name, value in axis_coordinates(axis, meaning).items()}
     return xarray.Dataset(variables, coordinates)
 
 
@@ -153,7 +154,7 @@ def master_prediction(
     records: Sequence[Record], geometry: str, within: Sequence[bool] | None, curves: FrictionCurves
 ) -> xarray.Dataset:
     """Return the contacts along the friction master curve, with their bands where known."""
-    meaning = _meaning(geometry)
+    meaning = meaning_of(geometry)
     columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in MEANING[geometry]}
     columns |= _band(curves, "friction")
     if within is not None:
@@ -166,7 +167,7 @@ def field_groups(sweep: Sweep, outcomes: Sequence[Record | Failure]) -> Groups:
     import xarray
 
     groups = {}
-    meaning = _meaning(sweep.geometry)
+    meaning = meaning_of(sweep.geometry)
     for number, outcome in enumerate(outcomes):
         if not isinstance(outcome, Record) or outcome.fields is None:
             continue
@@ -301,7 +302,8 @@ def _band(curves: FrictionCurves | BandColumns, name: str) -> dict[str, Any]:
     return {f"{name}_{kind}": column for kind, column in found.items() if column is not None}
 
 
-def _meaning(geometry: str) -> dict[str, Meaning]:
+def meaning_of(geometry: str) -> dict[str, Meaning]:
+    """Return unit and long name of all numbers and coordinates of a geometry."""
     return MEANING[geometry] | _OTHER | ({_WITHIN: _ROUGH_WITHIN} if geometry == "rough" else {})
 
 
@@ -318,7 +320,8 @@ def _spread(values: Any, solved: Any, otherwise: int | None) -> Any:
     return whole
 
 
-def _coordinates(axis: Axis, meaning: Mapping[str, Meaning]) -> dict[str, Any]:
+def axis_coordinates(axis: Axis, meaning: Mapping[str, Meaning]) -> dict[str, Any]:
+    """Return the coordinates of an axis with units and long names."""
     along: Any = axis.name if len(axis) > 1 else ()
     return {
         name: (along, list(values) if len(axis) > 1 else values[0], _attributes(name, meaning))

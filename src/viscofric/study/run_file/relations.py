@@ -30,6 +30,7 @@ def relations(tables: Tables) -> Iterator[Problem]:
     if not wrong:
         yield from _size(tables)
     yield from _measurement(tables)
+    yield from _history(tables)
     yield from _members(tables)
 
 
@@ -164,6 +165,11 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
         yield "measurement", f"needs one ball, but indenter.radius has {len(indenter.radius)} values"
     if tables.get("layer") is not None:
         yield "measurement", "needs a half-space, but there is a [layer]"
+
+
+def _history(tables: Tables) -> Iterator[Problem]:
+    if tables.get("history") is not None and tables.get("surface") is not None:
+        yield "history", "needs an [indenter], but there is a rough [surface]"
 
 
 def _members(tables: Tables) -> Iterator[Problem]:

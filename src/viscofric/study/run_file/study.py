@@ -19,6 +19,7 @@ from viscofric.study.run_file.contact import (
     LayerTable,
 )
 from viscofric.study.run_file.errors import place, problems, wrong, wrong_tables
+from viscofric.study.run_file.history import HistoryTable
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.measurement import MeasurementTable
 from viscofric.study.run_file.relations import relations
@@ -71,6 +72,8 @@ class Study(Table):
     conditions : ConditionsTable
     sweep_table : SweepTable
         [sweep].
+    history : HistoryTable or None
+        Every case also over time.
     measurement : MeasurementTable or None
     solver : SolverTable
     uncertainty : UncertaintyTable
@@ -94,6 +97,7 @@ class Study(Table):
     )
     conditions: ConditionsTable = Field(description="Loads, speeds and temperatures of the prediction.")
     sweep_table: SweepTable = Field(SweepTable(), alias="sweep", description="Axes that vary together.")
+    history: HistoryTable | None = Field(None, description="Every case of an indenter also over time.")
     measurement: MeasurementTable | None = Field(None, description="Measured friction to compare with the prediction.")
     solver: SolverTable = Field(SolverTable(), description="Accuracy of the predicted friction.")
     uncertainty: UncertaintyTable = Field(UncertaintyTable(), description="Uncertainty of the material.")
@@ -119,6 +123,7 @@ class Study(Table):
         """All data files."""
         files = [path for material in self.materials for path in material.inputs]
         files += self.surface.inputs if self.surface else ()
+        files += self.history.inputs if self.history else ()
         return (*dict.fromkeys(files), *(self.measurement.inputs if self.measurement else ()))
 
     @property
@@ -154,6 +159,7 @@ TABLES: dict[str, type[BaseModel]] = {
     RANGE: SpeedRange,
     SEED_RANGE: SeedRange,
     "sweep": SweepTable,
+    "history": HistoryTable,
     "measurement": MeasurementTable,
     "solver": SolverTable,
     "uncertainty": UncertaintyTable,
@@ -329,6 +335,8 @@ def _resolve_paths(study: Study, path: Path) -> Study:
         materials = tuple(material.relative_to(folder) for material in study.materials)
         measurement = None if study.measurement is None else study.measurement.relative_to(folder)
         surface = None if study.surface is None else study.surface.relative_to(folder)
+        history = None if study.history is None else study.history.relative_to(folder)
     except (OSError, ValueError) as error:
         raise StudyError(f"{path}: {getattr(error, 'strerror', None) or error}.", code="unreadable") from None
-    return study.model_copy(update={"materials": materials, "measurement": measurement, "surface": surface})
+    tables = {"materials": materials, "measurement": measurement, "surface": surface, "history": history}
+    return study.model_copy(update=tables)

@@ -115,25 +115,25 @@ def _positive(unit: str) -> BeforeValidator:
     return BeforeValidator(lambda value: positive(with_unit(value), unit, VALUE))
 
 
-def _text(*units: str) -> WithJsonSchema:
+def as_text(*units: str) -> WithJsonSchema:
     """JSON schema of a quantity: a number and a unit."""
     number = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?\s*[^0-9\s.,+\-].*$"
     return WithJsonSchema({"type": "string", "pattern": number, "examples": list(units)})
 
 
 # A user's value, already turned into SI.
-Length = Annotated[float, _positive("m"), _text("9.525 mm")]
-Force = Annotated[float, _positive("N"), _text("25 N")]
-Speed = Annotated[float, _positive("m/s"), _text("100 mm/s")]
-Angle = Annotated[float, _positive("rad"), _text("5 deg")]
-Modulus = Annotated[float, _positive("Pa"), _text("200 GPa")]
-Pressure = Annotated[float, _positive("Pa"), _text("50 kPa")]
-Direction = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "rad", VALUE)), _text("30 deg")]
+Length = Annotated[float, _positive("m"), as_text("9.525 mm")]
+Force = Annotated[float, _positive("N"), as_text("25 N")]
+Speed = Annotated[float, _positive("m/s"), as_text("100 mm/s")]
+Angle = Annotated[float, _positive("rad"), as_text("5 deg")]
+Modulus = Annotated[float, _positive("Pa"), as_text("200 GPa")]
+Pressure = Annotated[float, _positive("Pa"), as_text("50 kPa")]
+Direction = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "rad", VALUE)), as_text("30 deg")]
 # Plain, or pydantic would convert a load per length to a plain float.
-Load = Annotated[float, PlainValidator(_load), _text("25 N", "2 N/mm")]
-Temperature = Annotated[float, BeforeValidator(kelvin), _text("30 degC")]
-TemperatureStep = Annotated[float, _positive("delta_degC"), _text("1 delta_degC")]
-SignedForce = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "N", VALUE)), _text("0.12 N")]
+Load = Annotated[float, PlainValidator(_load), as_text("25 N", "2 N/mm")]
+Temperature = Annotated[float, BeforeValidator(kelvin), as_text("30 degC")]
+TemperatureStep = Annotated[float, _positive("delta_degC"), as_text("1 delta_degC")]
+SignedForce = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "N", VALUE)), as_text("0.12 N")]
 
 #: Of random numbers.
 BIGGEST_SEED = 2**63 - 1

@@ -1,0 +1,72 @@
+"""Histories of three stages: a load or depth put on, a dwell, and a slide forth and back."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from viscofric.errors import InputError
+from viscofric.motion.history import History
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+def staged_history(
+    control: str,
+    value: float,
+    *,
+    load_time: float = 0.0,
+    dwell: float = 0.0,
+    slide: float = 0.0,
+    speed: float = 0.0,
+    strokes: int = 1,
+    temperature: float | None = None,
+    before: str = "untouched",
+    direction: Sequence[float] = (1.0, 0.0),
+) -> History:
+    """Return the history of a load or depth that is put on, rests, and then slides; SI.
+
+    Parameters
+    ----------
+    control : str
+        ``"load"`` or ``"indentation"``.
+    value : float
+        N (N/m) or m.
+    load_time : float
+        In which it rises from zero, s; zero: at once.
+    dwell : float
+        At rest, s.
+    slide, speed : float
+        Length of the path, m, and the speed, m/s; zero: no sliding.
+    strokes : int
+        Times the path is followed, forth and back.
+    temperature, before, direction : optional
+        As of `History`.
+
+    Raises
+    ------
+    InputError
+        If all stages are empty, or the history cannot be used.
+    """
+    time, values, speeds = [0.0], [0.0 if load_time else value], [0.0]
+
+    def stage(duration: float, at: float) -> None:
+        """Go on for a time; a change of the speed is a jump, at the start the first speed."""
+        if at != speeds[-1] and len(time) > 1:
+            time.append(time[-1])
+            values.append(value)
+            speeds.append(at)
+        speeds[-1] = at
+        time.append(time[-1] + duration)
+        values.append(value)
+        speeds.append(at)
+
+    for duration in (load_time, dwell):
+        if duration:
+            stage(duration, 0.0)
+    if slide:
+        for stroke in range(strokes):
+            stage(slide / speed, speed if stroke % 2 == 0 else -speed)
+    if len(time) == 1:
+        raise InputError("the history has no duration; give it a dwell, or a path and a speed.", code="too-few-points")
+    return History(time, **{control: values}, speed=speeds, temperature=temperature, before=before, direction=direction)

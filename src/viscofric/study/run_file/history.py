@@ -1,0 +1,96 @@
+"""[history] of a run file: every case also over time, from a load put on to sliding, or through a table."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from viscofric.errors import brief
+from viscofric.study.run_file.tables import (
+    MOST_POINTS,
+    VALUE,
+    Count,
+    FileName,
+    Headings,
+    Length,
+    Table,
+    Words,
+    as_text,
+    listed,
+    one_or_more,
+    schema_of,
+    with_unit,
+)
+from viscofric.units import to_si
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from viscofric.study.run_file.tables import Problem
+
+_MOST_DWELLS = 1000
+
+
+def _duration(value: object) -> float:
+    found = to_si(with_unit(value), "s", VALUE)
+    if found < 0.0:
+        raise ValueError(f"{brief(value)} is below zero")
+    return found
+
+
+Duration = Annotated[float, BeforeValidator(_duration), as_text("0.1 s")]
+Durations = Annotated[
+    tuple[Duration, ...],
+    BeforeValidator(listed),
+    Field(min_length=1, max_length=_MOST_DWELLS),
+    one_or_more(schema_of(Duration), _MOST_DWELLS),
+]
+#: Keys that a file replaces.
+_STAGES = ("load_time", "dwell", "slide", "strokes")
+
+
+class HistoryTable(Table):
+    """[history]: every case of an indenter also over time, at its load, speed and temperature."""
+
+    load_time: Duration = Field(0.0, description="Time in which the load rises from zero; 0 s: at once.")
+    dwell: Durations = Field((0.0,), description="Time at rest under the load before the sliding; several are an axis.")
+    slide: Length | None = Field(None, description="Length of the path at the speed of the case; default: no sliding.")
+    strokes: Count = Field(1, ge=1, le=10_000, description="Times the path is followed, forth and back.")
+    before: Literal["untouched", "at rest", "sliding"] = Field(
+        "untouched",
+        description="State before the start: untouched, under the first load for ever, or sliding steadily.",
+    )
+    points: Count = Field(200, ge=2, le=MOST_POINTS, description="Number of stored times, evenly spaced.")
+    file: FileName | None = Field(
+        None, description="Instead: table of the history; without a load or indentation in it, the load of the case."
+    )
+    columns: Headings = Field(
+        default_factory=dict, description="Headings of the table that are not understood: { load = 'Fz (N)' }."
+    )
+    sheet: Words | None = Field(None, description="The only sheet of a workbook to read.")
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield the contradictions within the table."""
+        if self.file is not None:
+            for name in _STAGES:
+                if name in self.model_fields_set:
+                    yield name, "is given besides file, which has the whole history"
+            return
+        for name in ("columns", "sheet"):
+            if getattr(self, name):
+                yield name, "is for a file only"
+        if self.slide is None and not self.load_time and min(self.dwell) == 0.0:
+            yield "dwell", "is zero, and nothing else happens; give dwell, load_time or slide"
+        if self.slide is None and self.strokes > 1:
+            yield "strokes", "needs slide, the length of the path"
+
+    @property
+    def inputs(self) -> tuple[Path, ...]:
+        """The file of the history."""
+        return () if self.file is None else (self.file,)
+
+    def relative_to(self, folder: Path) -> HistoryTable:
+        """Return the table with its path relative to a folder."""
+        return self if self.file is None else self.model_copy(update={"file": folder / self.file})

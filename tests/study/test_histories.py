@@ -1,0 +1,139 @@
+"""Studies with [history]: every case over time, its axes, tables of histories, and what is refused."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.errors import StudyError
+from viscofric.notes import codes
+from viscofric.report.captions import captions
+from viscofric.report.figures.histories import histories_figure
+from viscofric.study.checking import check_study
+from viscofric.study.run_file.study import parse_study
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+BASE = """
+[material]
+catalogue = "synthetic fluoroelastomer"
+[indenter]
+radius = "10 mm"
+[conditions]
+load = ["1 N", "2 N"]
+speed = "100 mm/s"
+temperature = ["30 degC", "60 degC"]
+[solver]
+accuracy = 5e-2
+"""
+DWELL = '[history]\ndwell = ["10 ms", "0.1 s"]\npoints = 3\n'
+TABLE = 'file = "h.csv"\npoints = 3\n'
+
+
+def written(folder: Path, history: str, base: str = BASE) -> Path:
+    path = folder / "study.toml"
+    path.write_text(base + history, encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> vf.StudyResults:
+    return vf.run_study(written(tmp_path_factory.mktemp("history"), DWELL))
+
+
+def test_every_case_is_solved_over_time(results: vf.StudyResults) -> None:
+    data = results.tree["history"].to_dataset()
+    assert dict(data.sizes) == {"load": 2, "temperature": 2, "dwell": 2, "instant": 3}
+    assert data["time"].values[0, 0].tolist() == [[0.0, 5e-3, 0.01], [0.0, 0.05, 0.1]]
+    assert data["contact_radius"].attrs["units"] == "m"
+    # the same as one solution, at the accuracy and the modes of the case
+    rubber = vf.synthetic_fluoroelastomer()
+    history = vf.History([0.0, 0.1], load="2 N", temperature="60 degC")
+    run = vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=[0.0, 0.05, 0.1], accuracy=5e-2)
+    found = data.isel(load=1, temperature=1, dwell=1)
+    # The clock of one temperature is that of the modes at it, up to rounding.
+    np.testing.assert_allclose(found["contact_radius"], run.contact_radius, rtol=1e-9)
+    np.testing.assert_allclose(found["load_over_time"], 2.0, rtol=1e-9)
+
+
+def test_solved_histories_are_reused(results: vf.StudyResults, tmp_path: Path) -> None:
+    events = []
+    again = vf.run_study(
+        results.folder.with_name("study.toml"), resume=True, progress=lambda event: events.append(event)
+    )
+    found = [event.event for event in events if event.stage == "histories" and event.label]
+    assert found == 8 * ["stored"]
+    assert again.tree["history"].identical(results.tree["history"])
+
+
+def test_histories_are_drawn_and_exported(results: vf.StudyResults, tmp_path: Path) -> None:
+    figure = histories_figure(results.tree)
+    assert figure is not None
+    (panel,) = figure.axes
+    lines = [line for line in panel.lines if not str(line.get_label()).startswith("_")]
+    assert len(lines) == 6  # of eight
+    np.testing.assert_allclose(lines[-1].get_xdata(), [0.0, 50.0, 100.0])
+    deepest = results.tree["history"]["indentation"].values[-1, -1, -1]
+    np.testing.assert_allclose(lines[-1].get_ydata() / lines[-1].get_ydata()[0], deepest / deepest[0])
+    assert "6 of 8" in captions(results.tree)["contacts_over_time"]
+    assert results.export("excel", tmp_path / "results.xlsx").stat().st_size > 0
+
+
+def test_a_table_gives_the_history(tmp_path: Path) -> None:
+    (tmp_path / "h.csv").write_text("t (s),depth (um)\n0,0\n0.1,50\n", encoding="utf-8")
+    base = BASE.replace('["1 N", "2 N"]', '"1 N"').replace('["30 degC", "60 degC"]', '"30 degC"')
+    path = written(tmp_path, f"[history]\n{TABLE}", base)
+    data = vf.run_study(path).tree["history"].to_dataset()
+    assert dict(data.sizes) == {"instant": 3}
+    np.testing.assert_allclose(data["indentation"], [0.0, 25e-6, 50e-6], rtol=1e-12)
+    assert "dwell" not in data.coords
+    wrong = written(tmp_path, f"[history]\n{TABLE}")  # two loads, but the table has a depth
+    with refused("swept-in-file", StudyError) as caught:
+        check_study(vf.load_study(wrong), wrong)
+    assert caught.value.field == "history.file"
+    written(tmp_path, f"[history]\n{TABLE}", base)
+    (tmp_path / "h.csv").write_text("t (s),T (degC)\n0,30\n0.1,30\n", encoding="utf-8")
+    with refused("swept-in-file", StudyError):
+        check_study(vf.load_study(path), path)
+    (tmp_path / "h.csv").write_text("t (s),F (N)\n0,1\n-0.1,1\n", encoding="utf-8")
+    with refused("time-goes-back", StudyError):
+        check_study(vf.load_study(path), path)
+
+
+def test_a_case_that_fails_is_listed(tmp_path: Path) -> None:
+    base = BASE.replace('["1 N", "2 N"]', '"1 N"').replace('["30 degC", "60 degC"]', '"30 degC"')
+    # sliding before, but at rest at the start
+    results = vf.run_study(written(tmp_path, DWELL + 'before = "sliding"\n', base))
+    assert codes(results.failures) == {"not-sliding"}
+    assert "history" not in results.tree
+
+
+@pytest.mark.parametrize(
+    ("key", "history"),
+    [
+        ("history.dwell", "[history]\n"),
+        ("history.dwell", '[history]\ndwell = "-1 s"\n'),
+        ("history.dwell", f'[history]\n{TABLE}dwell = "1 s"\n'),
+        ("history.columns", '[history]\ndwell = "1 s"\ncolumns = { load = "F" }\n'),
+        ("history.strokes", '[history]\ndwell = "1 s"\nstrokes = 2\n'),
+        ("history.before", '[history]\ndwell = "1 s"\nbefore = "asleep"\n'),
+        ("history.wait", '[history]\nwait = "1 s"\n'),
+    ],
+)
+def test_contradictions_are_reported_at_their_key(tmp_path: Path, key: str, history: str) -> None:
+    with refused("", StudyError) as caught:
+        parse_study(BASE + history, tmp_path / "study.toml")
+    assert key in (caught.value.field, *(one.where for one in caught.value.mistakes))
+
+
+def test_a_rough_surface_has_no_history(tmp_path: Path) -> None:
+    text = BASE.replace('[indenter]\nradius = "10 mm"', '[surface]\nfile = "scan.csv"')
+    text = text.replace('load = ["1 N", "2 N"]', 'pressure = "50 kPa"')
+    with refused("", StudyError) as caught:
+        parse_study(text + DWELL, tmp_path / "study.toml")
+    assert caught.value.field == "history"
