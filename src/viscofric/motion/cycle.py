@@ -156,7 +156,7 @@ def solve_cycle(
         if progress is not None:
             progress(period, far)
         if far <= _CLOSE * accuracy:
-            run = assemble(track, problem, one_period, method, continued=True)
+            run = assemble(track, problem, one_period, method)
             return CycleSolution.of(run, problem.schedule.control, period, far)
         state = mover.with_memory(state, mixing.next(memory, change))
     raise ConvergenceError(

@@ -61,6 +61,8 @@ class Track(Generic[State]):
         Whether the march was interrupted before the end.
     final : Pair
         States of both chains at the last time, from which another march may continue.
+    stored : float
+        Energy in the material before the start.
     """
 
     moments: list[Moment[State]]
@@ -68,6 +70,7 @@ class Track(Generic[State]):
     rejected: int
     interrupted: bool
     final: Pair[State]
+    stored: float = 0.0
 
 
 class _TooLargeError(Exception):
@@ -86,6 +89,7 @@ def march(
     fields: bool = True,
     progress: Callable[[float, float], object] | None = None,
     begin: Pair[State] | None = None,
+    extrapolate: bool = False,
 ) -> Track[State]:
     """March through a schedule.
 
@@ -103,15 +107,17 @@ def march(
         Called with the time reached and the last time, s.
     begin : optional
         `Track.final` of the march to continue, with the same mover: its states belong to its cells or springs.
+    extrapolate : bool
+        Whether to extrapolate depth, load and friction as well as energies.
 
     Raises
     ------
     ConvergenceError
-        If the accuracy is not reached.
+        If the accuracy is not reached, but for a mover whose ticks are too far apart for it: see the errors.
     """
     share = _SHARE
     for _ in range(_MOST_MARCHES):
-        one = _March(mover, schedule, accuracy, share, times, fields, progress)
+        one = _March(mover, schedule, accuracy, share, times, fields, progress, extrapolate)
         try:
             return one.run(begin)
         except _TooLargeError as error:
@@ -131,9 +137,12 @@ class _March(Generic[State]):
     times: Sequence[float] | None
     fields: bool
     progress: Callable[[float, float], object] | None
+    extrapolate: bool
     moments: list[Moment[State]] = field(default_factory=list)
     taken: int = 0
     rejected: int = 0
+    _stored: float = 0.0  # before the start
+    _limited: bool = False  # whether a step from tick to tick was longer than the accuracy asks for
 
     def run(self, begin: Pair[State] | None) -> Track[State]:
         mover, schedule = self.mover, self.schedule
@@ -143,11 +152,12 @@ class _March(Generic[State]):
             state = mover.begin()
             link = Link(state, mover.observe(state), 0.0)
             pair = Pair(link, link)
+            self._stored = link.seen.stored
             if schedule.before == "untouched":
                 first = schedule.at(schedule.start, after=False)
                 pair = self._jump(pair, first, first)
         else:
-            pair = begin
+            pair, self._stored = begin, begin.fine.seen.stored
         pair = self._stop_at_kink(pair, schedule.start)
         interrupted = False
         try:
@@ -159,7 +169,7 @@ class _March(Generic[State]):
                 pair = self._stop_at_kink(pair, float(end))
         except KeyboardInterrupt:
             interrupted = True
-        return Track(self.moments, self.taken, self.rejected, interrupted, pair)
+        return Track(self.moments, self.taken, self.rejected, interrupted, pair, self._stored)
 
     def _parts(self, start: float, end: float) -> list[tuple[float, float]]:
         """Return the parts of an interval between the times asked for."""
@@ -237,6 +247,7 @@ class _March(Generic[State]):
                 self.rejected += 1
                 count = max(2, 2 * int(0.5 * count * max(_SHRINK, _SAFETY * ratio ** (-1.0 / 3.0))))
                 continue
+            self._limited |= ratio > 1.0
             place += count
             pair = self._take(tried, float(edges[place]), float(ticks[-1]))
             count = max(2, 2 * int(0.5 * count * _growth(ratio)))
@@ -271,7 +282,7 @@ class _March(Generic[State]):
         self.mover.accept(tried.fine.state, self.schedule.at(reached, after=False))
         pair = self._seen(tried)
         worst = max(map(abs, over_scales(difference(pair), self._scales))) / 3.0
-        if worst > self.accuracy:
+        if worst > self.accuracy and not self._limited:
             raise _TooLargeError(worst / self.accuracy)
         if self.times is None and reached < end:
             self._record(pair, self.schedule.at(reached), asked=True)
@@ -309,6 +320,14 @@ class _March(Generic[State]):
             )
         )
         seen = fine.seen._replace(stored=stored, dissipated=dissipated)
+        if self.extrapolate:
+            off = difference(pair)
+            x, y = fine.seen.friction_force
+            seen = seen._replace(
+                load=seen.load + off.load / 3.0,
+                depth=seen.depth + off.depth / 3.0,
+                friction_force=(x + off.along / 3.0, y + off.across / 3.0),
+            )
         held = self.mover.pressure(fine.state) if self.fields else None
         self.moments += times * [Moment(instant, seen, work, errors, held)]
 

@@ -85,6 +85,11 @@ def solve_transient(
     springs with the memory of the material, which is exact as long as the contact is one disc: the force of the
     springs must fall outwards.
 
+    Sliding contacts, contacts on layers and those of other indenters are solved on cells that are fixed to the body, on
+    finer and finer grids.  An indenter moves by whole cells wherever it can.  A line contact has no absolute
+    indentation: its change since the first contact is given.  Without `times`, the first steps after a start or a turn,
+    within which the contact moves by less than its cells, may have larger errors than the accuracy; they are stated.
+
     References
     ----------
     .. [1] V. L. Popov, M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction, Springer 2015.
@@ -103,6 +108,11 @@ def solve_transient(
     insist_on_function(progress, "progress")
     problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     asked = _checked_times(times, problem.schedule)
+    if needs_grid(problem, history):
+        from viscofric.motion.free.solve import solve_free
+
+        track, notes = solve_free(problem, asked, progress)
+        return assemble(track, problem, history, "grid", notes=notes)
     mover, method = mover_of(problem, history)
     track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
     return assemble(track, problem, history, method)
@@ -161,10 +171,20 @@ def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:
     moving = "in sliding motion" if history.moves else "in normal motion"
     where = "a layer" if problem.layer is not None else "a half-space"
     raise InputError(
-        f"indenter: the transient contact of a {noun} {moving} on {where} is not available; "
+        f"indenter: the transient contact of a {noun} {moving} on {where} is not available here; "
         "available: a ball, a cone or another body of revolution in normal motion on a half-space.",
         code="not-available",
     )
+
+
+def needs_grid(problem: Problem, history: History) -> bool:
+    """Return whether a contact is solved on cells: a free one that slides, on a layer, or not of revolution."""
+    from viscofric.motion.springs import is_body_of_revolution
+
+    indenter = problem.indenter
+    if not isinstance(indenter, Indenter):
+        return False
+    return history.moves or problem.layer is not None or not is_body_of_revolution(indenter)
 
 
 def _checked_times(times: Quantities | None, schedule: Schedule) -> list[float] | None:
@@ -183,9 +203,9 @@ def _checked_times(times: Quantities | None, schedule: Schedule) -> list[float] 
 
 
 def assemble(
-    track: Track[Any], problem: Problem, history: History, method: str, *, continued: bool = False
+    track: Track[Any], problem: Problem, history: History, method: str, *, notes: tuple[Note, ...] = ()
 ) -> TransientSolution:
-    """Return the solution of a march; `continued` if it did not begin with an untouched or steady solid."""
+    """Return the solution of a march, with notes on its assumptions."""
     moments, schedule = track.moments, problem.schedule
 
     def column(value: Callable[[Moment[Any]], float]) -> Array:
@@ -198,14 +218,13 @@ def assemble(
 
     x, y = history.direction
     stored, dissipated = column(lambda one: one.seen.stored), column(lambda one: one.seen.dissipated)
-    first = float(moments[0].seen.stored) if moments and (continued or schedule.before != "untouched") else 0.0
     work = column(lambda one: one.work)
     errors = TransientErrors(
         load=column(lambda one: one.errors.load),
         indentation=column(lambda one: one.errors.depth),
         friction_force=column(lambda one: one.errors.friction),
         energy=column(lambda one: one.errors.energy),
-        balance=work - (stored - first) - dissipated,
+        balance=work - (stored - track.stored) - dissipated,
     )
     times = column(lambda one: one.instant.time)
     kelvin = None
@@ -235,7 +254,7 @@ def assemble(
         method=method,
         geometry=problem.kind,
         direction=history.direction,
-        warnings=(*_doubts(problem.indenter, moments), *problem.material.notes_on_modes),
+        warnings=(*_doubts(problem.indenter, moments), *notes, *problem.material.notes_on_modes),
         dent=extent("dent"),
         _fields=tuple(one.field for one in moments),
     )

@@ -1,0 +1,1 @@
+"""Free contacts in motion, on cells that are fixed to the body."""

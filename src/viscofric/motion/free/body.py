@@ -1,0 +1,41 @@
+"""The viscoelastic body in units of the elastic contact at E0: compliances over the relaxed one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.motion.memory import Modes, StepCoefficients, step_coefficients
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """Modes of the body and the compliance of the indenter."""
+
+    instant: float  # compliance that follows at once
+    compliances: Array  # (m,)
+    times: Array  # (m,) retardation times, s
+    counterface: float  # of an elastic indenter
+
+    @classmethod
+    def of(cls, modes: Modes, plane_strain: float, counterface: float) -> Body:
+        """Return modes (1/Pa) in these units; `counterface` (1/Pa) is the indenter's compliance."""
+        unit = plane_strain * modes.relaxed + counterface
+        scale = plane_strain / unit
+        return cls(scale * modes.instantaneous, scale * modes.C, modes.tau.copy(), counterface / unit)
+
+    def over(self, duration: float) -> StepCoefficients:
+        """Return the coefficients of a step of so many seconds of the clock."""
+        if duration == 0.0:
+            none = np.zeros(len(self.times))
+            return StepCoefficients(none + 1.0, none, none)
+        return step_coefficients(duration / self.times)
+
+    def compliance(self, coefficients: StepCoefficients) -> float:
+        """Return the body's compliance for the pressure at the end of a step."""
+        return self.instant + float(self.compliances @ coefficients.end)

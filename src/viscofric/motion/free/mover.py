@@ -1,0 +1,234 @@
+"""A free contact on cells that are fixed to the body, on one grid.
+
+The displacement at the end of a step is u = G [s p + Σ C_k (e_k q_k + α_k p₀)], s = 1/E∞ + Σ C_k β_k: an elastic
+contact problem whose surface was deformed before.  It is solved on a window of cells around the indenter; the memory,
+one delayed pressure q_k for each mode, is kept on all cells that were loaded.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.free.grids import Extent, Window
+from viscofric.contact.free.stage import Footprint
+from viscofric.errors import ConvergenceError
+from viscofric.motion.free.box import Box
+from viscofric.motion.free.cells import Cells
+from viscofric.motion.free.resting import rested, untouched
+from viscofric.motion.free.sliding import slid
+from viscofric.motion.free.state import FreeState, Place
+from viscofric.motion.mover import Field, Observation, Scales
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.contact.free.grids import Grid
+    from viscofric.motion.memory import StepCoefficients
+    from viscofric.motion.schedule import Instant
+
+# Space by which the box of the memory is wider than it must be, as a part of it.
+_SPARE = 0.3
+MOST_WINDOWS = 30
+_TICK = 1.0  # distance between times at which steps may end, in cells
+
+
+@dataclass(eq=False)
+class FreeMover(Cells):
+    """Steps of a free contact; see `viscofric.motion.mover.Mover`."""
+
+    reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
+    longest: float = field(default=0.0, init=False)  # the longest of them
+    first_depth: float | None = field(default=None, init=False)  # at the first contact
+
+    @property
+    def scales(self) -> Scales:
+        """Sizes that errors are compared with, SI."""
+        return self.setting.scales
+
+    def begin(self) -> FreeState:
+        """Return the state before the start."""
+        schedule = self.setting.schedule
+        first = schedule.at(schedule.start, after=False)
+        if schedule.before == "untouched":
+            state = untouched(self, first)
+        elif schedule.before == "at rest":
+            state = rested(self, first)
+        else:
+            state = slid(self, first, self.setting.first_speed)
+        self.first_depth = state.depth if state.pressure.any() else None
+        return state
+
+    def step(self, state: FreeState, start: Instant, end: Instant) -> FreeState:
+        """Return the state at the end of a step."""
+        setting, body = self.setting, self.setting.body
+        duration = end.clock - start.clock
+        coefficients = body.over(duration)
+        place = self.placed(end)
+        load, depth = setting.control(end)
+        compliance = body.compliance(coefficients)
+        for _ in range(MOST_WINDOWS):
+            window = self.window(place)
+            box = state.box if state.box.holds(window) else state.box.grown(window, _SPARE)
+            held = state.window.carried(state.pressure, box)
+            memory = state.box.carried(state.memory, box)
+            left = np.tensordot(body.compliances * coefficients.decay, memory, 1)
+            left += float(body.compliances @ coefficients.start) * held
+            known = self.response.seen_from(left, box, window)
+            shape = self.height(place) + known
+            solved, found = self.solved(compliance, shape, load, depth, self._guess(state, window, place, duration))
+            if found is None or not self.widened(found.pressure > 0.0):
+                break
+        else:
+            raise ConvergenceError("no window was found that holds the contact.", code="no-window")
+        force = self.force(solved[0], known)
+        return self._after(state, coefficients, duration, place, window, box, held, memory, solved, force)
+
+    def accept(self, state: FreeState, instant: Instant) -> None:
+        """Note how far a contact reaches that the march has accepted."""
+        if not state.pressure.any():
+            return
+        if self.first_depth is None:
+            self.first_depth = state.depth
+        grid = self._grid_of(state)
+        loaded = state.pressure > 0.0
+        here = grid.extent(loaded)
+        place = state.place
+        reach = Extent(here.rear + place.x, here.front - place.x, here.side + abs(place.y) * (here.side > 0.0))
+        self.reach = Extent(*(max(one, two) for one, two in zip(self.reach, reach, strict=True)))
+        self.longest = max(self.longest, here.rear + here.front, 2.0 * here.side)
+
+    def observe(self, state: FreeState) -> Observation:
+        """Return what is seen of a state, SI."""
+        setting, window = self.setting, self._grid_of(state)
+        scale, cell = setting.scale, window.cell_area
+        load = cell * float(state.pressure.sum())
+        force = scale.force * scale.slope
+        along, across = state.force
+        body = setting.body
+        stored = (
+            0.5
+            * cell
+            * (
+                body.instant * state.products.pressure
+                + float(body.compliances @ state.products.modes)
+                + body.counterface * state.faced
+            )
+        )
+        area, extents = self._footprint(state, window)
+        work = scale.force * scale.depth
+        return Observation(
+            load=scale.force * load,
+            depth=scale.depth * state.depth,
+            friction_force=setting.unturned(force * along, force * across),
+            area=area,
+            stored=work * stored,
+            dissipated=work * state.dissipated,
+            extents=extents,
+        )
+
+    def pressure(self, state: FreeState) -> Field:
+        """Return the pressure of a state, from the indenter's axis, SI."""
+        window, scale = self._grid_of(state), self.setting.scale
+        axes = {"x": scale.length * (window.x - state.place.x)}
+        values = scale.pressure * state.pressure
+        if window.shape[1] == 1:
+            return Field(axes, values[:, 0])
+        return Field({**axes, "y": scale.length * (window.y - state.place.y)}, values)
+
+    def ticks(self, start: Instant, end: Instant) -> Array:
+        """Return times at which steps may end: the indenter is a whole number of cells away."""
+        return self.setting.ticks(start, end, _TICK * self.grid.spacing)
+
+    def _grid_of(self, state: FreeState) -> Grid:
+        behind = state.place.i - state.window.i
+        sized = replace(self.grid, behind=behind, ahead=state.window.nx - behind)
+        return replace(sized, beside=state.window.ny // 2) if isinstance(sized, Window) else sized
+
+    def _guess(self, state: FreeState, window: Box, place: Place, duration: float) -> Array:
+        """Return the last pressure with its trend, moved with the indenter."""
+        ratio = min(1.0, duration / state.duration) if state.duration > 0.0 else 0.0
+        moved = Box(
+            state.window.i + place.i - state.place.i, state.window.j + place.j - state.place.j, *state.window.shape
+        )
+        guess = moved.carried(state.pressure + ratio * state.trend, window)
+        shift = (place.x - state.place.x) / self.grid.spacing
+        if abs(shift) > 1e-6:
+            guess = _shifted(guess, shift)
+        return np.maximum(guess, 0.0)
+
+    def _after(
+        self,
+        state: FreeState,
+        coefficients: StepCoefficients,
+        duration: float,
+        place: Place,
+        window: Box,
+        box: Box,
+        held: Array,
+        memory: Array,
+        solved: tuple[Array, float, float],
+        force: tuple[float, float],
+    ) -> FreeState:
+        pressure, _, depth = solved
+        body, cell = self.setting.body, self.grid.cell_area
+        now = window.carried(pressure, box)
+        spread = self.response(now)
+        end, with_end = float(np.vdot(now, spread)), float(np.vdot(held, spread))
+        flat = memory.reshape(len(memory), -1)
+        modes_with_end = flat @ spread.ravel()
+        lost = 0.0
+        if duration > 0.0:
+            each = state.products.dissipated(duration / body.times, with_end, modes_with_end, end)
+            lost = cell * float(body.compliances @ each)
+        decay, first, last = (one[:, None, None] for one in coefficients)
+        advanced = memory if duration == 0.0 else decay * memory
+        if duration > 0.0:
+            advanced[(..., *window.within(box))] += last * pressure
+            advanced[(..., *state.window.within(box))] += first * state.pressure
+        faced = 0.0
+        if body.counterface > 0.0:
+            facing = self.facing or self.response
+            faced = float(np.vdot(pressure, facing(pressure)))
+        same = (window.shape == state.window.shape) and duration > 0.0
+        return FreeState(
+            place=place,
+            window=window,
+            pressure=pressure,
+            trend=pressure - state.pressure if same else np.zeros_like(pressure),
+            duration=duration,
+            box=box,
+            memory=advanced,
+            products=state.products.after(coefficients, with_end, modes_with_end, end),
+            faced=faced,
+            depth=depth,
+            dissipated=state.dissipated + lost,
+            force=force,
+        )
+
+    def _footprint(self, state: FreeState, window: Grid) -> tuple[float, dict[str, float]]:
+        scale, line = self.setting.scale, window.shape[1] == 1
+        if not state.pressure.any():
+            names = ("front", "rear") if line else ("front", "rear", "half_width")
+            return 0.0, dict.fromkeys(names, 0.0)
+        print_ = Footprint.of(window, state.pressure)
+        extents = {
+            "front": scale.length * (print_.front - state.place.x),
+            "rear": scale.length * (print_.rear + state.place.x),
+        }
+        if not line:
+            extents["half_width"] = scale.length * print_.side
+        return scale.area * print_.area, extents
+
+
+def _shifted(values: Array, shift: float) -> Array:
+    """Return values moved by a part of a cell along x."""
+    moved = np.zeros_like(values)
+    share = abs(shift)
+    if shift > 0.0:
+        moved[1:] = values[:-1]
+    else:
+        moved[:-1] = values[1:]
+    return np.asarray((1.0 - share) * values + share * moved)

@@ -1,0 +1,316 @@
+"""What a free contact is and does, in the units of `viscofric.contact.free.scale`: the same on every grid."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.free.scale import Scale, ScaledIndenter
+from viscofric.contact.indenters.indenter import insist_on_round_edges
+from viscofric.contact.operators.layer import ScaledLayer
+from viscofric.errors import InputError
+from viscofric.motion.free.body import Body
+from viscofric.motion.free.response import Response, response_of
+from viscofric.motion.mover import Scales
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.arrays import Array
+    from viscofric.contact.bodies import Layer
+    from viscofric.contact.free.geometry import Geometry
+    from viscofric.contact.free.grids import Grid
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.motion.memory import Modes
+    from viscofric.motion.schedule import Instant, Schedule
+
+# Distance from the load, in path lengths and units of length, from which displacements in plane strain are measured.
+_LEVEL = 20.0
+# Part of a cell, and of the largest load or depth, below which nothing is moved.
+_STILL = 1e-9
+# Ticks of a change of the load or depth by its largest value, and those in each e-fold of the time after a jump.
+_OF_LOAD, _OF_TIME = 48, 6
+# Shortest time that matters in an interval without motion, as a part of it.
+_OF_INTERVAL = 0.01
+# Change of a rate, as a part of the largest, at which steps end.
+_BEND = 0.25
+# Ticks in a step over which the speed changes by its largest value.
+_OF_SPEED = 5
+# Graded ticks of a rest, at cells of this length or longer, and the first of them, as a part of the rest.
+_AT_REST, _REST_CELL, _FIRST_AT_REST = 48, 0.04, 1e-3
+# First tick after a jump, in the shortest retardation time.
+_FIRST_TICK = 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A contact and its history."""
+
+    schedule: Schedule
+    body: Body
+    indenter: Indenter
+    scale: Scale
+    shape: ScaledIndenter
+    toward: tuple[float, float]  # of the lattice's x over the indenter's axes
+    layer: ScaledLayer | None
+    known: Scales | None = None  # sizes that errors are compared with, where a march has found them
+
+    @classmethod
+    def of(
+        cls,
+        schedule: Schedule,
+        modes: Modes,
+        poisson_ratio: float,
+        indenter: Indenter,
+        layer: Layer | None,
+        counterface: float,
+    ) -> Setting:
+        """Return the setting of an indenter with a history; `counterface` as of `Problem`."""
+        plane_strain = 1.0 - poisson_ratio**2
+        compliance = plane_strain * modes.relaxed + counterface
+        largest = schedule.largest
+        if largest <= 0.0:
+            raise InputError(
+                f"{schedule.control}: never above zero, so that there is no contact; give one that is.",
+                code="no-contact",
+            )
+        levelled = indenter.geometry.has_far_field or (layer is not None and counterface == 0.0)
+        if schedule.control == "load":
+            scale = Scale.for_load(indenter, 1.0 / compliance, largest)
+        elif levelled:
+            scale = Scale.for_indentation(indenter, 1.0 / compliance, largest)
+        else:
+            raise InputError(
+                "indentation: has no meaning in plane strain, where the surface far away is infinitely high above the "
+                f"contact; give the load ({indenter.geometry.load_unit}).",
+                code="no-level",
+            )
+        toward = _direction(schedule)
+        if indenter.geometry.dimension == 1 and toward[1] != 0.0:
+            raise InputError(
+                f"position: a {indenter.noun} makes a line contact, which moves along x only.", code="line-direction"
+            )
+        if toward != (0.0, 0.0):
+            insist_on_round_edges(indenter)
+        toward = toward if toward != (0.0, 0.0) else (1.0, 0.0)
+        scaled = None if layer is None else ScaledLayer.of(layer, scale.length, poisson_ratio)
+        body = Body.of(modes, plane_strain, counterface)
+        return cls(schedule, body, indenter, scale, ScaledIndenter(indenter, scale, toward), toward, scaled)
+
+    @property
+    def geometry(self) -> Geometry:
+        """Whether it is a point or a line contact."""
+        return self.scale.geometry
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a line contact."""
+        return self.geometry.dimension == 1
+
+    @property
+    def is_levelled(self) -> bool:
+        """Whether there is a surface far away that does not move."""
+        return not self.is_line or (self.layer is not None and self.body.counterface == 0.0)
+
+    @cached_property
+    def level(self) -> float:
+        """Distance from which displacements are measured where there is no far field."""
+        return _LEVEL * (1.0 + self.path_length)
+
+    @cached_property
+    def path_length(self) -> float:
+        """Largest distance between two places of the indenter along either axis."""
+        places = np.array([self.turned(self.schedule.at(float(time)).position) for time in self.schedule.kinks])
+        return float(np.ptp(places, axis=0).max())
+
+    @property
+    def scales(self) -> Scales:
+        """Sizes that errors are compared with, SI."""
+        if self.known is not None:
+            return self.known
+        force, work = self.scale.force, self.scale.force * self.scale.depth
+        load = self.geometry.parabolic_load
+        return Scales(force * load, self.scale.depth, 0.2 * force * load * self.scale.slope, 0.2 * work)
+
+    def responses(self, grid: Grid) -> tuple[Response, Response | None]:
+        """Return the response of the body, and that of an elastic indenter on a layer; None where they are the same."""
+        spacing, aspect = grid.spacing, grid.width / grid.spacing
+        body = response_of(self.is_line, spacing, aspect, self.layer, self.level)
+        if self.layer is None or self.body.counterface == 0.0:
+            return body, None
+        return body, response_of(self.is_line, spacing, aspect, None, self.level)
+
+    def control(self, instant: Instant) -> tuple[float | None, float | None]:
+        """Return load and depth that are prescribed, one of them None."""
+        if instant.load is not None:
+            return instant.load / self.scale.force, None
+        return None, float(instant.depth) / self.scale.depth  # type: ignore[arg-type]
+
+    def turned(self, position: Array) -> tuple[float, float]:
+        """Return a position (m) along and across the lattice."""
+        (x, y), (c, s) = position / self.scale.length, self.toward
+        return float(c * x + s * y), float(c * y - s * x)
+
+    def unturned(self, along: float, across: float) -> tuple[float, float]:
+        """Return a vector given along and across the lattice over the indenter's axes."""
+        c, s = self.toward
+        return c * along - s * across, s * along + c * across
+
+    @cached_property
+    def stroke(self) -> float:
+        """Distance to the first stop or turn of the indenter; zero where there is none, or it moves on a curve."""
+        kinks = self.schedule.kinks
+        places = np.array([self.turned(self.schedule.at(float(time)).position) for time in kinks])
+        moves = np.diff(places, axis=0)
+        if len(moves) == 0 or np.any(moves[:, 1] != 0.0):
+            return 0.0
+        forward = moves[:, 0] > 0.0
+        first = int(np.argmax(forward))
+        ends = np.flatnonzero(~forward[first:])
+        return float(moves[first : first + ends[0], 0].sum()) if len(ends) else 0.0
+
+    def shortest_time(self, spacing: float, times: Sequence[float] | None) -> float:
+        """Return the least time, s of the clock, in which the pressure at a point changes noticeably on a grid."""
+        kinks, least = self.schedule.kinks, self.schedule.duration
+        stops = np.unique(np.concatenate([kinks, np.asarray(times or [], dtype=float)]))
+        for start, end in itertools.pairwise(stops):
+            first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
+            speed = max(
+                math.hypot(*self.turned(self.schedule.velocity(float(time), after=side)))
+                for time, side in ((start, True), (end, False))
+            )
+            clock = last.clock - first.clock
+            rate = clock / float(end - start)
+            passing = rate * spacing / speed if speed > 0.0 else math.inf
+            least = min(least, passing, _OF_INTERVAL * clock)
+        return least
+
+    @property
+    def first_speed(self) -> float:
+        """Return the speed at the start, lengths per second of the clock."""
+        begin, next_ = self.schedule.start, float(self.schedule.kinks[1])
+        velocity = self.turned(self.schedule.velocity(begin))
+        little = begin + 1e-6 * (next_ - begin)
+        rate = (self.schedule.at(little).clock - self.schedule.at(begin).clock) / (little - begin)
+        return math.hypot(*velocity) / rate
+
+    def ticks(self, start: Instant, end: Instant, cell: float) -> Array:
+        """Return times at which the indenter is a whole number of cells away, or graded ones where it rests."""
+        places = np.array([self.turned(start.position), self.turned(end.position)])
+        straight = float(np.abs(places[1] - places[0]).max())
+        count = 16 * (2 + math.ceil(straight / cell))
+        times = np.linspace(start.time, end.time, count + 1)
+        path = np.array([self.turned(self.schedule.at(float(time)).position) for time in times[:-1]] + [places[1]])
+        steps = np.hypot(*np.diff(path, axis=0).T)
+        length = np.concatenate([[0.0], np.cumsum(steps)])
+        if length[-1] < _STILL * cell:
+            return self._at_rest(start, end, cell)
+        along = path[:, 0]
+        if np.all(path[:, 1] == path[0, 1]) and (np.all(np.diff(along) >= 0.0) or np.all(np.diff(along) <= 0.0)):
+            low, high = sorted((along[0], along[-1]))
+            whole = cell * np.arange(math.ceil(low / cell + 1e-6), math.ceil(high / cell - 1e-6))
+            if along[-1] < along[0]:
+                whole = whole[::-1]
+            wanted = np.abs(whole - along[0])
+        else:
+            wanted = cell * np.arange(1.0, math.ceil(length[-1] / cell - 1e-6))
+        found = [np.interp(wanted, length, times)]
+        found.append(self._of_control(start, end))
+        if self._begins_with_jump(start):
+            found.append(self._after_jump(start, end))
+        every = np.unique(np.concatenate([*found, [end.time]]))
+        # no two of them closer than a thousandth of a cell's time
+        least = 1e-3 * (end.time - start.time) * min(1.0, cell / length[-1])
+        kept = every[(every > start.time) & (every <= end.time)]
+        return self._split(np.concatenate([[start.time], kept[np.concatenate([np.diff(kept) > least, [True]])]]))[1:]
+
+    def _split(self, edges: Array) -> Array:
+        """Divide intervals in which the speed changes by much, and one more where their number is odd."""
+        schedule = self.schedule
+        pieces = [edges[:1]]
+        for start, end in itertools.pairwise(edges):
+            first, last = schedule.velocity(float(start)), schedule.velocity(float(end), after=False)
+            fastest = max(math.hypot(*first), math.hypot(*last))
+            change = math.hypot(*(last - first)) / fastest if fastest > 0.0 else 0.0
+            pieces.append(np.linspace(start, end, 2 + int(_OF_SPEED * change))[1:])
+        found = np.concatenate(pieces)
+        if len(found) % 2 == 0:  # an odd number of steps, the last of which would have no estimate of its error
+            longest = int(np.argmax(np.diff(found)))
+            found = np.insert(found, longest + 1, 0.5 * (found[longest] + found[longest + 1]))
+        return found
+
+    def _of_control(self, start: Instant, end: Instant) -> Array:
+        """Return times between which the load or the depth changes by a part of the largest."""
+        first, last = (one.load if one.load is not None else one.depth for one in (start, end))
+        share = abs(last - first) / self.schedule.largest  # type: ignore[operator]
+        return np.linspace(start.time, end.time, 1 + math.ceil(_OF_LOAD * share))[1:-1]
+
+    def _at_rest(self, start: Instant, end: Instant, cell: float) -> Array:
+        """Return times that are graded from the start on, more of them on finer cells."""
+        duration = end.time - start.time
+        count = math.ceil(_AT_REST * max(1.0, _REST_CELL / cell))
+        found = [np.geomspace(_FIRST_AT_REST * duration, duration, count), self._of_control(start, end)]
+        if self._begins_with_jump(start):
+            found.append(self._after_jump(start, end))
+        after = np.unique(np.concatenate([found[0] + start.time, *found[1:], [end.time]]))
+        kept = after[(after > start.time) & (after <= end.time)]
+        apart = np.concatenate([np.diff(kept) > 1e-9 * duration, [True]])
+        return self._split(np.concatenate([[start.time], kept[apart]]))[1:]
+
+    def _begins_with_jump(self, start: Instant) -> bool:
+        if start.time == self.schedule.start and self.schedule.before == "untouched":
+            return True
+        before = self.schedule.at(start.time, after=False)
+        return self.schedule.jumps_at(start.time) and (before.load, before.depth) != (start.load, start.depth)
+
+    def _after_jump(self, start: Instant, end: Instant) -> Array:
+        duration = end.time - start.time
+        first = min(_FIRST_TICK * float(self.body.times.min(initial=duration)), 0.1 * duration)
+        count = 1 + math.ceil(_OF_TIME * math.log(duration / first))
+        return np.asarray(start.time + np.geomspace(first, duration, count))
+
+
+def _direction(schedule: Schedule) -> tuple[float, float]:
+    """Return the direction of the first motion; zeros where there is none."""
+    places = np.array([schedule.at(float(time)).position for time in schedule.kinks])
+    moves = np.diff(places, axis=0)
+    lengths = np.hypot(*moves.T)
+    if not np.any(lengths > 0.0):
+        return 0.0, 0.0
+    x, y = moves[int(np.argmax(lengths > 0.0))] / lengths[int(np.argmax(lengths > 0.0))]
+    return float(x), float(y)
+
+
+def with_fewer_kinks(schedule: Schedule) -> Schedule:
+    """Return a schedule without the kinks of a smooth curve given by many points: steps may cross them.
+
+    Those at jumps, stops and turns remain, and those at which a rate changes by much.
+    """
+    kinks = schedule.kinks
+    kept = [float(kinks[0])]
+    velocity = [[schedule.velocity(float(time), after=after) for after in (False, True)] for time in kinks]
+    fastest = max(math.hypot(*one) for pair in velocity for one in pair)
+    rates = _rates(schedule)
+    steepest = float(np.abs(rates).max())
+    for place in range(1, len(kinks) - 1):
+        (before, after), change = velocity[place], abs(rates[place] - rates[place - 1])
+        turns = float(before @ after) <= 0.0 and (before.any() or after.any())
+        bent = math.hypot(*(after - before)) > _BEND * fastest
+        if schedule.jumps_at(float(kinks[place])) or turns or bent or change > _BEND * steepest:
+            kept.append(float(kinks[place]))
+    return replace(schedule, kinks=np.array([*kept, float(kinks[-1])]))
+
+
+def _rates(schedule: Schedule) -> Array:
+    """Return the rate of the load or depth in each interval."""
+    rates = []
+    for start, end in itertools.pairwise(schedule.kinks):
+        first, last = schedule.at(float(start)), schedule.at(float(end), after=False)
+        values = [one.load if one.load is not None else one.depth for one in (first, last)]
+        rates.append((values[1] - values[0]) / (end - start))  # type: ignore[operator]
+    return np.array(rates)

@@ -1,0 +1,103 @@
+"""First state of a contact that has slid for ever: the steady pressure, and the memory that it left behind."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.free.geometry import LINE, POINT
+from viscofric.contact.free.problem import Control, Problem
+from viscofric.contact.free.proximal import proximal_points
+from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
+from viscofric.errors import ConvergenceError
+from viscofric.motion.free.box import Box
+from viscofric.motion.free.energy import Products
+from viscofric.motion.free.state import FreeState
+from viscofric.motion.memory import step_coefficients
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.motion.free.cells import Cells
+    from viscofric.motion.schedule import Instant
+
+# Patience of the solver, as of the steady contact's.
+_PATIENCE = 4
+_MOST_WINDOWS = 30
+# Distance behind the contact up to which its memory is kept: in memory lengths, and in windows of a line and a point.
+_FADED, _LINE_WINDOWS, _POINT_WINDOWS = 20.0, 100.0, 12.0
+
+
+def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
+    """Return the state of a contact that slides along the lattice's x at a speed, lengths per second of the clock."""
+    body, place = cells.setting.body, cells.placed(instant)
+    pressure = _steady_pressure(cells, instant, speed)
+    window = cells.window(place)
+    nx, ny = window.shape
+    spacing = cells.grid.spacing
+    windows = _LINE_WINDOWS if cells.setting.is_line else _POINT_WINDOWS
+    tail = min(_FADED * speed * float(body.times.max(initial=0.0)) / spacing, windows * nx)
+    behind = int(tail) + 1
+    box = Box(window.i - behind, window.j, nx + behind, ny)
+    steps = spacing / speed / body.times
+    decay, first, last = (one[:, None] for one in step_coefficients(steps))
+    here = window.carried(pressure, box)
+    memory = np.zeros((len(body.times), *box.shape))
+    # From the front backwards: a cell that is farther behind has seen all that the next one has, one step later.
+    before, ahead = np.zeros((len(body.times), ny)), np.zeros(ny)
+    for row in range(box.nx - 1, -1, -1):
+        before = decay * before + first * ahead + last * here[row]
+        ahead = here[row]
+        memory[:, row] = before
+    response = cells.response
+    spread = response(here)
+    each = [response(one) for one in memory]
+    mixed = memory.reshape(len(memory), -1) @ spread.ravel()
+    products = Products(
+        float(np.vdot(here, spread)), mixed, np.array([float(np.vdot(a, b)) for a, b in zip(memory, each, strict=True)])
+    )
+    facing = cells.facing or response
+    opposite = facing(pressure)
+    remembered = np.tensordot(body.compliances, np.array(each).reshape(len(each), *box.shape), 1)
+    surface = body.instant * spread + remembered
+    loaded = pressure > 0.0
+    level = surface[window.within(box)] + body.counterface * opposite + cells.height(place)
+    depth = float(level[loaded].mean()) if loaded.any() else float(level.min())
+    faced = float(np.vdot(pressure, opposite))
+    zero = np.zeros_like(pressure)
+    force = cells.force(pressure, remembered[window.within(box)])
+    return FreeState(place, window, pressure, zero, 0.0, box, memory, products, faced, depth, 0.0, force)
+
+
+def _steady_pressure(cells: Cells, instant: Instant, speed: float) -> Array:
+    setting = cells.setting
+    load, depth = setting.control(instant)
+    solid = SteadyMaterial(
+        setting.body.instant, setting.body.compliances, speed * setting.body.times, setting.body.counterface
+    )
+    geometry = LINE if setting.is_line else POINT
+    if setting.layer is not None:
+        geometry = setting.layer.geometry(geometry, setting.body.counterface)
+    control = Control(load, depth)
+    tolerance = 0.1 * cells.tolerance
+    problem = Problem(geometry, solid, setting.shape, control, tolerance, layer=setting.layer)
+    for _ in range(_MOST_WINDOWS):
+        window = cells.grid
+        place = cells.placed(instant)
+        shift = collocation_shift(solid, window.spacing)
+        operator = problem.geometry.operator(window, solid, shift, problem.backend)
+        x = window.x[:, None] - place.x - shift * window.spacing
+        height = setting.shape.height(x, window.y - place.y)
+        guess = np.sqrt(np.maximum(0.0, 1.0 - window.x[:, None] ** 2 - window.y**2))
+        found = control.solve(operator, height, np.where(np.isfinite(height), guess, 0.0), tolerance, _PATIENCE)
+        if not found.converged:
+            found = proximal_points(control, operator, height, found, tolerance)
+        if not found.converged:
+            raise ConvergenceError(
+                "the sliding contact before the start did not converge on "
+                f"{window.shape[0]} x {window.shape[1]} cells.",
+                code="not-converged",
+            )
+        if not cells.widened(found.pressure > 0.0):
+            return np.asarray(found.pressure)
+    raise ConvergenceError("no window was found that holds the contact.", code="no-window")

@@ -1,0 +1,263 @@
+"""A free contact through a history, on grids that become finer until the accuracy is reached.
+
+The march estimates the error of the steps.  That of the cells follows from the change from one grid to the next, whose
+cells are shorter by a factor: it is of about second order.  That of depth and energy changes its sign with the place of
+the contact's edges in their cells; that of the friction, which counts only what the body remembers, does not: the
+friction and its work are extrapolated.
+"""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import ConvergenceError
+from viscofric.motion.chains import Errors
+from viscofric.motion.free.mover import FreeMover
+from viscofric.motion.free.setting import Setting, with_fewer_kinks
+from viscofric.motion.march import Moment, Track, march
+from viscofric.motion.memory import Modes
+from viscofric.motion.mover import Scales
+from viscofric.notes import Note
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from viscofric.arrays import Array
+    from viscofric.contact.free.grids import Extent, Grid
+    from viscofric.motion.problem import Problem
+
+logger = logging.getLogger(__name__)
+
+# Cells along the longest contact on the first grid, of a point and of a line; factor from grid to grid; most cells.
+_POINT_CELLS, _LINE_CELLS, _FINER = 24, 96, 1.5
+_MOST_POINT_CELLS, _MOST_LINE_CELLS = 400, 3000
+# Factor from grid to grid on the accuracy of the steps.
+_FINER_STEPS = 0.7
+# Part of the change from grid to grid that is left as the error, which falls with the square of the cells.
+_LEFT = 1.0 / (_FINER**2 - 1.0)
+# Part of the error of the steps that is left after its extrapolation.
+_STEPS_LEFT = 0.25
+# Part of the extrapolation of the friction that is left as its error; steps after a start that are not judged.
+_EXTRAPOLATED, _RESOLVED_STEPS = 0.4, 4
+# A first window is so much wider than the elastic contact; it is tried again where the contact is so much shorter.
+_FIRST_WINDOW, _SHORT = 1.25, 0.6
+# Least friction coefficient that errors are compared with, in the slope of the indenter at the contact's edge.
+_LEAST_FRICTION = 1e-3
+# Change of the load that is none.
+_STEADY_LOAD = 1e-6
+# Of the contact conditions, in the accuracy.
+_TOLERANCE = 0.01
+# Error of the creep compliance by merged modes, in the accuracy.
+_MERGED = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class _Level:
+    """A march on one grid."""
+
+    mover: FreeMover
+    track: Track[Any]
+    cells: float  # along the longest contact
+
+
+def solve_free(
+    problem: Problem,
+    times: Sequence[float] | None,
+    progress: Callable[[float, float], object] | None = None,
+) -> tuple[Track[Any], tuple[Note, ...]]:
+    """March a free contact through its schedule; return the moments with all errors, and notes on assumptions."""
+    problem = replace(problem, schedule=with_fewer_kinks(problem.schedule))
+    line = problem.indenter.geometry.dimension == 1  # type: ignore[union-attr]
+    cells = _LINE_CELLS if line else _POINT_CELLS
+    most = _MOST_LINE_CELLS if line else _MOST_POINT_CELLS
+    level = _first(problem, cells, times, progress)
+    largest, steps = _largest(level), problem.accuracy
+    while not level.track.interrupted:
+        finer = level.cells * _FINER
+        if finer > most:
+            raise ConvergenceError(
+                f"the accuracy {problem.accuracy:g} is not reached with {level.cells:.0f} cells along the contact.",
+                code="accuracy-not-reached",
+            )
+        before, spacing = level, _fitted(level.mover.setting, level.mover.grid.spacing / _FINER)
+        steps *= _FINER_STEPS
+        level = _march(problem, _around(before, spacing), times, progress, largest, steps)
+        moments = _compared(level.track.moments, before.track.moments, level.mover.setting.geometry.scatter)
+        largest = _largest(level)
+        judged = moments if times is not None else _resolved(moments, before.track.moments, problem.schedule.kinks)
+        error = _worst(judged, largest)
+        logger.info(
+            "%.0f cells along the contact: known to %.1g, %d products", level.cells, error, level.mover.products
+        )
+        if error <= problem.accuracy:
+            break
+    else:
+        return level.track, _notes(problem, level.mover.setting, level.track)
+    return replace(level.track, moments=moments), _notes(problem, level.mover.setting, level.track)
+
+
+def _first(
+    problem: Problem, cells: int, times: Sequence[float] | None, progress: Callable[[float, float], object] | None
+) -> _Level:
+    """March on the coarsest grid that has so many cells along the longest contact."""
+    size = 1.0
+    for _ in range(6):
+        setting = _setting(problem, 2.0 * size / cells, times)
+        half = _FIRST_WINDOW * size
+        spacing = _fitted(setting, 2.0 * size / cells)
+        grid = replace(setting.geometry.grid.around(half, half, half, math.ceil(2.0 * half / spacing)), spacing=spacing)
+        level = _march(problem, grid, times, progress, None, problem.accuracy)
+        longest = level.mover.longest
+        if longest == 0.0 or _SHORT < 0.5 * longest / size < 1.0 / _SHORT or level.track.interrupted:
+            break
+        size = 0.5 * longest
+    return level
+
+
+def _march(
+    problem: Problem,
+    grid: Grid,
+    times: Sequence[float] | None,
+    progress: Callable[[float, float], object] | None,
+    largest: Scales | None,
+    steps: float,
+) -> _Level:
+    setting = _setting(problem, grid.spacing, times)
+    if largest is not None:
+        setting = replace(setting, known=largest)
+    mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy)
+    track = march(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
+    if not setting.is_levelled:
+        # Of a line contact, only the change of the indentation has a meaning.
+        unit = setting.scale.depth * (mover.first_depth or 0.0)
+        moments = [replace(one, seen=one.seen._replace(depth=one.seen.depth - unit)) for one in track.moments]
+        track = replace(track, moments=moments)
+    return _Level(mover, track, mover.longest / mover.grid.spacing)
+
+
+def _setting(problem: Problem, spacing: float, times: Sequence[float] | None) -> Setting:
+    """Return the setting with the modes that matter on a grid."""
+    every = Modes.of(problem.schedule.spectrum)
+    ratio, indenter = problem.material.poisson_ratio, problem.indenter
+    setting = Setting.of(problem.schedule, every, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
+    if len(every) < 4:
+        return setting
+    shortest = setting.shortest_time(spacing, times)
+    modes = Modes.for_history(
+        problem.schedule.spectrum, shortest, problem.schedule.duration, _MERGED * problem.accuracy
+    )
+    return Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
+
+
+def _around(level: _Level, spacing: float) -> Grid:
+    """Return a window around all contacts of a march, with cells of another length."""
+    mover = level.mover
+    if mover.longest == 0.0:
+        return replace(mover.grid, spacing=spacing)
+    margin = 4.0 * mover.grid.spacing
+    whole: Extent = mover.reach.widened(margin)
+    longest = max(whole.rear + whole.front, 2.0 * whole.side)
+    return replace(mover.setting.geometry.grid.around(*whole, math.ceil(longest / spacing)), spacing=spacing)
+
+
+def _fitted(setting: Setting, spacing: float) -> float:
+    """Return the length of a cell, a little shorter, so that the first stroke is a whole number of cells."""
+    return setting.stroke / math.ceil(setting.stroke / spacing - 1e-9) if setting.stroke > spacing else spacing
+
+
+def _largest(level: _Level) -> Scales:
+    """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope."""
+    seen = [one.seen for one in level.track.moments]
+    load = max((one.load for one in seen), default=0.0)
+    return Scales(
+        load=load,
+        depth=max((abs(one.depth) for one in seen), default=0.0),
+        friction=max(
+            _LEAST_FRICTION * load * level.mover.setting.scale.slope,
+            max((math.hypot(*one.friction_force) for one in seen), default=0.0),
+        ),
+        energy=max((max(abs(one.stored), one.dissipated) for one in seen), default=0.0),
+    )
+
+
+def _compared(fine: list[Moment[Any]], coarse: list[Moment[Any]], scatter: float) -> list[Moment[Any]]:
+    """Return the moments of the finer grid with the errors of steps and cells, the friction extrapolated."""
+    here, there = np.array([_values(one) for one in fine]), np.array([_values(one) for one in coarse])
+    clock, before = _order([one.instant.time for one in fine]), _order([one.instant.time for one in coarse])
+    left = _LEFT * np.array([a - np.interp(clock, before, b) for a, b in zip(here.T, there.T, strict=True)]).T
+    # One change may be small by chance.
+    usual = np.sqrt(np.mean(left**2, axis=0))
+    load, depth, energy = np.maximum(np.abs(left), usual).T[:3]
+    friction = scatter * _EXTRAPOLATED * np.hypot(*np.maximum(np.abs(left), usual).T[3:5])
+    found = []
+    for place, one in enumerate(fine):
+        steps = one.errors
+        errors = Errors(
+            load=_STEPS_LEFT * steps.load + float(load[place]),
+            depth=_STEPS_LEFT * steps.depth + float(depth[place]),
+            friction=_STEPS_LEFT * steps.friction + float(friction[place]),
+            energy=_STEPS_LEFT * steps.energy + float(energy[place]),
+        )
+        x, y = one.seen.friction_force
+        force = x + float(left[place, 3]), y + float(left[place, 4])
+        seen = one.seen._replace(friction_force=force)
+        found.append(replace(one, errors=errors, seen=seen, work=one.work + float(left[place, 5])))
+    return found
+
+
+def _resolved(moments: list[Moment[Any]], coarse: list[Moment[Any]], kinks: Array) -> list[Moment[Any]]:
+    """Leave out the first steps after a start or a turn, over which the coarser grid has too few steps."""
+    times = np.array([one.instant.time for one in coarse])
+    kept = []
+    for one in moments:
+        begun = kinks[np.searchsorted(kinks, one.instant.time, side="right") - 1]
+        steps = np.count_nonzero((times > begun) & (times <= one.instant.time))
+        if steps == 0 or steps >= _RESOLVED_STEPS:
+            kept.append(one)
+    return kept
+
+
+def _values(moment: Moment[Any]) -> tuple[float, float, float, float, float, float]:
+    seen = moment.seen
+    return seen.load, seen.depth, seen.dissipated, *seen.friction_force, moment.work
+
+
+def _order(times: list[float]) -> Array:
+    """Return times that increase: of those given twice, at a jump, the second ones are a little later."""
+    found = np.array(times)
+    for i, (one, two) in enumerate(itertools.pairwise(times)):
+        if two <= one:
+            found[i + 1] = np.nextafter(found[i], math.inf)
+    return found
+
+
+def _worst(moments: list[Moment[Any]], largest: Scales) -> float:
+    """Return the largest error relative to the largest values."""
+    scales = [scale if scale > 0.0 else 1.0 for scale in largest]
+    return max(max(error / scale for error, scale in zip(one.errors, scales, strict=True)) for one in moments)
+
+
+def _notes(problem: Problem, setting: Setting, track: Track[Any]) -> tuple[Note, ...]:
+    """Return notes where a layer is compressed by much, and where the indentation has no level."""
+    if not track.moments:
+        return ()
+    notes: list[Note | None] = []
+    loads = [one.seen.load for one in track.moments]
+    if not setting.is_levelled and max(loads) - min(loads) > _STEADY_LOAD * max(loads):
+        distance = 1e3 * setting.level * setting.scale.length
+        notes.append(
+            Note(
+                "no-level",
+                "The load of a line contact changes: indentation and energies are measured from points at a distance "
+                f"of {distance:.3g} mm, since the surface far away moves without bound.",
+            )
+        )
+    if problem.layer is not None and setting.is_levelled:
+        notes.append(problem.layer.strain_warning(max(one.seen.depth for one in track.moments)))
+    return tuple(filter(None, notes))

@@ -1,0 +1,177 @@
+"""Free contacts that start, stop, and return: independent solutions, steady motion, springs, energy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import viscofric as vf
+from refusals import refused
+from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
+from viscofric.motion.free.box import Box
+from viscofric.motion.free.energy import _relaxation
+from viscofric.motion.free.response import response_of
+
+TAU = 0.01
+RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=TAU)
+CYLINDER, LOAD = vf.Cylinder("10 mm"), 500.0
+A0 = 0.0021850968611841584  # of the cylinder under the load, at E0
+SPEED = A0 / TAU
+SLOPE = A0 / 0.01
+
+
+def test_start_of_a_cylinder_from_rest():
+    """Independent solution (body-fixed strip, one cell a step, finest grid), known to 6e-5; depths to 3e-4."""
+    distance = np.array([0.00021850968611841586, 0.0004370193722368317, 0.0010925484305920792])
+    friction = [0.08928029210771837, 0.10622544260925137, 0.10871058652204141]
+    depth = [-5.649253141661069e-06, -1.414746272290456e-05, -3.56436128432175e-05]
+    history = vf.History([0.0, distance[-1] / SPEED], load=LOAD, speed=SPEED, before="at rest")
+    run = vf.solve_transient(RUBBER, CYLINDER, history, times=distance / SPEED)
+    assert run.friction_coefficient == pytest.approx(friction, rel=1e-3)
+    assert run.indentation == pytest.approx(depth, rel=5e-3)
+    assert np.all(np.abs(run.friction_coefficient - friction) < run.errors.friction_force / LOAD)
+    assert run.energy_imbalance < 1e-4
+    assert run.method == "grid"
+
+
+def test_start_after_a_dwell_on_untouched_rubber_rises_from_below():
+    """Independent solution, known to 2e-4."""
+    distance = np.array([0.00021850968611841586, 0.0004370193722368317, 0.0010925484305920792])
+    friction = [0.036355503352866435, 0.052652598860860766, 0.07204745350189617]
+    dwell = 0.003
+    history = vf.History([0.0, dwell, dwell, dwell + distance[-1] / SPEED], load=LOAD, speed=[0.0, 0.0, SPEED, SPEED])
+    run = vf.solve_transient(RUBBER, CYLINDER, history, times=dwell + distance / SPEED)
+    assert run.friction_coefficient == pytest.approx(friction, rel=1e-3, abs=1e-3 * friction[-1])
+
+
+def test_friction_fades_after_a_stop_of_steady_sliding():
+    """From the steady answer, which another code finds, to zero; the energy put in is stored or dissipated."""
+    steady = vf.solve_steady(RUBBER, CYLINDER, speed=SPEED, load=LOAD).friction_coefficient
+    history = vf.History([0.0, 0.002, 0.002, 0.05], load=LOAD, speed=[SPEED, SPEED, 0.0, 0.0], before="sliding")
+    run = vf.solve_transient(RUBBER, CYLINDER, history, times=[0.0, 0.001, 0.002, 0.05], accuracy=2e-3)
+    assert run.friction_coefficient[:3] == pytest.approx(steady, rel=2e-3)
+    assert abs(run.friction_coefficient[3]) < 2e-3 * steady
+    assert run.energy_imbalance < 2e-3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("ratio", "peak", "place"), [(10.0, 4.0, 0.27), (1.0, 1.08, 0.34)])
+def test_friction_overshoots_after_a_start_from_rest(ratio, peak, place):
+    """Peak over the steady friction and its place in a0, of an independent solution, to the digits given."""
+    speed = ratio * SPEED
+    history = vf.History([0.0, 0.4 * A0 / speed], load=LOAD, speed=speed, before="at rest")
+    run = vf.solve_transient(RUBBER, CYLINDER, history, times=np.linspace(0.2, 0.4, 21) * A0 / speed)
+    steady = vf.solve_steady(RUBBER, CYLINDER, speed=speed, load=LOAD).friction_coefficient
+    top = int(np.argmax(run.friction_coefficient))
+    assert run.friction_coefficient[top] / steady == pytest.approx(peak, rel=0.0125)
+    assert run.position[top, 0] / A0 == pytest.approx(place, abs=0.02)
+
+
+@pytest.mark.slow
+def test_start_of_a_ball_from_rest():
+    """Independent solution (32 and 48 cells for a0, extrapolated), known to 3e-4; depths to 4e-3."""
+    speed, distance = 0.2240702373278583, np.array([0.0005601755933196458, 0.0011203511866392916, 0.002240702373278583])
+    friction = [0.09988562408006342, 0.0979104567077052, 0.09283006012147565]
+    depth = [-1.7849129799324092e-05, -3.384156981548709e-05, -5.22251741910392e-05]
+    history = vf.History([0.0, distance[-1] / speed], load=2.0, speed=speed, before="at rest")
+    run = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.0, *(distance / speed)])
+    assert run.friction_coefficient[1:] == pytest.approx(friction, rel=1.3e-3)
+    assert np.diff(run.indentation, prepend=run.indentation[0])[1:].cumsum() == pytest.approx(depth, rel=5e-3)
+    assert run.energy_imbalance < 1e-4
+
+
+@pytest.mark.slow
+def test_reciprocation_of_a_cylinder():
+    """Independent solution of the state that repeats, forces over the load known to 8e-6, energy to 1e-5."""
+    amplitude, omega, energy = A0, 100.0, 0.3836871665069123
+    force = [0.09031212282076975, 0.019921053125879357, -0.07847207228524211, -0.10382697185998199]
+    period = 2.0 * np.pi / omega
+    time = np.linspace(0.0, 2.5 * period, 1001)
+    history = vf.History(time, load=LOAD, position=amplitude * np.sin(omega * time), before="at rest")
+    eighths = (2.0 + np.array([-0.5, 0.0, 0.125, 0.25, 0.375, 0.5])) * period
+    run = vf.solve_transient(RUBBER, CYLINDER, history, times=eighths)
+    # The polygon of the path is shorter than the sine by 2e-5.
+    assert run.friction_coefficient[2:] == pytest.approx(force, abs=1e-3 * max(np.abs(force)))
+    assert run.dissipated[-1] - run.dissipated[0] == pytest.approx(energy, rel=1e-3)
+    assert run.energy_imbalance < 2e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("indenter", "load", "modulus"),
+    [(CYLINDER, LOAD, None), (CYLINDER, LOAD, "5 MPa"), (vf.Ball("10 mm"), 2.0, "5 MPa")],
+    ids=["line", "line under an elastic indenter", "point under an elastic indenter"],
+)
+def test_long_motion_on_a_layer_ends_steadily(indenter, load, modulus):
+    body = {"layer": vf.Layer("2 mm"), "indenter_modulus": modulus}
+    steady = vf.solve_steady(RUBBER, indenter, speed=0.2, load=load, **body)
+    history = vf.History([0.0, 0.08], load=load, speed=0.2, before="at rest")
+    run = vf.solve_transient(RUBBER, indenter, history, times=[0.08], accuracy=5e-3, **body)
+    assert run.friction_coefficient[0] == pytest.approx(steady.friction_coefficient, rel=5e-3)
+    assert run.front[0] == pytest.approx(steady.front, rel=2e-2)  # half a cell of the 36 along the contact, and a part
+
+
+@pytest.mark.slow
+def test_pressing_and_releasing_an_indenter_that_is_nearly_a_ball():
+    """Loss of contact and its return, against springs, which are exact for the ball: radii differ by 1e-5."""
+    history = vf.History([0.0, 0.01, 0.02, 0.04, 0.06], load=[0.0, 1.0, 0.0, 0.0, 1.0])
+    times = [0.005, 0.01, 0.015, 0.04, 0.06]
+    springs = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=times)
+    cells = vf.solve_transient(RUBBER, vf.Ellipsoid("10 mm", "10.0001 mm"), history, times=times, accuracy=1e-2)
+    assert cells.method == "grid"
+    loaded = springs.load > 0.0
+    assert cells.load == pytest.approx(springs.load, rel=1e-9, abs=1e-9)
+    deepest = springs.indentation.max()
+    assert cells.indentation[loaded] == pytest.approx(springs.indentation[loaded], abs=1e-2 * deepest)
+    assert cells.dissipated == pytest.approx(springs.dissipated, abs=1e-2 * springs.dissipated.max())
+    assert cells.contact_area[3] == 0.0
+
+
+def test_line_contacts_refuse_a_depth_and_a_path_across():
+    with refused("no-level"):
+        vf.solve_transient(RUBBER, CYLINDER, vf.History([0.0, 1.0], indentation="1 mm", speed=1.0))
+    with refused("line-direction"):
+        path = vf.History([0.0, 1.0], load=LOAD, position=[[0.0, 0.0], [0.0, 1e-3]])
+        vf.solve_transient(RUBBER, CYLINDER, path)
+    with refused("no-contact"):
+        vf.solve_transient(RUBBER, CYLINDER, vf.History([0.0, 1.0], load=0.0, speed=1.0))
+    with refused("sharp-edge"):
+        vf.solve_transient(RUBBER, vf.FlatPunch("1 mm"), vf.History([0.0, 1.0], load=1.0, speed=1.0))
+
+
+def test_integrals_of_the_relaxation_over_a_step():
+    steps = np.array([0.1, 0.499, 0.501, 3.0, 30.0])
+
+    def integral(power, k):
+        def value(s):
+            return np.exp(-k * s) ** (2 - power) * (-np.expm1(-k * s) / k) ** power
+
+        return quad(value, 0.0, 1.0, points=[min(0.99, 1.0 / k)])[0]
+
+    for power, found in enumerate(_relaxation(steps)):
+        assert found == pytest.approx([integral(power, k) for k in steps], rel=1e-9)  # of the quadrature
+
+
+def test_response_is_that_of_the_steady_operators_without_memory():
+    solid = SteadyMaterial(1.0, np.empty(0), np.empty(0))
+    pressure = np.random.default_rng(1).random((12, 8))
+    point = HalfSpaceOperator(Window(0.1, 6, 6, 4), solid)
+    assert response_of(False, 0.1, 1.0, None, 0.0)(pressure) == pytest.approx(point(pressure), rel=1e-12)
+    row = pressure[:, :1]
+    line = LineOperator(Strip(0.1, 6, 6), solid)(row) - response_of(True, 0.1, 1.0, None, 7.0)(row)
+    assert line == pytest.approx(np.full(row.shape, line[0, 0]), rel=1e-12)  # but for the level
+
+
+def test_boxes_carry_values():
+    inner, outer = Box(2, -1, 2, 3), Box(0, -2, 6, 6)
+    assert outer.holds(inner)
+    assert not inner.holds(outer)
+    values = np.arange(6.0).reshape(2, 3)
+    carried = inner.carried(values, outer)
+    assert np.array_equal(carried[inner.within(outer)], values)
+    assert carried.sum() == values.sum()
+    assert inner.joined(Box(5, 0, 1, 1)) == Box(2, -1, 4, 3)
+    assert inner.grown(Box(5, 0, 1, 1), 0.5) == Box(2, -1, 6, 3)
