@@ -112,7 +112,7 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     >>> modulus = rubber.spectrum.complex_modulus(2 * np.pi * 1.0 * rubber.shift(kelvin))  # at 1 Hz
     >>> ramp = vf.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
     >>> print(vf.glass_transition(ramp, "loss modulus"))
-    loss modulus at 1 Hz: -12.9 ± 0.14 °C
+    loss modulus at 1 Hz: −12.9 ± 0.14 °C
     """
     insist_on(ramp, "ramp", TemperatureRamp)
     check_choice(by, "by", "tan delta", "loss modulus")
