@@ -25,6 +25,7 @@ class Options(BaseModel):
 
     do: Literal[
         "rest",
+        "keep",
         "insist",
         "hold",
         "grow",
@@ -52,6 +53,15 @@ def rest(amount: float, context: Context) -> dict[str, Any]:
     while time.monotonic() < end:
         time.sleep(0.01)
     return {"process": os.getpid()}
+
+
+def keep(amount: float, context: Context) -> dict[str, Any]:
+    """Send what was found when it is interrupted."""
+    try:
+        rest(amount, context)
+    except KeyboardInterrupt:
+        return {"kept": True}
+    return {"kept": False}
 
 
 def load(amount: float, context: Context) -> dict[str, Any]:
@@ -150,6 +160,7 @@ def write(amount: float, context: Context) -> dict[str, Any]:
 ODD: dict[str, Callable[[float, Context], dict[str, Any]]] = {
     "load": load,
     "rest": rest,
+    "keep": keep,
     "insist": insist,
     "hold": hold,
     "grow": grow,

@@ -108,6 +108,24 @@ def test_job_is_queued_started_reported_and_answered(bench: Callable[..., Any]) 
     bench(work)
 
 
+@pytest.mark.parametrize(("do", "last"), [("keep", "result"), ("rest", "cancelled")])
+def test_a_stopped_job_sends_what_it_has_found(bench: Callable[..., Any], do: str, last: str) -> None:
+    async def work(bench: Bench) -> None:
+        number, found = 0, {}
+        async for line in bench.run(do, LONG):
+            found = json.loads(line)
+            number = found.get("job", number)
+            if found["event"] == "part":
+                assert not bench.children.interrupt(number + 1, bench.folder / "a")
+                assert not bench.children.interrupt(number, bench.folder / "b")  # of another tab
+                assert bench.children.interrupt(number, bench.folder / "a")
+        assert found == {"event": last, **({"result": {"kept": True}} if last == "result" else {})}
+        assert not bench.children.interrupt(number, bench.folder / "a")  # it has ended
+        assert (await bench.last("rest"))["event"] == "result"  # its process goes on
+
+    bench(work)
+
+
 def test_what_goes_wrong_is_one_sentence_and_the_next_job_is_done(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
         refused = await bench.last("refuse")

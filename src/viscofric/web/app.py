@@ -235,6 +235,12 @@ def _jobs(api: FastAPI, children: Children) -> None:
         lines = children.run(kind, job.study, job.options, workspace.folder)
         return JobStream(workspace.while_at_work(lines))
 
+    @api.post("/api/jobs/{number}/stop", status_code=204, responses={404: {"model": Refusal}})
+    async def stop_job(number: Annotated[int, InAddress(ge=1, le=2**53)], workspace: _ByHeader) -> None:
+        """Interrupt a job; it sends what it has found, or that it was cancelled."""
+        if not children.interrupt(number, workspace.folder):
+            raise HTTPException(404, f"There is no job {number} at work.")
+
 
 ROOT = Path(__file__).parent / "static"
 _PACKED = {".html", ".css", ".js", ".svg", ".json", ".txt"}

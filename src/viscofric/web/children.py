@@ -13,9 +13,10 @@ import sys
 import threading
 import time
 from collections import deque
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from viscofric.web.jobs import KINDS
+from viscofric.web.messages import Message, line
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
@@ -26,18 +27,6 @@ _PROGRAM = "from viscofric.web.child import main; main({parent})"
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _LONGEST_END = 1.0  # s that its last words may take
 _ENDED = "The process that computed this ended, usually for lack of memory; request less accuracy or fewer points."
-
-
-class Message(NamedTuple):
-    """What a process says of a job: the event, and all of it as a line of JSON."""
-
-    event: str
-    line: bytes
-
-
-def line(event: str, **more: Any) -> bytes:
-    """Return a message of the server itself, as a line of JSON."""
-    return json.dumps({"event": event, **more}).encode() + b"\n"
 
 
 class Child:
@@ -196,7 +185,7 @@ class Children:
         child.messages = asyncio.Queue()
         finished = False
         try:
-            yield line("started")
+            yield line("started", job=number)
             doing = KINDS[kind]
             order = {
                 "job": number,
@@ -297,6 +286,15 @@ class Children:
         if len(self._all) < _FROM_THE_BEGINNING or not any(child.key is None for child in self._idle):
             self.start()
             self.attach()
+
+    def interrupt(self, number: int, folder: Path) -> bool:
+        """Interrupt a workspace's job, which may still send what it has found; return whether there is such a job."""
+        at_work = [
+            one for one in self._all if one.number == number and one.key == str(folder) and one not in self._idle
+        ]
+        for child in at_work:
+            asyncio.get_running_loop().run_in_executor(None, child.order, {"cancel": number})
+        return bool(at_work)
 
     def _cancel(self, child: Child) -> None:
         task = asyncio.get_running_loop().create_task(self._stop(child))

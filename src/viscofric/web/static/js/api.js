@@ -1,11 +1,12 @@
 /**
  * Requests of the page to its server: jobs, files, the first study.
  *
- * runJob(kind, {study, options}, {onProgress, onPart, signal}) -> Promise<result>
+ * runJob(kind, {study, options}, {onProgress, onPart, onStart, signal}) -> Promise<result>
  *   At most four jobs are streamed at once over all tabs; others wait.  `signal` (of an AbortController) cancels: the
  *   promise rejects with an AbortError, and the process that computed is free again.  What is wrong rejects with a
  *   JobError, {message, field, problems, values}: a sentence, the path in the study that it is about, or null, a list of
  *   such {message, field} of all that is wrong, and what a form can offer, such as the headings of a file.
+ *   onStart(number): stopJob(number) interrupts the job, which then resolves with what it has found, if it can.
  * uploadFiles(files) -> Promise<names>, listFiles(), removeFile(name), useExample(), getStart(), getStatus(),
  * downloadUrl(name), workspace
  */
@@ -70,7 +71,7 @@ async function request(address, options = {}) {
   throw new JobError(reply.message ?? `The server answered ${response.status}.`, reply.field ?? null);
 }
 
-export async function runJob(kind, { study = {}, options = {} } = {}, { onProgress, onPart, signal } = {}) {
+export async function runJob(kind, { study = {}, options = {} } = {}, { onProgress, onPart, onStart, signal } = {}) {
   const own = (found) => {
     computedFrom(found, kind, study);
     return found;
@@ -85,12 +86,16 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
     for await (const message of messages(response.body)) {
       if (message.event === "progress") onProgress?.(message);
       else if (message.event === "part") onPart?.(own(message.part));
+      else if (message.event === "started") onStart?.(message.job);
+      else if (message.event === "cancelled") throw new DOMException("The job was cancelled.", "AbortError");
       else if (message.event === "result") return own(message.result);
       else if (message.event === "error") throw jobError(message);
     }
     throw new JobError("The program behind this page ended before it answered; restart it with: viscofric web");
   });
 }
+
+export const stopJob = (number) => request(`/api/jobs/${number}/stop`, { method: "POST" });
 
 const jobError = ({ message, field, problems, values }) => new JobError(message, field, problems, values);
 

@@ -25,6 +25,7 @@ export const DEPENDS_ON = {
   moduli: MATERIAL,
   curve: [...CONTACT, "conditions", "sweep", "uncertainty"],
   contact: [...CONTACT, "conditions.load", "conditions.pressure", "conditions.direction", "sweep"],
+  motion: [...CONTACT, "conditions.temperature", "conditions.direction", "sweep"],
   measured: ["measurement"],
   agreement: PREDICTED,
   master: PREDICTED,

@@ -10,7 +10,7 @@ import * as lazy from "./steps/lazy.js";
 import * as units from "./units.js";
 
 const { h } = fields;
-const STEPS = [lazy.sweeps, lazy.shift, lazy.spectrum, contact, lazy.measurement, lazy.exported];
+const STEPS = [lazy.sweeps, lazy.shift, lazy.spectrum, contact, lazy.moving, lazy.measurement, lazy.exported];
 // Where the fields of a study's tables are, but for those of a rubber that other steps have.
 const PLACES = {
   material: "sweeps",
@@ -208,6 +208,7 @@ async function begin() {
     "spectrum",
     "curve",
     "contact",
+    "motion",
     "measured",
     "agreement",
     "export",

@@ -38,6 +38,13 @@ function modes(state) {
   return spectrum.modes ? `${spectrum.modes.retardation_time.length} modes` : "a table of moduli";
 }
 
+function motion(state) {
+  const result = state.result("motion");
+  if (!result) return "";
+  if (result.contacts) return `restitution ${result.contacts[0].restitution.toPrecision(2)}`;
+  return `${result.time.length} times${result.interrupted ? ", stopped" : ""}`;
+}
+
 function agreement(state) {
   const result = state.result("measured");
   if (!result?.curves) return result?.refusal ? "not separated" : "";
@@ -55,5 +62,6 @@ function results(state) {
 export const sweeps = later("sweeps", "Data", source, "../rubber/sweeps.js");
 export const shift = later("shift", "Shift", superposition, "../rubber/shift.js");
 export const spectrum = later("spectrum", "Spectrum", modes, "../rubber/spectrum.js");
+export const moving = later("motion", "Motion in time", motion, "./motion.js");
 export const measurement = later("measurement", "Measurement", agreement, "./measurement_view.js");
 export const exported = later("export", "Export", results, "./export_view.js", "show");

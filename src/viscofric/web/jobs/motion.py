@@ -1,0 +1,210 @@
+"""Job ``motion``: the contact of the study through a history of load and motion, or an impact."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from viscofric.datasets import plain, record
+from viscofric.notes import listed
+from viscofric.report.texts.numbers import prefixed
+from viscofric.study.cases.case import moved
+from viscofric.study.cases.indenter_case import IndenterCase
+from viscofric.study.cases.surface_case import SurfaceCase
+from viscofric.study.cases.surfaces import surface_of
+from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
+from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.rubbers import notes_without_folder, study_rubber
+from viscofric.web.study_text import study_of
+
+if TYPE_CHECKING:
+    from viscofric.motion.history import History
+    from viscofric.motion.impact_solution import ImpactSolution
+    from viscofric.motion.solution import TransientSolution
+    from viscofric.rheology.material import Material
+    from viscofric.study.cases.case import Case
+    from viscofric.web.jobs.context import Context
+
+_DIGITS = 7
+_MOST_ROWS = 200
+#: Times drawn of a whole history, and fewest and most of a part between two of its rows.
+_TIMES, _FEWEST, _MOST = 240, 12, 80
+#: The first of them after a row, over the duration of the part.
+_FIRST = 1e-4
+
+
+class Row(BaseModel):
+    """What is prescribed at a time; a time given twice is a jump.
+
+    Parameters
+    ----------
+    time : float
+        s.
+    value : float
+        Of the options' `control`: N (N/m of a line contact), m or Pa.
+    along : float
+        m or m/s.
+    """
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+    time: float
+    value: float
+    along: float = 0.0
+
+
+class Impact(BaseModel):
+    """A mass that hits the material, kg and m/s, and the gravity, m/s², that brings it back."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+    mass: float
+    speed: float
+    gravity: float = 0.0
+    rebounds: int = Field(1, ge=1, le=20)
+
+
+class Options(BaseModel):
+    """What the study's first indenter or surface does.
+
+    Parameters
+    ----------
+    rows : list of Row
+        The history.
+    control : {"load", "indentation", "pressure", "gap"}
+        What their values are.
+    path : {"speed", "position"}
+        What their `along` is, along the motion.
+    before : {"untouched", "at rest", "sliding"}
+        See `History`.
+    impact : Impact, optional
+        Instead of a history.
+    temperature : float, optional
+        K, instead of the study's first one.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+
+    rows: list[Row] = Field([], max_length=_MOST_ROWS)
+    control: Literal["load", "indentation", "pressure", "gap"] = "load"
+    path: Literal["speed", "position"] = "speed"
+    before: Literal["untouched", "at rest", "sliding"] = "untouched"
+    impact: Impact | None = None
+    temperature: float | None = Field(None, gt=0.0, lt=1e5)
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Solve the contact over time; an interruption keeps what was found.
+
+    Returns
+    -------
+    dict
+        The data set of the solution as plain types, ``steps``, ``rejected_steps``, ``temperature`` (K), ``warnings``
+        and ``notes``; of an impact also ``contacts``, what each of them has done.
+
+    Raises
+    ------
+    ViscofricError
+        If the study or the history is wrong, or the contact cannot be solved.
+    """
+    _, checked = study_of(study, context.files)
+    first = of_combination(page_sweep(checked), 0)
+    case = first if options.temperature is None else moved(first, temperature=options.temperature)
+    rubber = study_rubber(of_material(study, first.material), context, [case.temperature])
+    accuracy = checked.solver.accuracy
+    solved: TransientSolution | ImpactSolution
+    if options.impact is not None:
+        hit = solved = _impact(rubber.material, case, options.impact)
+        whole, contacts = hit.run, {"contacts": plain([one._asdict() for one in hit.contacts], _DIGITS)}
+    else:
+        whole = solved = _transient(rubber.material, case, options, accuracy, context)
+        contacts = {}
+        if not len(whole.time):  # nothing was reached
+            raise KeyboardInterrupt
+    # as of the friction curve: what is unknown is a note, what is doubtful a warning
+    doubts, notes = rubber.doubts([case.temperature]), list(rubber.rubber.notes)
+    warnings = list(solved.warnings)
+    (notes if rubber.frequency_range is None else warnings).extend(doubts)
+    return {
+        **record(solved.to_dataset(), _DIGITS),
+        **contacts,
+        "steps": whole.steps,
+        "rejected_steps": whole.rejected_steps,
+        "temperature_of_contact": plain(case.temperature),
+        **listed("warnings", notes_without_folder(dict.fromkeys(warnings), context)),
+        **listed("notes", notes_without_folder(dict.fromkeys(notes), context)),
+    }
+
+
+def _transient(
+    material: Material, case: Case, options: Options, accuracy: float, context: Context
+) -> TransientSolution:
+    """Solve the contact of a case through the history of the options."""
+    from viscofric.motion.history import History
+    from viscofric.motion.solve import solve_transient
+
+    assert isinstance(case, (IndenterCase, SurfaceCase))
+    angle = case.direction if isinstance(case, SurfaceCase) else 0.0
+    along = [row.along for row in options.rows]
+    history = History(
+        time=[row.time for row in options.rows],
+        **{options.control: [row.value for row in options.rows]},
+        **({options.path: along} if any(along) else {}),
+        temperature=case.temperature,
+        before=options.before,
+        direction=(math.cos(angle), math.sin(angle)),
+    )
+    start, end = float(history.time[0]), float(history.time[-1])
+
+    def progress(reached: float, _: float) -> None:
+        words = f"{prefixed(reached - start, None, 's')} of {prefixed(end - start, None, 's')}"
+        context.progress((reached - start) / (end - start), 1.0, words)
+
+    return solve_transient(
+        material,
+        case.indenter if isinstance(case, IndenterCase) else surface_of(case.surface),
+        history,
+        times=_times(history),
+        accuracy=accuracy,
+        layer=case.layer,
+        indenter_modulus=case.modulus,
+        indenter_poisson_ratio=case.poisson_ratio,
+        progress=progress,
+    )
+
+
+def _impact(material: Material, case: Case, impact: Impact) -> ImpactSolution:
+    """Solve the impact of the indenter of a case."""
+    from viscofric.motion.impact import solve_impact
+
+    if not isinstance(case, IndenterCase):
+        raise JobError("An impact needs an indenter; choose a ball or a cone.", "surface", code="rough-surface")
+    if case.layer is not None:
+        words = "An impact is solved on a half-space; remove the layer."
+        raise JobError(words, "layer", code="not-available")
+    return solve_impact(
+        material,
+        case.indenter,
+        mass=impact.mass,
+        speed=impact.speed,
+        gravity=impact.gravity,
+        rebounds=impact.rebounds,
+        temperature=case.temperature,
+        indenter_modulus=case.modulus,
+        indenter_poisson_ratio=case.poisson_ratio,
+    )
+
+
+def _times(history: History) -> list[float]:
+    """Return the times to draw: dense after each row, where much happens; those of jumps twice."""
+    edges = history.time.tolist()
+    count = min(max(_TIMES // len(edges), _FEWEST), _MOST)
+    inside = np.union1d(np.geomspace(_FIRST, 1.0, count // 2), np.linspace(0.0, 1.0, count // 2))[1:-1]
+    times = edges[:1]
+    for start, end in itertools.pairwise(edges):
+        times += [*(start + (end - start) * inside).tolist(), end] if end > start else [end]
+    return times

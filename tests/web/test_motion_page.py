@@ -1,0 +1,99 @@
+"""The step “Motion in time” in a real browser: a history edited, dragged, solved, stopped and refused; an impact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from web.browser_tab import tab as opened_tab
+from web.contact_studies import ROUGH
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+    from web.browser_tab import Tab
+    from web.served_page import Server
+
+pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+_STEP = "#step-motion"
+_HISTORY = "page.state.state.view('motion')"
+
+
+def solved(tab: Tab) -> None:
+    tab.page.get_by_role("button", name="Solve", exact=True).click()
+    tab.until(f"document.querySelector('{_STEP} .progress').classList.contains('done')", 60.0)
+
+
+def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
+    page = tab.page
+    tab.step("motion")
+    assert tab.value(f"{_HISTORY}.rows") == [[0, 0, 0], [0.1, 10, 0], [1.1, 10, 0]]
+    load = page.get_by_label("Load of point 3")
+    load.fill("20 mN")
+    load.press("Tab")
+    assert tab.value(f"{_HISTORY}.rows[2]") == [1.1, 0.02, 0]
+    load.fill("soon")
+    load.press("Tab")
+    assert load.get_attribute("aria-invalid") == "true"
+    assert tab.value(f"{_HISTORY}.rows[2]") == [1.1, 0.02, 0]
+    load.fill("20")
+    load.press("Tab")
+    place = page.locator(f"{_STEP} circle").nth(1).bounding_box()
+    assert place is not None
+    page.mouse.move(place["x"] + 3, place["y"] + 3)
+    page.mouse.down()
+    page.mouse.move(place["x"] + 103, place["y"] - 20)
+    page.mouse.up()
+    rows = tab.value(f"{_HISTORY}.rows")
+    assert 0.1 < rows[1][0] < 0.5
+    assert 10.0 < rows[1][1] < 20.0
+    assert float(page.get_by_label("Load of point 2").input_value()) == rows[1][1]
+
+    solved(tab)
+    found = tab.value("page.state.state.result('motion')")
+    assert found["method"] == "springs"
+    assert found["load"][-1] == pytest.approx(20.0, rel=1e-6)
+    tab.until("document.querySelector('#figure-motion-indentation .plot').data?.length > 0")
+    assert not page.locator("#figure-motion-friction").is_visible()
+    assert tab.findings() == []
+    assert tab.value("document.documentElement.scrollWidth - innerWidth") <= 0
+    tab.screenshot("motion-hold")
+
+    # another history: the results are of earlier inputs, and a wrong one is marked in its row
+    time = page.get_by_label("Time of point 3")
+    time.fill("0.05")
+    time.press("Tab")
+    assert page.locator("#figure-motion-load.stale").count() == 1
+    solved(tab)
+    page.locator(f"{_STEP} .notes.error").wait_for()
+    assert page.get_by_label("Time of point 3").get_attribute("aria-invalid") == "true"
+
+
+def test_a_mass_hits_the_material(tab: Tab) -> None:
+    tab.step("motion")
+    tab.page.get_by_label("Example").select_option("impact")
+    tab.page.get_by_label("Speed (m/s)").fill("0.5")
+    tab.page.get_by_label("Speed (m/s)").press("Tab")
+    solved(tab)
+    assert 0.0 < tab.value("page.state.state.result('motion').contacts[0].restitution") < 1.0
+    assert "restitution 0." in tab.text('#steps a[href="#motion"] .step-summary')
+    tab.screenshot("motion-impact")
+
+
+def test_a_rough_surface_goes_back_and_forth_until_it_is_stopped(browser: Browser, server: Server) -> None:
+    with opened_tab(browser, server, "#export") as tab:
+        tab.value("page.state.state.replace(given[0])", ROUGH)
+        tab.step("motion")
+        tab.page.get_by_label("Example").select_option("back")
+        tab.page.get_by_label("Motion given as").select_option("position")
+        positions = [row[2] for row in tab.value(f"{_HISTORY}.rows")]
+        assert positions[0] == positions[-1] == 0.0 < max(positions)
+        tab.page.get_by_role("button", name="Solve", exact=True).click()
+        tab.until(f"document.querySelector('{_STEP} progress').value > 1e-3", 60.0)
+        tab.page.get_by_role("button", name="Cancel").click()
+        tab.page.get_by_text("Stopped; the results end after").wait_for(timeout=30_000)
+        found = tab.value("page.state.state.result('motion')")
+        assert found["interrupted"] == 1
+        assert 0.0 < found["time"][-1] < tab.value(f"{_HISTORY}.rows").pop()[0]
+        tab.screenshot("motion-stopped")
