@@ -47,7 +47,8 @@ export function motionFigures({ figures, fields }) {
     const returns = steps.some((one) => one > 0) && steps.some((one) => one < 0);
     const edges = Object.entries(CONTACT).filter(([name]) => known(result[name]));
     const mean = result.geometry === "periodic" ? "mean pressure" : "normal load";
-    put("load", true, "Load", time, { label: mean, kind: force }, [line("load")]);
+    const range = [0, 1.08 * Math.max(...result.load) || 1]; // a constant load has no range of its own
+    put("load", true, "Load", time, { label: mean, kind: force, range }, [line("load")]);
     put("indentation", true, "Indentation", time, { label: "indentation", kind: "length" }, [line("indentation")]);
     const relative = result.friction_force_error.map((one, at) => (result.load[at] > 0 ? one / result.load[at] : 0));
     const friction = line("friction_coefficient", "", relative);
@@ -61,7 +62,7 @@ export function motionFigures({ figures, fields }) {
     const work = "Its area is the work of friction.";
     put("loop", returns, "Friction loop", position, { label: "friction force", kind: force }, loop, work);
     const energies = Object.entries(ENERGIES).map(([name, words]) => line(name, words, null));
-    put("energy", true, "Energy", time, { label: `energy (${result.units.work})` }, energies);
+    put("energy", true, "Energy", time, { label: `energy (${result.units.work.replace("m2", "m²")})` }, energies);
   }
 
   return { grid, show };
