@@ -201,7 +201,7 @@ def _impact(material: Material, case: Case, impact: Impact) -> ImpactSolution:
 
 def _times(history: History) -> list[float]:
     """Return the times to draw: dense after each row, where much happens; those of jumps twice."""
-    edges = history.time.tolist()
+    edges: list[float] = history.time.tolist()
     count = min(max(_TIMES // len(edges), _FEWEST), _MOST)
     inside = np.union1d(np.geomspace(_FIRST, 1.0, count // 2), np.linspace(0.0, 1.0, count // 2))[1:-1]
     times = edges[:1]
