@@ -36,15 +36,15 @@ def test_a_planted_law_comes_back_within_its_errors(fit):
 @pytest.mark.parametrize("alike", [0.0, 0.7])
 def test_intervals_hold_what_they_promise(alike):
     constants, shifts = [], []
-    for seed in range(16):
-        ramps = planted_ramps(seed, celsius=np.arange(-20.0, 101.0, 2.0), alike=alike)
+    for seed in range(12):
+        ramps = planted_ramps(seed, celsius=np.arange(-20.0, 101.0, 3.0), alike=alike)
         found = vf.superpose_ramps(ramps, REFERENCE).shift
         constants.append((found.parameters - TRUTH.parameters) / np.array(found.standard_errors))
         kelvin = np.array([260.0, 280.0, 320.0, 350.0])
         shifts.append((found.log10(kelvin) - TRUTH.log10(kelvin)) / found.standard_error(kelvin))
-    # Both constants of a fit err together: 16 seeds know the standard deviation to 0.18.
+    # Both constants of a fit err together: 12 seeds know the standard deviation to 0.2.
     for scores in (constants, shifts):
-        assert np.std(scores) == pytest.approx(1.0, abs=3 * 0.18)
+        assert np.std(scores) == pytest.approx(1.0, abs=3 * 0.2)
         assert np.mean(np.abs(scores) < 1.96) > 0.8
 
 
@@ -71,15 +71,15 @@ def test_the_correlation_of_errors_is_found_beside_the_curve(alike):
 
 
 def test_the_bend_of_the_loss_modulus_in_the_glass_moves_no_constants():
-    # Points of a ramp are 0.7 decades apart at −60 °C.  With a knot for five points C2 missed by 5 standard errors.
+    # Points of a ramp are 0.7 decades apart at −60 °C.  With a knot for five points the shift there missed by 5 to 9
+    # standard errors.
     rubber = synthetic_soft_rubber()
     truth = rubber.shift.at_reference(REFERENCE)
-    for seed in range(2):
-        ramps = planted_ramps(
-            seed, 0.003, material=rubber, hertz=(0.5, 2.0, 8.0, 32.0), celsius=np.arange(-60.0, 81.0, 2.0)
-        )
-        law = vf.superpose_ramps(ramps, REFERENCE).shift
-        assert np.all(np.abs(law.parameters - truth.parameters) < 3.5 * np.array(law.standard_errors))
+    ramps = planted_ramps(0, 0.003, material=rubber, hertz=(0.5, 2.0, 8.0, 32.0), celsius=np.arange(-60.0, 81.0, 2.0))
+    law = vf.superpose_ramps(ramps, REFERENCE).shift
+    assert np.all(np.abs(law.parameters - truth.parameters) < 3.5 * np.array(law.standard_errors))
+    cold = ramps.temperature_range[0]
+    assert abs(law.log10(cold) - truth.log10(cold)) < 3.5 * law.standard_error(cold)
 
 
 def test_the_master_curve_gives_the_planted_spectrum(fit):
@@ -96,7 +96,7 @@ def test_the_master_curve_gives_the_planted_spectrum(fit):
 
 
 def test_laws_are_the_same_curve_in_other_constants():
-    ramps = planted_ramps(2)
+    ramps = planted_ramps(2, celsius=np.arange(-20.0, 101.0, 3.0))
     wlf, vft = (vf.superpose_ramps(ramps, REFERENCE, law).shift for law in ("wlf", "vft"))
     kelvin = np.linspace(260.0, 370.0, 5)
     np.testing.assert_allclose(wlf.log10(kelvin), vft.log10(kelvin), atol=1e-9)
@@ -106,7 +106,7 @@ def test_laws_are_the_same_curve_in_other_constants():
 @pytest.mark.slow
 def test_a_joined_law_is_found_where_ramps_begin_in_the_glass():
     rubber = vf.synthetic_fluoroelastomer()
-    ramps = planted_ramps(3, material=rubber, hertz=(1.0, 3.0, 10.0), celsius=np.arange(-30.0, 90.0, 1.0))
+    ramps = planted_ramps(3, material=rubber, hertz=(1.0, 3.0, 10.0), celsius=np.arange(-30.0, 90.0, 2.0))
     found = vf.superpose_ramps(ramps, "30 degC", "wlf+arrhenius").shift
     truth = rubber.shift.at_reference("30 degC")
     assert np.all(np.abs(found.parameters - truth.parameters) < 4.0 * np.array(found.standard_errors))

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 
 #: Points per knot.  Near the pole of a law neighbouring points of a ramp are up to a decade apart: with five points per
-#: knot, as for isotherms, curves cut the corner of E'' in the glass, and C2 was wrong by 1.5 standard errors.
+#: knot, as for isotherms, curves cut the corner of E'' in the glass, and log10 α at the cold end was wrong by 1.6
+#: standard errors at 1 % of noise.
 POINTS_PER_KNOT = 2
 #: Correlations of neighbours that are tried, equally likely before and at equal distances of artanh.
 CORRELATIONS = np.tanh(np.linspace(0.0, 2.0, 13))
