@@ -78,6 +78,11 @@ def test_a_load_may_rise_and_a_depth_be_held() -> None:
     assert found["results"]["load"][-1] < max(found["results"]["load"])
 
 
+def test_the_history_is_said_in_one_line() -> None:
+    words = call("transient", *RUBBER, *BALL, "--load", "1 N", "--load-time", "10 ms", "--dwell", "0.1 s").stdout
+    assert words.splitlines()[1].startswith("110 ms, load 0 N to 1 N, ")
+
+
 def test_points_are_evenly_spaced_and_the_temperature_is_the_reference() -> None:
     found = record(
         "transient", "--material", "synthetic fluoroelastomer", *BALL, "--load", "1 N", "--dwell", "1 ms", "--points", 3

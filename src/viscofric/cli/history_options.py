@@ -58,7 +58,7 @@ _OPTIONS = (
     click.option(
         "--points",
         type=click.IntRange(2, _MOST_POINTS),
-        help="Number of evenly spaced times to report, instead of --times.",
+        help="Number of evenly spaced times to report, instead of --times; corners of the history are added.",
     ),
 )
 
@@ -93,7 +93,8 @@ def chosen_times(parameters: dict[str, Any], history: History) -> Any:
     if parameters["times"] is not None and parameters["points"] is not None:
         raise click.UsageError("--times and --points are both given; give one of them.")
     if parameters["points"] is not None:
-        return np.linspace(float(history.time[0]), float(history.time[-1]), parameters["points"])
+        even = np.linspace(float(history.time[0]), float(history.time[-1]), parameters["points"])
+        return np.union1d(even, history.time)
     if parameters["times"] is None:
         return None
     return [time.strip() for time in parameters["times"].split(",")]

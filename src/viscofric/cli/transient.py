@@ -154,7 +154,7 @@ def _print(name: str, rubber: NamedRubber, history: History, run: TransientSolut
 
     synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
     click.echo(f"{name}{synthetic}")
-    click.echo(f"{history_words(history)}\n")
+    click.echo(f"{history_words(history, run.geometry)}\n")
     lines = transient_lines(run, seconds)
     width = max(len(quantity) for quantity, _ in lines)
     for quantity, value in lines:

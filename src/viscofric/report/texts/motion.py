@@ -23,10 +23,10 @@ _ROUND_OFF = 1e-12
 _FORCES = {"point": ("N", "J"), "line": ("N/m", "J/m"), "periodic": ("Pa", "J/m²")}
 
 
-def history_words(history: History) -> str:
+def history_words(history: History, geometry: str) -> str:
     """Return a history in one line: how long, under what, how far, at which temperature, and what was before."""
     duration = float(history.time[-1] - history.time[0])
-    units = {"load": history.load_unit or "N", "indentation": "m", "pressure": "Pa", "gap": "m"}
+    units = {"load": _FORCES[geometry][0], "indentation": "m", "pressure": "Pa", "gap": "m"}
     values = getattr(history, history.control)
     way = float(np.hypot(*np.diff(history.position, axis=0).T).sum())
     parts = [
