@@ -125,6 +125,23 @@ def test_tables_and_drawings_are_written(tmp_path: Path, monkeypatch: pytest.Mon
     assert (len(printed), printed[0].split(",")[0]) == (2, "time (s)")
 
 
+def test_strokes_go_forth_and_back(tmp_path: Path) -> None:
+    words = (
+        "transient", *RUBBER, "--cylinder", "10 mm", "--load", "200 N/m", "--dwell", "20 ms", "--slide", "1 mm",
+        "--speed", "0.1 m/s", "--strokes", 2, "--accuracy", 0.1, "--times", "20 ms, 30 ms, 40 ms",
+    )  # fmt: skip
+    found = record(*words)
+    history = vf.History([0, 0.02, 0.02, 0.03, 0.03, 0.04], load="200 N/m", speed=[0.0, 0.0, 0.1, 0.1, -0.1, -0.1])
+    inputs = found["inputs"]["history"]
+    assert inputs["time"] == pytest.approx(history.time.tolist(), rel=1e-12)
+    assert inputs["speed"] == history.speed.tolist()
+    assert found["results"]["position_x"] == pytest.approx([0.0, 1e-3, 0.0], abs=1e-15)
+    rest, forth, back = found["results"]["friction_coefficient"]
+    # at rest nothing but rounding
+    assert abs(rest) < 1e-9 < 0.05 < forth
+    assert back == pytest.approx(-forth, rel=0.1)  # the sliding forgets the dwell after some contact widths
+
+
 def test_an_interruption_keeps_what_was_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     @contextmanager
     def impatient(words: str, *, quiet: bool) -> Iterator[Callable[[float, float], None]]:

@@ -105,6 +105,19 @@ def test_a_table_gives_the_history(tmp_path: Path) -> None:
         check_study(vf.load_study(path), path)
 
 
+def test_friction_at_the_start_is_drawn(tmp_path: Path) -> None:
+    base = BASE.replace('["1 N", "2 N"]', '"200 N/m"').replace('["30 degC", "60 degC"]', '"60 degC"')
+    base = base.replace('radius = "10 mm"', 'shape = "cylinder"\nradius = "5 mm"').replace("5e-2", "0.1")
+    tree = vf.run_study(written(tmp_path, '[history]\ndwell = "0.1 s"\nslide = "0.2 mm"\npoints = 18\n', base)).tree
+    data, steady = tree["history"].to_dataset(), float(tree["prediction"]["friction_coefficient"])
+    assert float(data["position_x"][-1]) == pytest.approx(2e-4, rel=1e-9)
+    # rubber that has crept resists more at first than in steady sliding
+    assert float(data["friction_coefficient"].max()) > 2.0 * steady
+    figure = histories_figure(tree)
+    assert figure is not None
+    assert [one.get_ylabel() for one in figure.axes][-1] == r"friction coefficient $\mu$"
+
+
 def test_a_case_that_fails_is_listed(tmp_path: Path) -> None:
     base = BASE.replace('["1 N", "2 N"]', '"1 N"').replace('["30 degC", "60 degC"]', '"30 degC"')
     # sliding before, but at rest at the start
