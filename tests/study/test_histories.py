@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,7 @@ from viscofric.errors import StudyError
 from viscofric.notes import codes
 from viscofric.report.captions import captions
 from viscofric.report.figures.histories import histories_figure
+from viscofric.study.cases import history as cases
 from viscofric.study.checking import check_study
 from viscofric.study.run_file.study import parse_study
 
@@ -116,6 +118,22 @@ def test_friction_at_the_start_is_drawn(tmp_path: Path) -> None:
     figure = histories_figure(tree)
     assert figure is not None
     assert [one.get_ylabel() for one in figure.axes][-1] == r"friction coefficient $\mu$"
+
+
+def test_an_interrupted_history_is_not_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def impatient(reached: float, last: float) -> None:
+        raise KeyboardInterrupt
+
+    path = written(tmp_path, DWELL)
+    with monkeypatch.context() as patch:
+        patch.setattr(cases, "solve_transient", partial(vf.solve_transient, progress=impatient))
+        with pytest.raises(KeyboardInterrupt):
+            vf.run_study(path)
+    events: list[str] = []
+    vf.run_study(path, resume=True, progress=lambda event: events.append(f"{event.stage} {event.event}"))
+    assert "contacts stored" in events
+    assert "histories stored" not in events
+    assert events.count("histories solved") == 8
 
 
 def test_a_case_that_fails_is_listed(tmp_path: Path) -> None:

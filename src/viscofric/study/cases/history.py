@@ -41,6 +41,8 @@ def solve_history(
 
     times = np.linspace(float(history.time[0]), float(history.time[-1]), points)
     run = solve_transient(Material(modes, poisson_ratio=poisson_ratio), history=history, times=times, **contact)
+    if run.interrupted:  # a part of a history is no result
+        raise KeyboardInterrupt
     data = run.to_dataset()
     columns = {
         str(name): Column(one.values.tolist(), str(one.attrs["units"]), str(one.attrs["long_name"]))
