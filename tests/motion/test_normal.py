@@ -12,9 +12,9 @@ import viscofric as vf
 from refusals import refused
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.reference.hertz import hertz_ball
-from viscofric.errors import ConvergenceError
 from viscofric.motion.march import march
 from viscofric.motion.solve import checked_problem, mover_of
+from viscofric.notes import codes
 
 BALL = vf.Ball("10 mm")
 E0, E_INF, TAU = 1e6, 1e7, 0.01
@@ -248,9 +248,29 @@ class Rippled(Indenter):
         return None
 
 
-def test_a_contact_that_is_no_disc_is_refused():
-    with refused("not-one-disc", ConvergenceError):
-        vf.solve_transient(RUBBER, Rippled(), vf.History([0.0, 1.0], load=1.0))
+def test_a_contact_that_is_no_disc_is_solved_on_cells():
+    """At a constant depth a contact of any shape stays as it is: the load relaxes with the modulus."""
+    run = vf.solve_transient(
+        RUBBER, Rippled(), vf.History([0.0, 0.05], indentation=3e-5), times=[0.0, 0.001, 0.05], accuracy=0.05
+    )
+    assert "not-one-disc" in codes(run.warnings)
+    assert run.method == "grid"
+    assert run.load[1:] / run.load[0] == pytest.approx(RUBBER.spectrum.relaxation_modulus([1e-3, 0.05]) / 1e7, rel=0.02)
+
+
+def test_a_vertical_shift_at_one_temperature_scales_the_load():
+    """F of a given depth is b(T) times that without the shift; the times are the same."""
+    law, shift = vf.WLF(C1=8.0, C2=100.0, reference=300.0), vf.DensityShift(300.0)
+    history = vf.History([0.0, 0.1], indentation=2e-4, temperature=330.0)
+    loads = [
+        vf.solve_transient(
+            vf.Material(RUBBER.spectrum, shift=law, vertical_shift=one), BALL, history, times=[0.0, 0.01]
+        ).load
+        for one in (None, shift)
+    ]
+    b = float(shift(330.0))
+    assert abs(b - 1.0) > 0.02
+    assert loads[1] == pytest.approx(b * loads[0], rel=1e-6)
 
 
 def test_a_march_continues_from_a_stored_state():

@@ -12,11 +12,12 @@ from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.errors import InputError, brief
+from viscofric.errors import ConvergenceError, InputError, brief
 from viscofric.motion.history import History
 from viscofric.motion.march import march
 from viscofric.motion.problem import Problem
 from viscofric.motion.solution import TransientErrors, TransientSolution
+from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, to_si_array
@@ -28,10 +29,13 @@ if TYPE_CHECKING:
     from viscofric.motion.march import Moment, Track
     from viscofric.motion.mover import Mover
     from viscofric.motion.schedule import Schedule
-    from viscofric.notes import Note
     from viscofric.units import Quantities
 
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
+_RING = Note(
+    "not-one-disc",
+    "The contact is no single disc at some times, for which alone the row of springs is exact: it was solved on cells.",
+)
 
 
 @one_blas_thread
@@ -83,7 +87,7 @@ def solve_transient(
     -----
     The normal motion of a body of revolution is solved by the method of dimensionality reduction [1]_, a row of
     springs with the memory of the material, which is exact as long as the contact is one disc: the force of the
-    springs must fall outwards.
+    springs must fall outwards.  If it does not, the contact is solved on cells, and a note says so.
 
     Sliding contacts, contacts on layers and those of other indenters are solved on cells that are fixed to the body, on
     finer and finer grids.  An indenter moves by whole cells wherever it can.  A line contact has no absolute
@@ -108,14 +112,20 @@ def solve_transient(
     insist_on_function(progress, "progress")
     problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     asked = _checked_times(times, problem.schedule)
-    if needs_grid(problem, history):
-        from viscofric.motion.free.solve import solve_free
+    notes: tuple[Note, ...] = ()
+    if not needs_grid(problem, history):
+        mover, method = mover_of(problem, history)
+        try:
+            track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
+            return assemble(track, problem, history, method)
+        except ConvergenceError as error:
+            if error.code != "not-one-disc" or getattr(indenter, "has_walls", False):
+                raise
+            notes = (_RING,)
+    from viscofric.motion.free.solve import solve_free
 
-        track, notes = solve_free(problem, asked, progress)
-        return assemble(track, problem, history, "grid", notes=notes)
-    mover, method = mover_of(problem, history)
-    track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
-    return assemble(track, problem, history, method)
+    track, doubts = solve_free(problem, asked, progress)
+    return assemble(track, problem, history, "grid", notes=(*notes, *doubts))
 
 
 def checked_problem(
