@@ -162,6 +162,17 @@ def identified():
     return vf.identify_material(curves(), indenter=CYLINDER, anchor=anchor, accuracy=3e-2, samples=20, levels=(1.0,))
 
 
+def record(**settings):
+    time = np.geomspace(0.01, 10.0, 12)
+    depth = 1e-4 * (1.0 + 0.1 * np.log10(time / 0.01))
+    return vf.IndentationRecord(time, np.ones(12), depth, 300.0, control="load", start=0.0, **settings)
+
+
+@functools.cache
+def from_indentation():
+    return vf.identify_from_indentation(record(), vf.Ball(1e-2), modes=8, samples=20)
+
+
 def made(**settings):
     return vf.self_affine(0.8, **MADE | settings, shortest="40 um", rms_slope=0.1)
 
@@ -224,6 +235,8 @@ def written():
     vf.write_card(rubber(), at / "rubber.json", "json")
     vf.write_friction_curves(curves(), at / "friction.csv")
     (at / "history.csv").write_text("time (s),position (mm)\n0,0\n1,20\n", encoding="utf-8")
+    rows = "".join(f"{n},1,{100 + n}\n" for n in range(6))
+    (at / "indentation.csv").write_text("time (s),load (N),indentation (um)\n" + rows, encoding="utf-8")
     factors().save(at / "alpha.csv")
     rows = "".join(f"20,1,{0.1 * 2**n},{5 - 0.3 * n},0.5\n" for n in range(10))
     (at / "payne.csv").write_text("T (degC),f (Hz),strain amplitude (%),G' (MPa),G'' (MPa)\n" + rows)
@@ -400,6 +413,14 @@ CALLS: dict[str, Any] = {
         "prior": None, "prior_band": None, "prior_error": 0.02, "reference": 300.0, "poisson_ratio": 0.5, "modes": 12,
         "levels": (1.0, 2.0), "limit": 0.05, "samples": 20, "seed": 0, "accuracy": 3e-2, "name": "", "progress": stop,
         "workers": 1},
+    "IndentationRecord": lambda: {"time": np.arange(5.0), "load": np.ones(5), "indentation": np.full(5, 1e-4),
+        "temperature": 300.0, "control": "load", "error": 1e-6, "start": 0.0, "source": ""},
+    "read_indentation": lambda: {"path": at("indentation.csv"), "control": "load", "temperature": 300.0, "error": 1e-6,
+        "start": 0.0, "columns": {}, "sheet": None},
+    "identify_from_indentation": lambda: {"records": record(), "indenter": vf.Ball(1e-2), "shift": None, "reference":
+        300.0, "poisson_ratio": 0.5, "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "modes": 8, "limit": 0.05,
+        "samples": 20, "seed": 0, "name": ""},
+    "MaterialFromIndentation.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
     "IdentifiedMaterial.standard_error": lambda: (identified(), {"angular_frequency": np.array([60.0]), "relative":
         None}),
     "IdentifiedMaterial.to_dataset": lambda: (identified(), {"angular_frequency": np.array([60.0])}),

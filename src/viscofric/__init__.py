@@ -57,6 +57,13 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.anchors import ContactAnchor as ContactAnchor
     from viscofric.friction.identification.anchors import ModulusAnchor as ModulusAnchor
     from viscofric.friction.identification.identify import identify_material as identify_material
+    from viscofric.friction.identification.indentation.identify import (
+        identify_from_indentation as identify_from_indentation,
+    )
+    from viscofric.friction.identification.indentation.record import IndentationRecord as IndentationRecord
+    from viscofric.friction.identification.indentation.record import read_indentation as read_indentation
+    from viscofric.friction.identification.indentation.result import FittedRecord as FittedRecord
+    from viscofric.friction.identification.indentation.result import MaterialFromIndentation as MaterialFromIndentation
     from viscofric.friction.identification.result import IdentifiedMaterial as IdentifiedMaterial
     from viscofric.friction.measurement.tribometry import separate as separate
     from viscofric.friction.prediction import predict_friction as predict_friction
@@ -238,6 +245,11 @@ _HOME = {
     "citations": "viscofric.literature.citations",
     "identify_material": "viscofric.friction.identification.identify",
     "IdentifiedMaterial": "viscofric.friction.identification.result",
+    "identify_from_indentation": "viscofric.friction.identification.indentation.identify",
+    "IndentationRecord": "viscofric.friction.identification.indentation.record",
+    "read_indentation": "viscofric.friction.identification.indentation.record",
+    "FittedRecord": "viscofric.friction.identification.indentation.result",
+    "MaterialFromIndentation": "viscofric.friction.identification.indentation.result",
     "predict_friction": "viscofric.friction.prediction",
     "FrictionMasterCurve": "viscofric.friction.shifting.master_curve",
     "shift_friction": "viscofric.friction.shifting.shift",

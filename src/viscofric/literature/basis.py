@@ -13,6 +13,7 @@ from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError
 from viscofric.files import parse_toml
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.identification.indentation.result import MaterialFromIndentation
 from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.literature.reference import Reference
@@ -25,7 +26,7 @@ from viscofric.rheology.ramps.result import RampSuperposition
 from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, ShiftLaw, WLFArrhenius
 from viscofric.rheology.spectra.modulus_table import ModulusTable
-from viscofric.rheology.spectra.quality import FROM_FRICTION
+from viscofric.rheology.spectra.quality import FROM_FRICTION, FROM_INDENTATION
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
@@ -81,6 +82,8 @@ def modes(method: str = "") -> Basis:
     yield PAPER, "the rubber as a sum of retardation modes (Eqs. 3 and 5)"
     if method == FROM_FRICTION:
         yield from _identification()
+    elif method == FROM_INDENTATION:
+        yield from _from_indentation()
     elif method:
         yield from _for("non-negative least squares", "lawson1974")
     if method == "regularised":
@@ -177,8 +180,11 @@ def superposed_steps() -> Basis:
 @basis.register
 def _of_samples(samples: MaterialSamples) -> Basis:
     first = samples.materials[0].spectrum
-    if isinstance(first, RetardationSpectrum) and first.fit is not None and first.fit.from_friction:
+    method = first.fit.method if isinstance(first, RetardationSpectrum) and first.fit is not None else ""
+    if method == FROM_FRICTION:
         yield from _identification()
+    elif method == FROM_INDENTATION:
+        yield from _from_indentation()
     else:
         yield from _for("uncertainty of the rubber", "efron1993")
 
@@ -297,7 +303,24 @@ def _of_identified(found: IdentifiedMaterial) -> Basis:
 
 def _identification() -> Basis:
     yield from _adjoint()
+    yield from _uncertainty()
+
+
+def _uncertainty() -> Basis:
     yield from _for("uncertainty of what was identified", "chen2012", "bardsley2014")
+
+
+@basis.register
+def _of_indentation(found: MaterialFromIndentation) -> Basis:
+    yield PAPER, "the rubber as a sum of retardation modes (Eqs. 3 and 5)"
+    yield from _from_indentation()
+    if found.shift_found:
+        yield from superposed_steps()
+
+
+def _from_indentation() -> Basis:
+    yield from _for("modulus from growing contacts", "lee1960")
+    yield from _uncertainty()
 
 
 @basis.register

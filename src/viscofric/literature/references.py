@@ -194,6 +194,15 @@ _TABLE = (
         publisher="Prentice-Hall",
     ),
     Reference(
+        "lee1960",
+        ("E. H. Lee", "J. R. M. Radok"),
+        1960,
+        "The contact problem for viscoelastic bodies",
+        "J. Appl. Mech.",
+        "27",
+        "438--444",
+    ),
+    Reference(
         "lions1979",
         ("P. L. Lions", "B. Mercier"),
         1979,

@@ -10,22 +10,30 @@ import numpy as np
 from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band, level_family
-from viscofric.friction.identification.iteration import Weighed, most_evident, weighed
+from viscofric.friction.identification.drawn_materials import (
+    MaterialOf,
+    Posterior,
+    band,
+    level_family,
+    limits,
+    prior_materials,
+)
+from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
+from viscofric.friction.identification.posterior import correlation
 from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedBand, IdentifiedMaterial, LevelFit
-from viscofric.friction.identification.solving import Contacts, spectrum_of
 from viscofric.notes import Note, codes
-from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
     from viscofric.friction.identification.problem import Problem
+    from viscofric.friction.identification.solving import Contacts
+    from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
 #: Residuals this many standard deviations above their expectation enlarge the errors.
@@ -73,7 +81,7 @@ class Outcome:
 
     curves: FrictionCurves
     start: Problem  # as set up
-    fits: list[Weighed]
+    fits: list[Weighed[Problem]]
     iterations: int
     contacts: Contacts
     shift: ShiftLaw | None  # as given
@@ -92,7 +100,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     material_of = MaterialOf(problem, law, outcome.contacts.poisson_ratio, outcome.name)
     low, middle, high = _frequencies(best)
     drawn = material_of.samples(posterior.drawn, (low, high))
-    expected = _expected(material_of, best, samples, random)
+    expected = prior_materials(material_of, best, samples, random)
     doubts = _doubts(outcome, error_scale, best, limit)
     bands = [
         IdentifiedBand(middle, middle, limit, not outcome.anchored)
@@ -119,12 +127,12 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         anchored=outcome.anchored,
         middle=middle,
         frequency_range=(low, high),
-        level_range=(float(_limits(levels_drawn)[0]), float(_limits(levels_drawn)[1])),
+        level_range=(float(limits(levels_drawn)[0]), float(limits(levels_drawn)[1])),
         family=family,
         friction=fitted,
         residuals=residuals,
         chi2=float(residuals @ residuals),
-        freedom=_freedom(best),
+        freedom=freedom_of(best, len(best.problem.observations.points)),
         rms=float(np.sqrt(np.mean((residuals * points.error) ** 2))),
         error_scale=error_scale,
         roughness=problem.smoothness.roughness,
@@ -134,19 +142,12 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     return replace(found, material=with_origin(found, outcome.curves.source))
 
 
-def _freedom(best: Weighed) -> float:
-    """Return the number of points minus the trace of the hat matrix."""
-    _, jacobian = best.problem.measured(best.minimum.place)
-    part = jacobian[: len(best.problem.observations.points)]
-    return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
-
-
-def _with_enlarged_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
+def _with_enlarged_errors(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], float]:
     """Enlarge the errors of the points where their residuals exceed them, and fit again."""
     best = most_evident(fits)
     points = best.problem.observations.points
     away = _residuals(best)
-    freedom = max(_freedom(best), 1.0)
+    freedom = max(freedom_of(best, len(best.problem.observations.points)), 1.0)
     ratio = float(away @ away) / freedom
     if ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / freedom):
         return fits, 1.0
@@ -155,7 +156,7 @@ def _with_enlarged_errors(fits: list[Weighed]) -> tuple[list[Weighed], float]:
     return weighed(replace(best.problem, observations=larger), best.minimum.place), scale
 
 
-def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -> tuple[str, ...]:
+def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> tuple[str, ...]:
     """Return notes on doubts about the residuals and the friction."""
     points = outcome.start.observations.points
     measured = points.at_one_load(outcome.curves)
@@ -198,28 +199,20 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed, limit: float) -
     return tuple(notes)
 
 
-def _residuals(best: Weighed) -> Array:
+def _residuals(best: Weighed[Problem]) -> Array:
     """Return modelled minus measured ln μ of every point, over its error."""
     return best.problem.measured(best.minimum.place)[0][: len(best.problem.observations.points)]
 
 
-def _follow_each_other(best: Weighed, residuals: Array) -> bool:
-    """Whether successive residuals are correlated.
-
-    In the order of reduced speed, or temperature by temperature.  J. von Neumann et al., Annals of Mathematical
-    Statistics 12 (1941) 153.
-    """
+def _follow_each_other(best: Weighed[Problem], residuals: Array) -> bool:
+    """Whether successive residuals are correlated, in the order of reduced speed, or temperature by temperature."""
     points, (_, log_alpha) = best.problem.observations.points, best.problem.split(best.minimum.place)
-    n = len(residuals)
     reduced = points.log_speed + log_alpha[points.number]
-    found = []
-    for order in (np.argsort(reduced, kind="stable"), np.lexsort((points.log_speed, points.number))):
-        ratio = float(np.sum(np.diff(residuals[order]) ** 2) / (residuals @ residuals))
-        found.append((1.0 - 0.5 * ratio) * np.sqrt((n**2 - 1.0) / (n - 2.0)))
-    return bool(max(found) > FOLLOWING)
+    orders = (np.argsort(reduced, kind="stable"), np.lexsort((points.log_speed, points.number)))
+    return max(correlation(residuals[order]) for order in orders) > FOLLOWING
 
 
-def _anchor_notes(best: Weighed, drawn: MaterialSamples, middle: float, limit: float) -> tuple[Note, ...]:
+def _anchor_notes(best: Weighed[Problem], drawn: MaterialSamples, middle: float, limit: float) -> tuple[Note, ...]:
     """Return notes on anchors that do not determine the level, or contradict the friction or each other."""
     notes = []
     spread = float(np.std([np.log(np.abs(one.complex_modulus(middle))) for one in drawn.materials], ddof=1))
@@ -246,7 +239,7 @@ def _anchor_notes(best: Weighed, drawn: MaterialSamples, middle: float, limit: f
     return tuple(notes)
 
 
-def _frequencies(best: Weighed) -> tuple[float, float, float]:
+def _frequencies(best: Weighed[Problem]) -> tuple[float, float, float]:
     """Return the lowest, the middle and the highest of the contacts' frequencies v/a at the reference, rad/s."""
     problem = best.problem
     compliances, log_alpha = problem.split(best.minimum.place)
@@ -257,28 +250,13 @@ def _frequencies(best: Weighed) -> tuple[float, float, float]:
     return float(low), float(np.sqrt(low * high)), float(high)
 
 
-def _expected(material_of: MaterialOf, best: Weighed, samples: int, random: np.random.Generator) -> MaterialSamples:
-    """Draw materials from the prior of the spectrum."""
-    smoothness = best.problem.smoothness
-    drawn = np.linalg.solve(smoothness.matrix, random.standard_normal((len(smoothness.middle), samples)))
-    # About the result: another level only moves the frequencies.
-    compliances = best.minimum.place[: best.problem.modes] + drawn.T
-    spectra = [spectrum_of(row, smoothness.tau) for row in compliances]
-    return MaterialSamples(
-        tuple(Material(one, None, material_of.poisson_ratio) for one in spectra),
-        np.array([one.C for one in spectra]),
-        np.array([one.tau for one in spectra]),
-        (0.0, np.inf),
-    )
-
-
-def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Array]:
+def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCurves, Array]:
     """Return the friction of the identified material at the points, and the residuals over the standard errors."""
     problem, place = posterior.best.problem, posterior.best.minimum.place
     points = problem.observations.points
     value, _ = problem.log_friction(place)
     drawn = np.array([problem.log_friction(row)[0] for row in posterior.drawn])
-    lower, upper = np.exp(_limits(drawn) + points.raised)
+    lower, upper = np.exp(limits(drawn) + points.raised)
     friction = np.exp(value + points.raised)
     measured = outcome.curves.select(points.rows)
     solved = problem.friction.solved
@@ -298,8 +276,3 @@ def _fitted(outcome: Outcome, posterior: Posterior) -> tuple[FrictionCurves, Arr
         viscoelastic_upper=upper,
     )
     return curves, (points.log_friction - value) / points.error
-
-
-def _limits(drawn: Array) -> Array:
-    """Return limits that include a further sample with 95 % probability: Weibull's plotting position."""
-    return np.asarray(np.quantile(drawn, [0.025, 0.975], axis=0, method="weibull"))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic
 
 import numpy as np
 
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.iteration import Weighed, most_evident
+from viscofric.friction.identification.iteration import AnyProblem, most_evident
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.posterior import descend, draws
 from viscofric.friction.identification.result import IdentifiedBand, LevelFit
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.identification.iteration import Weighed
-    from viscofric.friction.identification.problem import Problem
+    from viscofric.friction.identification.problem import Problem, SpectrumProblem
     from viscofric.friction.identification.solving import Contacts
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
@@ -33,15 +33,17 @@ BAND_STEPS = 20
 
 
 @dataclass(frozen=True, eq=False)
-class Posterior:
+class Posterior(Generic[AnyProblem]):
     """The fits under every roughness combined."""
 
-    best: Weighed  # of the roughness with most evidence
+    best: Weighed[AnyProblem]  # of the roughness with most evidence
     drawn: Array  # (samples, p), unknowns
     covariance: Array  # (p, p), of the normal densities about every fit, weighted by their evidence
 
     @classmethod
-    def of(cls, fits: Sequence[Weighed], samples: int, random: np.random.Generator) -> Posterior:
+    def of(
+        cls, fits: Sequence[Weighed[AnyProblem]], samples: int, random: np.random.Generator
+    ) -> Posterior[AnyProblem]:
         """Draw from fits, each by its part of the evidence."""
         evidence = np.array([fit.log_evidence for fit in fits])
         shares = np.exp(evidence - evidence.max())
@@ -67,7 +69,7 @@ class Posterior:
 class MaterialOf:
     """Makes materials of unknowns."""
 
-    problem: Problem
+    problem: SpectrumProblem
     # known exactly; None where the factors are among the unknowns, or there is one temperature only
     shift: ShiftLaw | None
     poisson_ratio: float
@@ -92,6 +94,28 @@ class MaterialOf:
         C = np.array([material.modes_at().C for material in materials])
         tau = np.array([material.modes_at().tau for material in materials])
         return MaterialSamples(materials, C, tau, frequency_range)
+
+
+def prior_materials(
+    material_of: MaterialOf, best: Weighed[Any], samples: int, random: np.random.Generator
+) -> MaterialSamples:
+    """Draw materials from the prior of the spectrum."""
+    smoothness = best.problem.smoothness
+    drawn = np.linalg.solve(smoothness.matrix, random.standard_normal((len(smoothness.middle), samples)))
+    # About the result: another level only moves the frequencies.
+    compliances = best.minimum.place[: best.problem.modes] + drawn.T
+    spectra = [spectrum_of(row, smoothness.tau) for row in compliances]
+    return MaterialSamples(
+        tuple(Material(one, None, material_of.poisson_ratio) for one in spectra),
+        np.array([one.C for one in spectra]),
+        np.array([one.tau for one in spectra]),
+        (0.0, np.inf),
+    )
+
+
+def limits(drawn: Array) -> Array:
+    """Return limits that include a further sample with 95 % probability: Weibull's plotting position."""
+    return np.asarray(np.quantile(drawn, [0.025, 0.975], axis=0, method="weibull"))
 
 
 def band(
@@ -142,7 +166,7 @@ HELD = 1e-3
 
 
 def level_family(
-    best: Weighed,
+    best: Weighed[Problem],
     contacts: Contacts,
     material_of: MaterialOf,
     middle: float,
@@ -186,7 +210,7 @@ def level_family(
     return tuple(replace(found[factor], penalty=found[factor].penalty - least) for factor in sorted(found))
 
 
-def _held(best: Weighed, middle: float, log_modulus: float) -> Problem:
+def _held(best: Weighed[Problem], middle: float, log_modulus: float) -> Problem:
     problem = best.problem
     level = ModulusObservation(
         np.array([np.log(middle)]), problem.shifts.reference, "magnitude", np.array([log_modulus])

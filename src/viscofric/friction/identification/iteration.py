@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.friction.identification.posterior import Minimum, descend, log_evidence
-from viscofric.friction.identification.problem import ROUGHNESS
+from viscofric.friction.identification.problem import ROUGHNESS, SpectrumProblem
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -40,21 +40,24 @@ GROWTH = 4.0
 HALVINGS = 4
 
 
-class Weighed(NamedTuple):
+AnyProblem = TypeVar("AnyProblem", bound=SpectrumProblem)
+
+
+class Weighed(NamedTuple, Generic[AnyProblem]):
     """A fit under one roughness of the prior, and the logarithm of the evidence for it."""
 
-    problem: Problem
+    problem: AnyProblem
     minimum: Minimum
     log_evidence: float
 
 
-def weighed(problem: Problem, start: Array) -> list[Weighed]:
+def weighed(problem: AnyProblem, start: Array) -> list[Weighed[AnyProblem]]:
     """Fit under every roughness of the prior, outward from that of the problem; the smoothest comes first.
 
     Raises ConvergenceError if no fit converges.
     """
     middle = int(np.argmin(np.abs(np.log(ROUGHNESS / problem.smoothness.roughness))))
-    found: dict[int, Weighed] = {}
+    found: dict[int, Weighed[AnyProblem]] = {}
     for way in (range(middle, len(ROUGHNESS)), range(middle - 1, -1, -1)):
         place = start if middle not in found else found[middle].minimum.place
         for number in way:
@@ -65,14 +68,21 @@ def weighed(problem: Problem, start: Array) -> list[Weighed]:
     settled = [found[number] for number in sorted(found) if found[number].minimum.settled]
     if not settled:
         raise ConvergenceError(
-            "the fit of the spectrum to the friction does not settle; give an anchor or a prior.", code="not-converged"
+            "the fit of the spectrum does not settle; give an anchor or a prior.", code="not-converged"
         )
     return settled
 
 
-def most_evident(fits: list[Weighed]) -> Weighed:
+def most_evident(fits: list[Weighed[AnyProblem]]) -> Weighed[AnyProblem]:
     """Return the fit of the roughness for which there is most evidence."""
     return max(fits, key=lambda fit: fit.log_evidence)
+
+
+def freedom_of(best: Weighed[Any], count: int) -> float:
+    """Return the number of points, the first `count` residuals, minus the trace of the hat matrix."""
+    _, jacobian = best.problem.measured(best.minimum.place)
+    part = jacobian[:count]
+    return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
 
 
 class Here(NamedTuple):
@@ -83,7 +93,7 @@ class Here(NamedTuple):
     accuracy: float
 
 
-def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[Weighed], int]:
+def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[Weighed[Problem]], int]:
     """Iterate until the friction converges; return the fits under every roughness, and the number of iterations.
 
     Each step leads to the predicted minimum in the neighbourhood of the solved contacts.  Where contacts solved there
@@ -121,7 +131,7 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
 
 
 def _stepped(
-    here: Here, best: Weighed, contacts: Contacts, number: int, damping: float
+    here: Here, best: Weighed[Problem], contacts: Contacts, number: int, damping: float
 ) -> tuple[Here | None, int, float]:
     """Return the result of a step (None without one), the number of materials solved so far, and the next damping."""
     target, near = best.problem, here.place

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -167,14 +168,11 @@ class Observations:
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
+class SpectrumProblem(ABC):
     """Residuals of standard deviation one in the unknowns: compliances (1 + m,), then ln α (t,)."""
 
-    friction: CorrectedFriction
-    observations: Observations
     shifts: Shifts
     smoothness: Smoothness
-    contacts: tuple[SolvedContact, ...] = ()  # contacts whose size was measured
 
     @property
     def modes(self) -> int:
@@ -190,14 +188,37 @@ class Problem:
         result[: self.modes, : self.modes], result[self.modes :, self.modes :] = A.T @ A, W.T @ W
         return result
 
+    def split(self, unknowns: Array) -> tuple[Array, Array]:
+        """Return compliances and ln α."""
+        return unknowns[: self.modes], unknowns[self.modes :]
+
+    @abstractmethod
+    def measured(self, unknowns: Array) -> tuple[Array, Array]:
+        """Return the residuals of the measurements (r,), and their derivatives (r, p)."""
+
+    def __call__(self, unknowns: Array) -> tuple[Array, Array]:
+        """Return all residuals (r,), those of the prior last, and their derivatives (r, p)."""
+        compliances, log_alpha = self.split(unknowns)
+        values, changes = self.measured(unknowns)
+        A, W = self.smoothness.matrix, self.shifts.whitening
+        expected = np.zeros((len(A) + len(W), len(unknowns)))
+        expected[: len(A), : self.modes], expected[len(A) :, self.modes :] = A, W
+        away = np.concatenate([A @ (compliances - self.smoothness.middle), W @ (log_alpha - self.shifts.middle)])
+        return np.concatenate([values, away]), np.concatenate([changes, expected])
+
+
+@dataclass(frozen=True, eq=False)
+class Problem(SpectrumProblem):
+    """Identification from friction."""
+
+    friction: CorrectedFriction
+    observations: Observations
+    contacts: tuple[SolvedContact, ...] = ()  # contacts whose size was measured
+
     def blurred(self, error: float) -> Problem:
         """Return the problem with an additional error of ln μ at every point."""
         points = replace(self.observations.points, error=np.hypot(self.observations.points.error, error))
         return replace(self, observations=replace(self.observations, points=points))
-
-    def split(self, unknowns: Array) -> tuple[Array, Array]:
-        """Return compliances and ln α."""
-        return unknowns[: self.modes], unknowns[self.modes :]
 
     def log_friction(self, unknowns: Array) -> tuple[Array, Array]:
         """Return the modelled ln μ of every point (n,), and its derivatives (n, p)."""
@@ -225,16 +246,6 @@ class Problem:
             values.append(np.array([away]))
             changes.append(np.concatenate([moved, slope * row])[None, :])
         return np.concatenate(values), np.concatenate(changes)
-
-    def __call__(self, unknowns: Array) -> tuple[Array, Array]:
-        """Return all residuals (r,), those of the prior last, and their derivatives (r, p)."""
-        compliances, log_alpha = self.split(unknowns)
-        values, changes = self.measured(unknowns)
-        A, W = self.smoothness.matrix, self.shifts.whitening
-        expected = np.zeros((len(A) + len(W), len(unknowns)))
-        expected[: len(A), : self.modes], expected[len(A) :, self.modes :] = A, W
-        away = np.concatenate([A @ (compliances - self.smoothness.middle), W @ (log_alpha - self.shifts.middle)])
-        return np.concatenate([values, away]), np.concatenate([changes, expected])
 
     def _modulus(self, one: ModulusObservation, compliances: Array, log_alpha: Array) -> tuple[Array, Array]:
         row = self.shifts.row(one.temperature)

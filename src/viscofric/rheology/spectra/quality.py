@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
-#: Method of a spectrum that was inferred from friction.
-FROM_FRICTION = "friction"
+#: Methods of spectra that were inferred from friction, and from indentation.
+FROM_FRICTION, FROM_INDENTATION = "friction", "indentation"
+_BEYOND_INDENTATION = "extrapolated: beyond the range of the indentation"
 _REACHED = "reached by the sweeps"
 
 
@@ -34,14 +35,14 @@ class SpectrumFit:
         Likewise the glass: E_inf exceeds E' at the highest frequency by more than 5 %, or the loss tangent
         there is above 0.1.
     frequency_range : tuple of float
-        Lowest and highest reduced angular frequency measured, or identified from friction, rad/s; beyond them the
+        Lowest and highest reduced angular frequency measured, or identified, rad/s; beyond them the
         spectrum extrapolates.  Creep from a time t on counts up to 0.1/t, relaxation up to 0.01/t: faster processes are
         part of E''(ω), but no longer of the step response.
     notes : tuple of str
         The same in sentences.
     method : str
-        How it was fitted: "non-negative", "regularised" or "sparse", or "friction" where it was identified from
-        friction; empty where that is not known.
+        How it was fitted: "non-negative", "regularised" or "sparse", or "friction" or "indentation" where it was
+        identified from one of these; empty where that is not known.
     modes : int
         Number of modes that have compliance.
     tau_ratio : float or None
@@ -91,6 +92,11 @@ class SpectrumFit:
     def from_friction(self) -> bool:
         """Whether the spectrum was identified from friction, without a modulus measured."""
         return self.method == FROM_FRICTION
+
+    @property
+    def from_contact(self) -> bool:
+        """Whether the spectrum was identified from friction or indentation, without a master curve."""
+        return self.method in (FROM_FRICTION, FROM_INDENTATION)
 
     @property
     def E0_remark(self) -> str:
@@ -151,7 +157,8 @@ class SpectrumFit:
 
     @property
     def _beyond(self) -> str:
-        return _BEYOND_FRICTION if self.from_friction else _EXTRAPOLATED
+        beyond = {FROM_FRICTION: _BEYOND_FRICTION, FROM_INDENTATION: _BEYOND_INDENTATION}
+        return beyond.get(self.method, _EXTRAPOLATED)
 
     def _measured(self, end: int) -> str:
         return "" if self.measured_storage is None else f", {shown_modulus(self.measured_storage[end])}"

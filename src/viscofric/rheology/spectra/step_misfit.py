@@ -86,7 +86,7 @@ class RelaxationMisfit(StepMisfit):
 
     def __init__(self, rates: Array, moduli: Array) -> None:
         super().__init__(rates, moduli)
-        self._nodes, self._weights = _contour()
+        self._nodes, self._weights = contour()
 
     def ends_of(self, lowest: float, highest: float) -> tuple[float, float]:
         """Return the ends of the retardation times, from `FASTER` times below those that creep would show."""
@@ -203,7 +203,7 @@ def joint_misfit(curves: Sequence[MasterCurve | StepMasterCurve], parts: Sequenc
     return JointMisfit(parts, [False, *(bool(one >= LEVEL_OVERLAP) for one in common)])
 
 
-def _contour() -> tuple[ComplexArray, ComplexArray]:
+def contour() -> tuple[ComplexArray, ComplexArray]:
     """Return the nodes z above the real axis, and the weights c."""
     theta = np.pi * (np.arange(NODES // 2) + 0.5) * 2.0 / NODES
     bent = 0.6407 * theta

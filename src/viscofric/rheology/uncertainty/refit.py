@@ -31,7 +31,7 @@ class Refit:
     """
 
     def __init__(self, spectrum: RetardationSpectrum, like: Misfit, lowest: float, highest: float) -> None:
-        if spectrum.fit is None or not spectrum.fit.method or spectrum.fit.from_friction:
+        if spectrum.fit is None or not spectrum.fit.method or spectrum.fit.from_contact:
             raise InputError(
                 "spectrum: was not fitted to a master curve, so that it cannot be fitted to samples of one; "
                 "give what fit_retardation_spectrum returned.",

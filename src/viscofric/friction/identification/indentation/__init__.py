@@ -1,0 +1,1 @@
+"""Identification of the material from indentation over time."""

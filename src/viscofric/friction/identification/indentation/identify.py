@@ -1,0 +1,231 @@
+"""Identification of a material from indentation over time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.arguments import insist_on, text, whole_number
+from viscofric.contact.bodies import indenter_compliance
+from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
+from viscofric.errors import InputError
+from viscofric.friction.identification.indentation.conclusions import conclude
+from viscofric.friction.identification.indentation.record import IndentationRecord
+from viscofric.friction.identification.indentation.setting_up import problem_of, shifts_of, usable_records
+from viscofric.friction.identification.iteration import freedom_of, most_evident, weighed
+from viscofric.friction.identification.posterior import descend
+from viscofric.motion.springs import is_body_of_revolution
+from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.threads import one_blas_thread
+from viscofric.units import checked_poisson_ratio, positive
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.arrays import Array
+    from viscofric.friction.identification.indentation.problem import IndentationProblem
+    from viscofric.friction.identification.indentation.result import MaterialFromIndentation
+    from viscofric.friction.identification.iteration import Weighed
+    from viscofric.units import Quantity
+
+FEWEST_SAMPLES, FEWEST_MODES = 20, 8
+#: Errors that are found from the residuals are found anew while they change by more than this, so many times at most.
+SETTLED, PASSES = 0.05, 4
+#: Least relative error of a response: what discretisation in time leaves.
+LEAST_ERROR = 1e-4
+#: Residuals this many standard deviations above their expectation enlarge the given errors.
+DOUBTFUL = 3.0
+
+
+@one_blas_thread
+def identify_from_indentation(
+    records: IndentationRecord | Sequence[IndentationRecord],
+    indenter: Indenter,
+    *,
+    shift: ShiftLaw | None = None,
+    reference: Quantity | None = None,
+    poisson_ratio: float = 0.5,
+    indenter_modulus: Quantity | None = None,
+    indenter_poisson_ratio: float = 0.3,
+    modes: int = 30,
+    limit: float = 0.05,
+    samples: int = 200,
+    seed: int = 0,
+    name: str = "identified from indentation",
+) -> MaterialFromIndentation:
+    """Identify the retardation spectrum, and α(T), from indentation tests.
+
+    Creep (the depth after a step of load), relaxation (the load after a step of depth) and any other record while the
+    contact grows, such as ramps and holds; rows from where it shrinks are left out, with a note.
+
+    Parameters
+    ----------
+    records : IndentationRecord or list of IndentationRecord
+        Each on a place of the material that nothing has touched before.
+    indenter : Indenter
+        A body of revolution: Ball, Cone or FlatPunch.
+    shift : ShiftLaw, optional
+        α(T), as from a DMA, with its covariance where it has one; of several temperatures found by superposition if
+        left out.
+    reference : float, str or pint.Quantity, optional
+        Temperature at which the material is described, K if a plain number; without it, that of `shift`, or the middle
+        one of the records.
+    poisson_ratio : float
+        Of the rubber, constant.
+    indenter_modulus : float, str or pint.Quantity, optional
+        Young's modulus of an elastic indenter, Pa if a plain number; rigid without it.
+    indenter_poisson_ratio : float
+        Of an elastic indenter.
+    modes : int
+        Retardation times; more are taken where these would be more than 0.4 decades apart.
+    limit : float
+        Largest relative standard error of an identified modulus.
+    samples : int
+        Materials drawn from the posterior density.
+    seed : int
+        Of the draws.
+    name : str
+        Of the material.
+
+    Returns
+    -------
+    MaterialFromIndentation
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, a record has too few rows in which the contact grows (oscillation, rebound), or
+        α(T) is neither given nor to be found because the temperatures do not overlap.
+    ConvergenceError
+        If the fit does not settle.
+
+    Notes
+    -----
+    While the contact of a body of revolution grows, its record is linear in J(t), or in E(t) (E. H. Lee, J. R. M.
+    Radok, J. Appl. Mech. 27 (1960) 438): of a ball δ^{3/2}(t) = (3/4)(1−ν²)/√R ∫J(t−s)dF(s) and
+    F(t) = (4/3)√R/(1−ν²) ∫E(t−s)dδ^{3/2}(s).  What was prescribed is taken as exact and linear between the rows.
+    ln of the response is fitted, averaged over twentieths of a decade of time since what was prescribed last changed
+    its slope, with the prior, the evidence and the samples of `identify_material`: unknowns are ln C_k, ln E_inf and
+    ln α.  Several temperatures are first fitted one by one, their J(t) is superposed as creep tests are, and the
+    factors are then refined together with the spectrum.
+
+    Assumed are a half-space, small strain, no friction and no adhesion in the contact.  Errors that all rows of a
+    record share, of the indenter's radius, of the machine's compliance and above all of the depth's zero, are not in
+    the bands: 1 % of the radius is 0.5 % of the modulus, 1 % of the depth 1.5 %.
+
+    Examples
+    --------
+    A planted material, and a creep test of it under a ball (synthetic):
+
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> rubber = vf.synthetic_fluoroelastomer()
+    >>> time = np.geomspace(0.01, 100.0, 60)
+    >>> J = rubber.at("30 degC").creep_compliance(time)
+    >>> scatter = 1.0 + 0.005 * np.random.default_rng(1).standard_normal(60)
+    >>> depth = (0.75 * 0.75 / np.sqrt(0.01) * J * 2.0) ** (2 / 3) * scatter  # 2 N, R = 10 mm
+    >>> creep = vf.IndentationRecord(time, np.full(60, 2.0), depth, "30 degC", control="load", start=0.0)
+    >>> found = vf.identify_from_indentation(creep, vf.Ball("10 mm"), samples=20)
+    >>> ratio = found.material.complex_modulus(1.0) / rubber.complex_modulus(1.0, "30 degC")
+    >>> bool(abs(ratio - 1.0) < 0.05)
+    True
+    """
+    several = _checked(records, indenter, shift)
+    ratio = checked_poisson_ratio(poisson_ratio)
+    for label, value, fewest in (
+        ("modes", modes, FEWEST_MODES),
+        ("samples", samples, FEWEST_SAMPLES),
+        ("seed", seed, 0),
+    ):
+        whole_number(value, label, fewest, None if label == "seed" else 10**6)
+    if positive(limit, "dimensionless", "limit") >= 1.0:
+        raise InputError(f"limit = {limit!r}: must be a relative error above 0 and below 1.", code="out-of-range")
+    text(name, "name")
+    kelvin = None if reference is None else positive(reference, "K", "reference")
+    plane_strain = 1.0 - ratio**2
+    extra = indenter_compliance(indenter_modulus, indenter_poisson_ratio) / plane_strain
+    usable = usable_records(several, indenter)
+    usable, shifts = shifts_of(usable, shift, kelvin, plane_strain, extra)
+    problem = problem_of(usable, shifts, plane_strain, extra, modes)
+    fits, scale = _fitted(problem)
+    return conclude(
+        usable, fits, scale, shift=shift, poisson_ratio=ratio, name=name, limit=limit, samples=samples, seed=seed
+    )
+
+
+def _checked(records: object, indenter: object, shift: object) -> tuple[IndentationRecord, ...]:
+    several = tuple(records) if isinstance(records, (list, tuple)) else (records,)
+    if not several:
+        raise InputError("records: none given.", code="too-few-points", field="records")
+    for one in several:
+        insist_on(one, "records", IndentationRecord, right="an IndentationRecord, or a list of them")
+    insist_on(shift, "shift", ShiftLaw, type(None), right="a shift law, ShiftFactors or None")
+    insist_on_indenter(indenter)
+    assert isinstance(indenter, Indenter)
+    if not is_body_of_revolution(indenter):
+        raise InputError(
+            f"indenter: a {indenter.noun} is no body of revolution, whose growing contact is known in closed form; use "
+            "a Ball, Cone or FlatPunch.",
+            code="no-revolution",
+            field="indenter",
+        )
+    return several
+
+
+def _fitted(problem: IndentationProblem) -> tuple[list[Weighed[IndentationProblem]], float]:
+    """Fit under every roughness, with errors found from the residuals where they are not given, or enlarged by them.
+
+    Returned is also the factor by which given errors were enlarged.
+    """
+    start = np.concatenate([problem.smoothness.middle, problem.shifts.middle])
+    place = descend(problem, start, metric=problem.metric).place
+    fits = weighed(problem, place)
+    unknown = [contact.error is None for contact in problem.contacts]
+    for _ in range(PASSES if any(unknown) else 0):
+        best = most_evident(fits)
+        errors = _errors(best)
+        errors = tuple(new if found else old for new, old, found in zip(errors, problem.errors, unknown, strict=True))
+        changed = max(float(np.max(np.abs(np.log(new / old)))) for new, old in zip(errors, problem.errors, strict=True))
+        problem = replace(problem, errors=errors)
+        fits = weighed(problem, best.minimum.place)
+        if changed < SETTLED:
+            break
+    if all(unknown):
+        return fits, 1.0
+    given, scale = problem.errors, 1.0
+    for _ in range(PASSES):
+        best = most_evident(fits)
+        ratio = _ratio(best, unknown)
+        if scale == 1.0 and ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / best.problem.count):
+            break
+        scale *= max(float(np.sqrt(ratio)), 1.0 / scale)
+        larger = tuple(error if found else scale * error for error, found in zip(given, unknown, strict=True))
+        fits = weighed(replace(problem, errors=larger), best.minimum.place)
+        if abs(ratio - 1.0) < 2.0 * SETTLED:
+            break
+    return fits, scale
+
+
+def _ratio(best: Weighed[IndentationProblem], unknown: Sequence[bool]) -> float:
+    """Return the mean square of the residuals, of records with given errors, over what is expected of it."""
+    problem = best.problem
+    given = np.repeat(~np.array(unknown), [len(contact) for contact in problem.contacts])
+    away = problem.measured(best.minimum.place)[0][given]
+    left = max(freedom_of(best, problem.count), 1.0) / problem.count
+    return float(np.mean(away**2)) / left
+
+
+def _errors(best: Weighed[IndentationProblem]) -> tuple[Array, ...]:
+    """Return errors like the residuals, for every record, constant but for the number of rows averaged."""
+    problem = best.problem
+    away = problem.measured(best.minimum.place)[0]
+    left = max(freedom_of(best, problem.count), 1.0) / problem.count
+    found, first = [], 0
+    for contact, error in zip(problem.contacts, problem.errors, strict=True):
+        own = away[first : first + len(contact)] * error * np.sqrt(contact.count)
+        first += len(contact)
+        size = float(np.sqrt(np.mean(own**2) / left))
+        found.append(np.maximum(size / np.sqrt(contact.count), LEAST_ERROR))
+    return tuple(found)

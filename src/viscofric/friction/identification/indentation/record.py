@@ -1,0 +1,250 @@
+"""A measured indentation test: load and depth over time at one temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from viscofric.arguments import text
+from viscofric.data import read_only
+from viscofric.datasets import dataset
+from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.motion.history import CONTROLS
+from viscofric.notes import Note
+from viscofric.readers.history_columns import HISTORY, history_columns
+from viscofric.readers.tables import name_columns
+from viscofric.units import positive, to_si, to_si_array
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from os import PathLike
+
+    import xarray
+
+    from viscofric.arrays import Array
+    from viscofric.units import Quantities, Quantity
+
+
+#: What was prescribed in a test; the other one is the response.
+Control: TypeAlias = Literal["load", "indentation"]
+#: Prescribed quantity -> the response.
+RESPONSE = {"load": "indentation", "indentation": "load"}
+#: Fewest rows of a record.
+LEAST_ROWS = 5
+
+
+@dataclass(frozen=True, eq=False)
+class IndentationRecord:
+    """Load and depth of an indenter over time at one temperature, on material that nothing has touched before.
+
+    Parameters
+    ----------
+    time : (n,) array of float, str or pint.Quantity
+        s, never decreasing, five rows at least; a time given twice is a jump.
+    load : (n,) array of float, str or pint.Quantity
+        Normal load, N.  A first load above zero is put on at once, at `start`.
+    indentation : (n,) array of float, str or pint.Quantity
+        Depth of the indenter's lowest point below the undeformed surface, m.
+    temperature : float, str or pint.Quantity
+        K if a plain number.
+    control : {"load", "indentation"}
+        What was prescribed, and is taken as exact; linear between the rows.  The other one is the response: its values
+        at equal times to those prescribed are fitted.
+    error : float, str, pint.Quantity or (n,) array of them, optional
+        Standard error of the response in every row, m or N, independent from row to row; found from the residuals,
+        as a constant part of the response, if left out.
+    start : float, str or pint.Quantity, optional
+        Time of the first contact, s, not after the first row; that of the first row if left out.
+    source : str
+        Origin, such as a file's name.
+
+    Raises
+    ------
+    InputError
+        If time goes back, columns differ in length, or a value is no number of the right unit.
+
+    Examples
+    --------
+    A ball that is loaded with 1 N at once, at the time 0, and sinks in:
+
+    >>> import numpy as np
+    >>> import viscofric as vf
+    >>> time = np.geomspace(0.01, 100.0, 40)
+    >>> depth = 1e-4 * (1.0 + 0.2 * np.log10(time / 0.01))
+    >>> creep = vf.IndentationRecord(time, np.ones(40), depth, "23 degC", control="load", start=0.0)
+    >>> len(creep)
+    40
+    """
+
+    time: Array
+    load: Array
+    indentation: Array
+    temperature: float
+    control: Control
+    error: Array | None
+    start: float
+    source: str
+
+    def __init__(
+        self,
+        time: Quantities,
+        load: Quantities,
+        indentation: Quantities,
+        temperature: Quantity,
+        *,
+        control: Control,
+        error: Quantities | None = None,
+        start: Quantity | None = None,
+        source: str = "",
+    ) -> None:
+        check_choice(control, "control", *RESPONSE)
+        seconds = to_si_array(time, "s", "time")
+        columns = {
+            "load": to_si_array(load, "N", "load"),
+            "indentation": to_si_array(indentation, "m", "indentation"),
+        }
+        if len(seconds) < LEAST_ROWS:
+            raise InputError(
+                f"time: a record has {LEAST_ROWS} rows at least, not {len(seconds)}.", code="too-few-points"
+            )
+        spread = None
+        if error is not None:
+            spread = to_si_array(error, CONTROLS[RESPONSE[control]], "error")
+            spread = np.full(len(seconds), spread[0]) if len(spread) == 1 else spread
+            columns["error"] = spread
+        for name, column in columns.items():
+            if len(column) != len(seconds):
+                raise InputError(
+                    f"{name}: has {len(column)} values, but there are {len(seconds)} times.", code="wrong-length"
+                )
+        steps = np.diff(seconds)
+        if np.any(steps < 0.0) or seconds[-1] == seconds[0]:
+            place = int(np.argmin(steps)) + 1
+            said = f"time: goes back to {seconds[place]:g} s, or stands still; sort the record by time."
+            raise InputError(Note("time-goes-back", said, values={"index": place}))
+        begin = float(seconds[0]) if start is None else to_si(start, "s", "start")
+        if begin > seconds[0]:
+            raise InputError(
+                f"start = {begin:g} s: lies after the first row, at {seconds[0]:g} s.", code="out-of-range"
+            )
+        if spread is not None and not np.all(spread > 0.0):
+            raise InputError("error: must be above zero in every row.", code="not-positive")
+        object.__setattr__(self, "time", read_only(seconds, "time"))
+        for name in ("load", "indentation"):
+            object.__setattr__(self, name, read_only(columns[name], name))
+        object.__setattr__(self, "temperature", positive(temperature, "K", "temperature"))
+        object.__setattr__(self, "control", control)
+        object.__setattr__(self, "error", None if spread is None else read_only(spread, "error"))
+        object.__setattr__(self, "start", begin)
+        object.__setattr__(self, "source", text(source, "source"))
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        return f"IndentationRecord({len(self)} rows, {self.control} prescribed, {self.temperature:.2f} K)"
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the record as a labelled data set along ``row``.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``time`` (s), ``load`` (N), ``indentation`` (m) and, where it is known, ``error`` of the response; the
+            attributes are ``control``, ``temperature`` (K), ``start`` (s) and ``source``.
+        """
+        unit = CONTROLS[RESPONSE[self.control]]
+        return dataset(
+            "row",
+            {
+                "time": (self.time, "s", "time"),
+                "load": (self.load, "N", "normal load"),
+                "indentation": (self.indentation, "m", "indentation"),
+                "error": None if self.error is None else (self.error, unit, "standard error of the response"),
+            },
+            attributes={
+                "control": self.control,
+                "temperature": self.temperature,
+                "start": self.start,
+                "source": self.source,
+            },
+        )
+
+
+def read_indentation(
+    path: str | PathLike[str],
+    *,
+    control: Control,
+    temperature: Quantity | None = None,
+    error: Quantity | None = None,
+    start: Quantity | None = None,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
+) -> IndentationRecord:
+    """Read an indentation test from a table.
+
+    Parameters
+    ----------
+    path : str or path
+        A table, text or workbook, with the columns ``time``, ``load`` and ``indentation``, and optionally
+        ``temperature``, whose mean is taken.  Units stand in the headings, such as ``load (N)``.
+    control : {"load", "indentation"}
+        What was prescribed; the other one is the response.
+    temperature : float, str or pint.Quantity, optional
+        K if a plain number, for a table without this column.
+    error : float, str or pint.Quantity, optional
+        Standard error of the response, m or N if a plain number.
+    start : float, str or pint.Quantity, optional
+        Time of the first contact, s; that of the first row if left out.
+    columns : mapping, optional
+        Headings that are not understood, by quantity: ``{"load": "Fz (N)"}``.
+    sheet : str, optional
+        The only sheet of a workbook to read.
+
+    Returns
+    -------
+    IndentationRecord
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be read, a column or its unit is missing or wrong, or a row cannot be part of a record; with
+        the line of the file.
+    InputError
+        If the temperature is given twice or not at all, or an argument cannot be used.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import viscofric as vf
+    >>> with Path("creep.csv").open("w") as file:
+    ...     for row in ("time (s),load (N),indentation (um)", "1,1,100", "2,1,105", "4,1,110", "8,1,114", "16,1,117"):
+    ...         print(row, file=file)
+    >>> vf.read_indentation("creep.csv", control="load", temperature="23 degC", start=0.0)
+    IndentationRecord(5 rows, load prescribed, 296.15 K)
+    """
+    check_choice(control, "control", *RESPONSE)
+    kelvin = None if temperature is None else positive(temperature, "K", "temperature")
+    spread = None if error is None else positive(error, CONTROLS[RESPONSE[control]], "error")
+    begin = None if start is None else to_si(start, "s", "start")
+    found = history_columns(path, columns, sheet)
+    missing = [name for name in ("load", "indentation") if name not in found.values]
+    if missing:
+        problem = f"there is no column of the {' and the '.join(missing)}; an indentation test has both."
+        raise DataFileError(path, problem, code="missing-columns", remedy=name_columns(HISTORY.key, missing))
+    if found.load_unit != "N":
+        raise DataFileError(path, f"load: is in {found.load_unit}, but must be in N.", code="wrong-unit")
+    if (kelvin is None) == ("temperature" not in found.values):
+        why = "has no column of it" if kelvin is None else "has a column of it"
+        raise InputError(f"temperature: {path} {why}; give the value or the column, one of the two.", code="give-one")
+    at = float(np.mean(found.values["temperature"])) if kelvin is None else kelvin
+    try:
+        return IndentationRecord(
+            found.values["time"], found.values["load"], found.values["indentation"], at,
+            control=control, error=spread, start=begin, source=str(path),
+        )  # fmt: skip
+    except InputError as wrong:
+        place = wrong.note.values.get("index")
+        raise DataFileError(path, wrong.note, None if place is None else found.lines[place]) from None

@@ -1,0 +1,184 @@
+"""Set-up of an identification from indentation: usable records, their temperatures, shifts and retardation times."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.free.grids import Extent
+from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.identification.indentation.growing import Reduced, growing
+from viscofric.friction.identification.indentation.problem import IndentationProblem
+from viscofric.friction.identification.posterior import descend
+from viscofric.friction.identification.problem import EXPECTED, Shifts, Smoothness
+from viscofric.friction.identification.solving import spectrum_of
+from viscofric.nominal import SAME_TEMPERATURE, numbered
+from viscofric.notes import Note
+from viscofric.rheology.shifts.shift_law import LN10
+from viscofric.rheology.superposition.superpose import superpose
+from viscofric.step_tests import StepTest, StepTests
+from viscofric.units import shown_celsius
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.arrays import Array
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.friction.identification.indentation.growing import Growing
+    from viscofric.friction.identification.indentation.record import IndentationRecord
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+
+
+#: Relative error of responses whose error is not given, for the first fit.
+FIRST_ERROR = 0.01
+#: Fewest averaged rows of a record.
+LEAST_POINTS = 5
+#: Decades to which retardation times extend beyond the measured times.
+MARGIN = 1.9
+#: Fewest modes per decade with which J(t) does not ripple.
+LEAST_PER_DECADE = 2.5
+#: Modes within a decade of the first or the last time affect the response from one side only, and a spectrum may end,
+#: or rise to the glass transition, there: no smoothness is assumed for them; of a narrow range, for this part of it.
+ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
+#: Times per decade at which J(t) of one temperature is superposed.
+SUPERPOSED = 10
+
+
+@dataclass(frozen=True, eq=False)
+class Usable:
+    """Records with the contacts that can be used, and the temperatures of these."""
+
+    records: tuple[IndentationRecord, ...]
+    contacts: tuple[Growing, ...]
+    temperatures: Array  # (t,), ascending, K
+    number: tuple[int, ...]  # of each record's temperature
+    notes: tuple[Note, ...]
+
+    def chosen(self, kept: Sequence[int], notes: Sequence[Note] = ()) -> Usable:
+        """Return the records at some of the temperatures, by their numbers."""
+        rows = [row for row, number in enumerate(self.number) if number in kept]
+        renumbered = tuple(list(kept).index(self.number[row]) for row in rows)
+        return Usable(
+            tuple(self.records[row] for row in rows), tuple(self.contacts[row] for row in rows),
+            self.temperatures[list(kept)], renumbered, (*self.notes, *notes),
+        )  # fmt: skip
+
+
+def usable_records(records: Sequence[IndentationRecord], indenter: Indenter) -> Usable:
+    """Return what of the records can be used; InputError if too few rows of one can."""
+    contacts, notes, deepest = [], [], 0.0
+    for number, record in enumerate(records, 1):
+        largest = float(np.max(record.indentation))
+        if largest <= 0.0 or float(np.max(record.load)) <= 0.0:
+            raise InputError(
+                f"record {number}: its load or its indentation is never above zero.", code="no-contact",
+                field="records",
+            )  # fmt: skip
+        deepest = max(deepest, largest)
+        contact = growing(record, Reduced(indenter, largest), has_walls=indenter.has_walls)
+        if len(contact) < LEAST_POINTS:
+            raise InputError(
+                f"record {number}: only {len(contact)} averaged rows lie where the contact grows; identification from "
+                "shrinking contacts (oscillation, rebound, unloading) is not available: give a creep or relaxation "
+                "test, or a ramp.",
+                code="no-growing-contact",
+                field="records",
+            )
+        contacts.append(contact)
+        if contact.shrinking:
+            said = (
+                f"Record {number}: {contact.shrinking} of {len(record)} rows were left out, from where the contact "
+                "shrinks; only growing contacts are identified."
+            )
+            notes.append(Note("shrinking-left-out", said, values={"record": number, "rows": contact.shrinking}))
+    widest = Reduced(indenter, deepest).radius
+    strained = indenter.strain_warning(Extent(widest, widest, widest), deepest)
+    if strained is not None:
+        notes.append(strained)
+    kelvin = np.array([record.temperature for record in records])
+    labels = numbered(kelvin, np.full(len(kelvin), SAME_TEMPERATURE))
+    temperatures = np.array([kelvin[labels == label].mean() for label in range(int(labels.max()) + 1)])
+    return Usable(tuple(records), tuple(contacts), temperatures, tuple(int(one) for one in labels), tuple(notes))
+
+
+def problem_of(usable: Usable, shifts: Shifts, plane_strain: float, extra: float, modes: int) -> IndentationProblem:
+    """Return the problem on a grid of retardation times about the measured times."""
+    alpha = shifts.middle[list(usable.number)]
+    low = min(np.log(one.lags[0]) - by for one, by in zip(usable.contacts, alpha, strict=True))
+    high = max(np.log(one.lags[1]) - by for one, by in zip(usable.contacts, alpha, strict=True))
+    shortest, longest = low - MARGIN * LN10, high + MARGIN * LN10
+    count = max(modes, int(np.ceil(LEAST_PER_DECADE * (longest - shortest) / LN10)) + 1)
+    one_sided = min(ONE_SIDED * LN10, ONE_SIDED_SHARE * (high - low))
+    inside = float(np.exp(low + one_sided)), float(np.exp(high - one_sided))
+    tau = np.exp(np.linspace(shortest, longest, count))
+    smoothness = Smoothness(tau, _first_guess(usable.contacts, plane_strain), inside, EXPECTED)
+    errors = tuple(
+        FIRST_ERROR / np.sqrt(one.count) if one.error is None else one.error for one in usable.contacts
+    )  # fmt: skip
+    return IndentationProblem(shifts, smoothness, usable.contacts, usable.number, errors, plane_strain, extra)
+
+
+def _first_guess(contacts: Sequence[Growing], plane_strain: float) -> float:
+    """Return a compliance, 1/Pa: the mean of those of elastic contacts."""
+    logs = []
+    for one in contacts:
+        of_elastic = one.weights @ np.ones(one.weights.shape[1])
+        elastic = np.log(one.response / np.maximum(of_elastic, 1e-300))
+        logs.append(float(np.median(elastic if one.creep else -elastic)))
+        logs[-1] -= np.log(plane_strain)
+    return float(np.exp(np.mean(logs)))
+
+
+def shifts_of(
+    usable: Usable, shift: ShiftLaw | None, reference: float | None, plane_strain: float, extra: float
+) -> tuple[Usable, Shifts]:
+    """Return the shifts as unknowns, and the records at temperatures whose shifts are known or can be found."""
+    kelvin = usable.temperatures
+    if shift is not None:
+        law = shift if reference is None else shift.at_reference(reference)
+        everywhere = np.unique(np.append(kelvin, law.reference))
+        places = np.searchsorted(everywhere, kelvin)
+        number = tuple(int(places[one]) for one in usable.number)
+        return replace(usable, temperatures=everywhere, number=number), Shifts.known(everywhere, law)
+    nearest = int(np.argmin(np.abs(kelvin - (np.median(kelvin) if reference is None else reference))))
+    if reference is not None and abs(kelvin[nearest] - reference) > SAME_TEMPERATURE:
+        measured = ", ".join(shown_celsius(float(one)) for one in kelvin)
+        raise InputError(
+            f"reference = {shown_celsius(reference)} °C was not measured, only {measured} °C; give shift=, or describe "
+            "the material there with its at_reference().",
+            code="no-such-temperature",
+            field="reference",
+        )
+    if len(kelvin) == 1:
+        return usable, Shifts.unknown(kelvin, float(kelvin[0]))
+    alone = [_creep(usable.chosen([place]), plane_strain, extra) for place in range(len(kelvin))]
+    try:
+        found = superpose(StepTests(tuple(alone), kind="creep"), float(kelvin[nearest]))
+    except SuperpositionError as error:
+        raise InputError(
+            f"records: α(T) is to be found, and J(t) of the temperatures does not overlap: {error}", code="no-overlap",
+            field="records",
+        ) from None  # fmt: skip
+    kept = [
+        place
+        for place, one in enumerate(kelvin)
+        if np.abs(found.shift_factors.temperatures - one).min() <= 0.5 * SAME_TEMPERATURE
+    ]
+    notes = [note for note in found.notes if isinstance(note, Note)]
+    usable = usable.chosen(kept, notes)
+    return usable, Shifts.unknown(usable.temperatures, float(kelvin[nearest]), found.shift_factors)
+
+
+def _creep(usable: Usable, plane_strain: float, extra: float) -> StepTest:
+    """Return J(t) of the records at one temperature over the measured times, fitted without those of others."""
+    kelvin = float(usable.temperatures[0])
+    problem = problem_of(usable, Shifts.unknown(usable.temperatures, kelvin), plane_strain, extra, 0)
+    start = np.concatenate([problem.smoothness.middle, problem.shifts.middle])
+    place = descend(problem, start, metric=problem.metric).place
+    spectrum = spectrum_of(problem.split(place)[0], problem.smoothness.tau)
+    low = min(one.lags[0] for one in usable.contacts)
+    high = max(one.lags[1] for one in usable.contacts)
+    time = np.geomspace(low, high, max(LEAST_POINTS, int(SUPERPOSED * np.log10(high / low)) + 1))
+    return StepTest(kelvin, time, spectrum.creep_compliance(time))
