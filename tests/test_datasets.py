@@ -87,6 +87,7 @@ INPUTS |= {"PeriodicSurface", "Study", "StudyResults", "ThermalProperties"}
 #: Parts of results, whose numbers lie in the data set of the whole.
 PARTS = {
     "Diagnostics": "ContactSolution",
+    "ImpactContact": "ImpactSolution",
     "PeriodicDiagnostics": "PeriodicSolution",
     "StepTest": "StepTests",
     "TractionStep": "TractionRuns",
