@@ -50,6 +50,7 @@ def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
     assert 10.0 < rows[1][1] < 20.0
     assert float(page.get_by_label("Load of point 2").input_value()) == rows[1][1]
 
+    page.get_by_text("History of the study").click()
     solved(tab)
     found = tab.value("page.state.state.result('motion')")
     assert found["method"] == "springs"
@@ -60,14 +61,33 @@ def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
     assert tab.value("document.documentElement.scrollWidth - innerWidth") <= 0
     tab.screenshot("motion-hold")
 
+    page.get_by_role("button", name="Use in the study").click()
+    tab.until(
+        "page.state.state.get('history')?.file !== undefined || document.querySelector('details .notes.error li')"
+    )
+    assert tab.value("page.state.state.get('history')") is None  # a table of one load and speed; the study has 25
+    page.get_by_label("Example").select_option("start")
+    page.get_by_role("button", name="Use in the study").click()
+    tab.until("page.state.state.get('history')?.slide !== undefined")
+    tab.until("page.state.state.result('run_file').text.includes('[history]')")
+    drawn = tab.value(f"{_HISTORY}.rows")
+    page.get_by_label("Dwell, one or several").fill("0.1, 1")
+    page.get_by_label("Dwell, one or several").press("Tab")
+    tab.until("page.state.state.result('run_file').text.includes('dwell = [')")
+    page.get_by_role("button", name="Show the study’s").click()
+    tab.until(f"{_HISTORY}.rows[1][0] === 0.1")
+    assert len(tab.value(f"{_HISTORY}.rows")) == len(drawn) == 4
+    tab.screenshot("motion-study")
+    page.get_by_role("button", name="Remove from the study").click()
+
     # another history: the results are of earlier inputs, and a wrong one is marked in its row
-    time = page.get_by_label("Time of point 3")
+    time = page.get_by_label("Time of point 4")
     time.fill("0.05")
     time.press("Tab")
     assert page.locator("#figure-motion-load.stale").count() == 1
     solved(tab)
-    page.locator(f"{_STEP} .notes.error").wait_for()
-    assert page.get_by_label("Time of point 3").get_attribute("aria-invalid") == "true"
+    page.locator(f"{_STEP} .notes.error:not([hidden])").first.wait_for()
+    assert page.get_by_label("Time of point 4").get_attribute("aria-invalid") == "true"
 
 
 def test_a_mass_hits_the_material(tab: Tab) -> None:

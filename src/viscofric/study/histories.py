@@ -18,6 +18,8 @@ from viscofric.study.cases.solving import Task
 from viscofric.study.results.tree import axis_coordinates, meaning_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray
 
     from viscofric.motion.history import History
@@ -53,7 +55,7 @@ class Histories:
         table = study.history
         if table is None:
             return None
-        for_case = _from_file(table, study) if table.file is not None else _from_stages(table)
+        for_case = case_histories(study, table)
         tasks: list[Task | Failure] = []
         for one in sweep.cases:
             case: Any = one
@@ -153,6 +155,12 @@ def _task(
         "fields": False,
     }
     return Task(solve_history, arguments, label)
+
+
+def case_histories(study: Study, table: HistoryTable) -> Callable[[Any, float], History]:
+    """Return what makes the history of a case and a dwell (s); raise `StudyError`, `DataFileError` for a bad table."""
+    made: Callable[[Any, float], History] = _from_file(table, study) if table.file is not None else _from_stages(table)
+    return made
 
 
 def _from_stages(table: HistoryTable) -> Any:

@@ -17,6 +17,7 @@ FILE_KEYS = {
     "material": ("dma", "ramps", "creep", "relaxation", "master_curve", "file", "shift_factors", "amplitude_sweep"),
     "measurement": ("mtm", "curves"),
     "surface": ("file",),
+    "history": ("file",),
 }
 
 

@@ -41,6 +41,7 @@ KINDS: dict[str, Kind] = {
     "contact": Kind("viscofric.web.jobs.contact", seconds=600.0, memory=6 * _GB),
     "curve": Kind("viscofric.web.jobs.curve", seconds=3600.0, memory=6 * _GB),
     "motion": Kind("viscofric.web.jobs.motion", seconds=3600.0, memory=6 * _GB),
+    "history": Kind("viscofric.web.jobs.history", seconds=60.0, memory=2 * _GB),
     # measured friction
     "measured": Kind("viscofric.web.jobs.measured", seconds=120.0),
     "agreement": Kind("viscofric.web.jobs.agreement"),

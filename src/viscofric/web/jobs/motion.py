@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
 _DIGITS = 7
-_MOST_ROWS = 200
+#: Rows of a history on the page.
+MOST_ROWS = 200
 #: Times drawn of a whole history, and fewest and most of a part between two of its rows.
 _TIMES, _FEWEST, _MOST = 240, 12, 80
 #: The first of them after a row, over the duration of the part.
@@ -68,31 +69,48 @@ class Impact(BaseModel):
     rebounds: int = Field(1, ge=1, le=20)
 
 
-class Options(BaseModel):
-    """What the study's first indenter or surface does.
+class Rows(BaseModel):
+    """A history as the page has it.
 
     Parameters
     ----------
     rows : list of Row
-        The history.
     control : {"load", "indentation", "pressure", "gap"}
         What their values are.
     path : {"speed", "position"}
         What their `along` is, along the motion.
     before : {"untouched", "at rest", "sliding"}
         See `History`.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+
+    rows: list[Row] = Field([], max_length=MOST_ROWS)
+    control: Literal["load", "indentation", "pressure", "gap"] = "load"
+    path: Literal["speed", "position"] = "speed"
+    before: Literal["untouched", "at rest", "sliding"] = "untouched"
+
+    def history(self, **more: Any) -> History:
+        """Return the history; `more` is passed on to it."""
+        from viscofric.motion.history import History
+
+        along = [row.along for row in self.rows]
+        values: dict[str, Any] = {self.control: [row.value for row in self.rows]}
+        path = {self.path: along} if any(along) else {}
+        return History(time=[row.time for row in self.rows], **values, **path, before=self.before, **more)
+
+
+class Options(Rows):
+    """What the study's first indenter or surface does.
+
+    Parameters
+    ----------
     impact : Impact, optional
         Instead of a history.
     temperature : float, optional
         K, instead of the study's first one.
     """
 
-    model_config = ConfigDict(extra="forbid")
-
-    rows: list[Row] = Field([], max_length=_MOST_ROWS)
-    control: Literal["load", "indentation", "pressure", "gap"] = "load"
-    path: Literal["speed", "position"] = "speed"
-    before: Literal["untouched", "at rest", "sliding"] = "untouched"
     impact: Impact | None = None
     temperature: float | None = Field(None, gt=0.0, lt=1e5)
 
@@ -144,20 +162,11 @@ def _transient(
     material: Material, case: Case, options: Options, accuracy: float, context: Context
 ) -> TransientSolution:
     """Solve the contact of a case through the history of the options."""
-    from viscofric.motion.history import History
     from viscofric.motion.solve import solve_transient
 
     assert isinstance(case, (IndenterCase, SurfaceCase))
     angle = case.direction if isinstance(case, SurfaceCase) else 0.0
-    along = [row.along for row in options.rows]
-    history = History(
-        time=[row.time for row in options.rows],
-        **{options.control: [row.value for row in options.rows]},
-        **({options.path: along} if any(along) else {}),
-        temperature=case.temperature,
-        before=options.before,
-        direction=(math.cos(angle), math.sin(angle)),
-    )
+    history = options.history(temperature=case.temperature, direction=(math.cos(angle), math.sin(angle)))
     start, end = float(history.time[0]), float(history.time[-1])
 
     def progress(reached: float, _: float) -> None:

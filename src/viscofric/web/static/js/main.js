@@ -14,6 +14,7 @@ const STEPS = [lazy.sweeps, lazy.shift, lazy.spectrum, contact, lazy.moving, laz
 // Where the fields of a study's tables are, but for those of a rubber that other steps have.
 const PLACES = {
   material: "sweeps",
+  history: "motion",
   measurement: "measurement",
   outputs: "export",
   title: "export",

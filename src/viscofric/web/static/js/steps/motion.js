@@ -1,5 +1,6 @@
 // Motion in time: a history that is edited as a table or a sketch, or an impact, and the contact solved through it.
 
+import { studyHistory } from "../motion_study.js";
 import { DEPENDS_ON, outdated, shows, studyOf } from "../inputs.js";
 import { motionFigures, numbersOf } from "../motion_figures.js";
 import {
@@ -99,6 +100,7 @@ export function mount(section, app) {
     labelled("Before the first time", before),
     h("div", { class: "scroll" }, table.element),
     save,
+    studyHistory(app, { rows: () => optionsOf(history), take: (found) => change(found) }),
   );
   const hit = h("div", { class: "form" }, ...impact.map(([, field]) => field));
   const help = (words) => h("p", { class: "help" }, words);
@@ -165,6 +167,10 @@ export function mount(section, app) {
     return [head, ...history.rows].map((row) => row.join(",")).join("\n") + "\n";
   }
 
+  const optionsOf = ({ rows, control, path, before }) => {
+    return { rows: rows.map(([time, value, along]) => ({ time, value, along })), control, path, before };
+  };
+
   /** Interrupt the job, which then sends what it has found; if it does not begin or end, give it up. */
   function stop() {
     const { abort, number } = running ?? {};
@@ -179,11 +185,8 @@ export function mount(section, app) {
     const mine = { abort: new AbortController(), number: null };
     running = mine;
     const asked = history;
-    const { rows, impact: values, preset: name, control, path, before, temperature } = asked;
-    const options =
-      name === "impact"
-        ? { impact: values, temperature }
-        : { rows: rows.map(([time, value, along]) => ({ time, value, along })), control, path, before, temperature };
+    const { temperature } = asked;
+    const options = { temperature, ...(asked.preset === "impact" ? { impact: asked.impact } : optionsOf(asked)) };
     bar.start("Solving");
     failed.set([]);
     fields.clearError("motion");
