@@ -266,3 +266,24 @@ def test_amplitude_prints_the_linear_range_and_scales_a_material(tmp_path: Path)
     assert "approximation" in vf.read_card(scaled).name
     assert (tmp_path / "payne.svg").stat().st_size > 0
     assert call("amplitude", path, "-o", scaled).exit_code == 2
+
+
+def test_a_material_is_identified_from_indentation(tmp_path: Path) -> None:
+    planted = vf.synthetic_fluoroelastomer().at("30 degC")
+    time = np.geomspace(0.05, 20.0, 12)
+    depth = (0.75 * planted.creep_compliance(time) * 0.75 / 0.1) ** (2.0 / 3.0)  # 1 N, R = 10 mm
+    rows = "".join(f"{t:.8g},1,{1e6 * d:.8g}\n" for t, d in zip(time, depth, strict=True))
+    (tmp_path / "creep.csv").write_text("time (s),load (N),depth (um)\n" + rows, encoding="utf-8")
+    said = ("indentation", tmp_path / "creep.csv", "--control", "load", "--ball", "10 mm", "--modes", 8)
+    out = ("--samples", 20, "--start", "0 s", "--out", tmp_path / "rubber.json", "--csv", tmp_path / "E.csv", "--json")
+    done = call(*said, "--temperature", "23 degC", *out)
+    assert done.exit_code == 0, done.output
+    results = json.loads(done.stdout)
+    assert results["notes"] == []
+    found = vf.read_card(tmp_path / "rubber.json")
+    # Without noise: what is left is what creep from 0.05 s on does not determine.
+    assert abs(found.complex_modulus(0.5)) == pytest.approx(abs(planted.complex_modulus(0.5)), rel=0.02)
+    assert (tmp_path / "E.csv").read_text().startswith("angular_frequency,storage_modulus")
+    assert refusal(call(*said))
+    twice = call(*said, "--temperature", "23 degC", "--temperature", "30 degC")
+    assert twice.exit_code == 2
