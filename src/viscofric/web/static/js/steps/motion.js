@@ -99,10 +99,14 @@ export function mount(section, app) {
     labelled("Motion given as", path),
     labelled("Before the first time", before),
     h("div", { class: "scroll" }, table.element),
+  );
+  const hit = h("div", { class: "form" }, ...impact.map(([, field]) => field));
+  const kept = h(
+    "div",
+    { class: "stack" },
     save,
     studyHistory(app, { rows: () => optionsOf(history), take: (found) => change(found) }),
   );
-  const hit = h("div", { class: "form" }, ...impact.map(([, field]) => field));
   const help = (words) => h("p", { class: "help" }, words);
   const jumps = help("Drag a point, or change its numbers in the table. Two points at the same time are a jump.");
   const drawing = card("Sketch of the history", picture.element, jumps);
@@ -115,6 +119,7 @@ export function mount(section, app) {
     labelled("Temperature", temperature),
     rest,
     solveButton,
+    kept,
   );
   const found = card("Contact over time", bar, failed, warnings, numbers, pictures.grid, notes);
   section.append(h("div", { class: "columns" }, h("div", {}, form), h("div", {}, drawing, found)));
@@ -149,7 +154,7 @@ export function mount(section, app) {
     );
     for (const [key, element] of Object.entries({ preset, control, path, before })) element.value = history[key];
     const hits = history.preset === "impact";
-    forms.hidden = drawing.hidden = hits;
+    forms.hidden = kept.hidden = drawing.hidden = hits;
     hit.hidden = !hits;
     for (const [name, field] of impact) field.querySelector("input").value = history.impact[name];
     temperature.value = history.temperature === null ? "" : units.show(history.temperature, "temperature");
