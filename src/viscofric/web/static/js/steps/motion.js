@@ -121,7 +121,9 @@ export function mount(section, app) {
     solveButton,
     kept,
   );
-  const found = card("Contact over time", bar, failed, warnings, numbers, pictures.grid, notes);
+  const about = help("± is the estimated error in time; that of the grid of a rough surface comes on top.");
+  about.hidden = true;
+  const found = card("Contact over time", bar, failed, warnings, numbers, about, pictures.grid, notes);
   section.append(h("div", { class: "columns" }, h("div", {}, form), h("div", {}, drawing, found)));
 
   /** Begin with an example of the study's contact. */
@@ -224,6 +226,7 @@ export function mount(section, app) {
 
   function draw() {
     if (!result) return;
+    about.hidden = false;
     for (const one of [numbers, warnings, notes]) shows(one, result);
     warnings.set(result.warnings);
     notes.set(result.notes);
