@@ -121,7 +121,7 @@ export function mount(section, app) {
     solveButton,
     kept,
   );
-  const about = help("± is the estimated error in time; that of the grid of a rough surface comes on top.");
+  const about = help("± is the estimated numerical error; that of the grid of a rough surface is not part of it.");
   about.hidden = true;
   const found = card("Contact over time", bar, failed, warnings, numbers, about, pictures.grid, notes);
   section.append(h("div", { class: "columns" }, h("div", {}, form), h("div", {}, drawing, found)));
