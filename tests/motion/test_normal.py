@@ -280,7 +280,7 @@ def test_a_march_continues_from_a_stored_state():
     mover, _ = mover_of(problem, whole)
     first = march(mover, vf.History([0.0, 0.02], load=[0.0, 1.0]).schedule(RUBBER, "point"), accuracy=1e-3)
     second = vf.History([0.02, 0.04], load=[1.0, 0.2]).schedule(RUBBER, "point")
-    found = march(mover, second, accuracy=1e-3, begin=first.final).moments[-1]
+    found = march(mover, second, accuracy=1e-3, begin=first.reached).moments[-1]
     run = vf.solve_transient(RUBBER, BALL, whole, times=[0.04])
     assert found.seen.depth == pytest.approx(run.indentation[-1], rel=1e-3)
     assert found.work == pytest.approx(run.work[-1], rel=1e-3)

@@ -1,10 +1,15 @@
-"""The two chains of states of a march, and the difference between them."""
+"""What a march is made of: two chains of states, the difference between them, moments, and how far it has come."""
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Generic, NamedTuple
 
-from viscofric.motion.mover import Observation, Scales, State
+from viscofric.motion.mover import Field, Observation, Scales, State
+
+if TYPE_CHECKING:
+    from viscofric.motion.schedule import Instant
 
 #: Energies are so many times as accurate as the rest, for a balance of a tenth of the accuracy.
 _ENERGIES = 3.0
@@ -34,6 +39,37 @@ class Pair(NamedTuple, Generic[State]):
     fine: Link[State]
 
 
+@dataclass(frozen=True, eq=False)
+class Reached(Generic[State]):
+    """How far a march has come: all that another one needs to go on as if there had been no end.
+
+    Attributes
+    ----------
+    pair : Pair
+    time : float or None
+        s; None: the start of the schedule.
+    jumped : bool
+        Whether a jump at this time has been taken.
+    told : float
+        Time of the last moment returned, s.
+    scales : Scales or None
+        Largest values so far.
+    pace, share : float
+        Next step, s (zero: as after a jump), and the share of the accuracy that a step may add.
+    stored : float or None
+        Energy in the material before the first start, J; None: what it is now.
+    """
+
+    pair: Pair[State]
+    time: float | None = None
+    jumped: bool = False
+    told: float = -math.inf
+    scales: Scales | None = None
+    pace: float = 0.0
+    share: float | None = None
+    stored: float | None = None
+
+
 class Difference(NamedTuple):
     """Fine less coarse chain."""
 
@@ -60,3 +96,39 @@ def over_scales(off: Difference, scales: Scales) -> tuple[float, ...]:
     energy = scales.energy / _ENERGIES
     each = (scales.load, scales.depth, scales.friction, scales.friction, energy, energy)
     return tuple(one / scale for one, scale in zip(off, each, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Moment(Generic[State]):
+    """One returned time: what was seen, the work so far, and the estimated errors."""
+
+    instant: Instant
+    seen: Observation
+    work: float
+    errors: Errors
+    field: Field | None
+
+
+@dataclass(frozen=True, eq=False)
+class Track(Generic[State]):
+    """What a march has found.
+
+    Attributes
+    ----------
+    moments : list of Moment
+    steps : int
+        Steps taken (of the coarse chain, those of the last march), and those rejected.
+    interrupted : bool
+        Whether the march was interrupted before the end.
+    reached : Reached
+        States of both chains at the last time, from which another march may continue.
+    stored : float
+        Energy in the material before the start.
+    """
+
+    moments: list[Moment[State]]
+    steps: int
+    rejected: int
+    interrupted: bool
+    reached: Reached[State]
+    stored: float = 0.0

@@ -16,7 +16,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on_function, whole_number
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.motion.chains import Link, Pair
+from viscofric.motion.chains import Link, Pair, Reached
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.march import march
 from viscofric.motion.mover import Mover, State
@@ -145,10 +145,10 @@ def solve_cycle(
         # The pressure that goes with this memory, at once.
         begun = mover.step(mover.with_memory(state, memory), first, first)
         link = Link(begun, mover.observe(begun), 0.0)
-        track = march(mover, schedule, accuracy=accuracy, fields=False, begin=Pair(link, link))
+        track = march(mover, schedule, accuracy=accuracy, fields=False, begin=Reached(Pair(link, link)))
         if track.interrupted:
             raise KeyboardInterrupt
-        state = track.final.fine.state
+        state = track.reached.pair.fine.state
         reached = mover.memory_of(state)
         change = mover.recovered(reached - memory, first, last)
         size = float(np.linalg.norm(reached))

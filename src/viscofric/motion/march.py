@@ -13,14 +13,14 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Generic
 
 import numpy as np
 
 from viscofric.errors import ConvergenceError
-from viscofric.motion.chains import Errors, Link, Pair, difference, over_scales
-from viscofric.motion.mover import Field, Mover, Observation, Scales, State
+from viscofric.motion.chains import Errors, Link, Moment, Pair, Reached, Track, difference, over_scales
+from viscofric.motion.mover import Mover, Scales, State
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -35,42 +35,6 @@ _MOST_MARCHES = 6
 _SHRINK, _GROW, _SAFETY = 0.1, 3.0, 0.85
 #: First step of an interval, and the least one, as parts of the interval.
 _FIRST, _LEAST = 1.0 / 32.0, 1e-10
-
-
-@dataclass(frozen=True, eq=False)
-class Moment(Generic[State]):
-    """One returned time: what was seen, the work so far, and the estimated errors."""
-
-    instant: Instant
-    seen: Observation
-    work: float
-    errors: Errors
-    field: Field | None
-
-
-@dataclass(frozen=True, eq=False)
-class Track(Generic[State]):
-    """What a march has found.
-
-    Attributes
-    ----------
-    moments : list of Moment
-    steps : int
-        Steps taken (of the coarse chain, those of the last march), and those rejected.
-    interrupted : bool
-        Whether the march was interrupted before the end.
-    final : Pair
-        States of both chains at the last time, from which another march may continue.
-    stored : float
-        Energy in the material before the start.
-    """
-
-    moments: list[Moment[State]]
-    steps: int
-    rejected: int
-    interrupted: bool
-    final: Pair[State]
-    stored: float = 0.0
 
 
 class _TooLargeError(Exception):
@@ -88,7 +52,7 @@ def march(
     times: Sequence[float] | None = None,
     fields: bool = True,
     progress: Callable[[float, float], object] | None = None,
-    begin: Pair[State] | None = None,
+    begin: Reached[State] | None = None,
     extrapolate: bool = False,
 ) -> Track[State]:
     """March through a schedule.
@@ -106,7 +70,8 @@ def march(
     progress : callable, optional
         Called with the time reached and the last time, s.
     begin : optional
-        `Track.final` of the march to continue, with the same mover: its states belong to its cells or springs.
+        `Track.reached` of the march to continue, within the schedule or before its start; its states belong to the
+        cells or springs of the mover.
     extrapolate : bool
         Whether to extrapolate depth, load and friction as well as energies.
 
@@ -115,7 +80,7 @@ def march(
     ConvergenceError
         If the accuracy is not reached, but for a mover whose ticks are too far apart for it: see the errors.
     """
-    share = _SHARE
+    share = _SHARE if begin is None or begin.share is None else begin.share
     for _ in range(_MOST_MARCHES):
         one = _March(mover, schedule, accuracy, share, times, fields, progress, extrapolate)
         try:
@@ -142,34 +107,56 @@ class _March(Generic[State]):
     taken: int = 0
     rejected: int = 0
     _stored: float = 0.0  # before the start
+    _pace: float = 0.0  # of the interval before, if no jump ended it
     _limited: bool = False  # whether a step from tick to tick was longer than the accuracy asks for
 
-    def run(self, begin: Pair[State] | None) -> Track[State]:
-        mover, schedule = self.mover, self.schedule
-        self._scales = mover.scales
-        self._pace = 0.0  # of the interval before, if no jump ended it
-        if begin is None:
-            state = mover.begin()
-            link = Link(state, mover.observe(state), 0.0)
-            pair = Pair(link, link)
-            self._stored = link.seen.stored
-            if schedule.before == "untouched":
-                first = schedule.at(schedule.start, after=False)
-                pair = self._jump(pair, first, first)
-        else:
-            pair, self._stored = begin, begin.fine.seen.stored
-        pair = self._stop_at_kink(pair, schedule.start)
+    def run(self, begin: Reached[State] | None) -> Track[State]:
+        self._at = self._begun() if begin is None else self._taken_up(begin)
         interrupted = False
         try:
-            for start, end in itertools.pairwise(schedule.kinks):
-                for left, right in self._parts(float(start), float(end)):
-                    pair = self._interval(pair, left, right)
-                    if right < end:
-                        self._record(pair, schedule.at(right), asked=self.times is not None)
-                pair = self._stop_at_kink(pair, float(end))
+            self._go_on()
         except KeyboardInterrupt:
             interrupted = True
-        return Track(self.moments, self.taken, self.rejected, interrupted, pair, self._stored)
+        told = self.moments[-1].instant.time if self.moments else self._at.told
+        reached = replace(self._at, told=told, scales=self._scales, pace=self._pace)
+        return Track(self.moments, self.taken, self.rejected, interrupted, reached, self._stored)
+
+    def _begun(self) -> Reached[State]:
+        mover, schedule = self.mover, self.schedule
+        self._scales = mover.scales
+        state = mover.begin()
+        link = Link(state, mover.observe(state), 0.0)
+        pair = Pair(link, link)
+        self._stored = link.seen.stored
+        if schedule.before == "untouched":
+            first = schedule.at(schedule.start, after=False)
+            pair = self._jump(pair, first, first)
+        return Reached(pair, schedule.start, share=self.share, stored=self._stored)
+
+    def _taken_up(self, begin: Reached[State]) -> Reached[State]:
+        self._scales = self.mover.scales
+        if begin.scales is not None:
+            self._scales = Scales(*map(max, zip(begin.scales, self._scales, strict=True)))
+        self._pace = begin.pace
+        self._stored = begin.pair.fine.seen.stored if begin.stored is None else begin.stored
+        time = self.schedule.start if begin.time is None else begin.time
+        return replace(begin, time=time, share=self.share, stored=self._stored)
+
+    def _go_on(self) -> None:
+        """March from where it is to the end."""
+        schedule, first = self.schedule, float(self._at.time)  # type: ignore[arg-type]
+        if first in schedule.kinks:
+            self._stop_at_kink(first)
+        elif first > self._at.told:
+            self._record(self._at.pair, schedule.at(first), asked=first in (self.times or ()))
+        for start, end in itertools.pairwise(schedule.kinks.tolist()):
+            if end <= first:
+                continue
+            for left, right in self._parts(max(start, first), end):
+                self._interval(self._at.pair, left, right)
+                if right < end:
+                    self._record(self._at.pair, schedule.at(right), asked=self.times is not None)
+            self._stop_at_kink(end)
 
     def _parts(self, start: float, end: float) -> list[tuple[float, float]]:
         """Return the parts of an interval between the times asked for."""
@@ -177,22 +164,26 @@ class _March(Generic[State]):
         edges = [start, *stops, end]
         return list(itertools.pairwise(edges))
 
-    def _stop_at_kink(self, pair: Pair[State], time: float) -> Pair[State]:
-        """Record the state at a kink, take its jump if there is one, and record that too."""
-        schedule = self.schedule
+    def _stop_at_kink(self, time: float) -> None:
+        """Record the state at a kink, take its jump if there is one, and record that too, unless it has been done."""
+        schedule, pair = self.schedule, self._at.pair
+        known = self._at.told >= time
         wanted = 0 if self.times is None else sum(1 for one in self.times if one == time)
         jumps = schedule.jumps_at(time)
         before = schedule.at(time, after=False)
         if not jumps:
-            self._record(pair, before, asked=wanted > 0, times=max(wanted, 1))
-            return pair
-        if wanted != 1:
+            if not known:
+                self._record(pair, before, asked=wanted > 0, times=max(wanted, 1))
+            return
+        if self._at.jumped and known:
+            return
+        if not (self._at.jumped or known) and wanted != 1:
             self._record(pair, before, asked=wanted > 1)
         after = schedule.at(time)
-        if after[3:] != before[3:]:
+        if not self._at.jumped and after[3:] != before[3:]:
             pair = self._jump(pair, before, after)
+        self._at = replace(self._at, pair=pair, jumped=True)
         self._record(pair, after, asked=wanted > 0)
-        return pair
 
     def _jump(self, pair: Pair[State], before: Instant, after: Instant) -> Pair[State]:
         """Take a jump on both chains: the response is elastic, and its work is stored."""
@@ -205,14 +196,15 @@ class _March(Generic[State]):
             links.append(Link(state, seen, link.work + seen.stored - link.seen.stored))
         return self._seen(Pair(*links))
 
-    def _interval(self, pair: Pair[State], start: float, end: float) -> Pair[State]:
+    def _interval(self, pair: Pair[State], start: float, end: float) -> None:
         """March through a part without kinks."""
         ticks = self.mover.ticks(self.schedule.at(start), self.schedule.at(end, after=False))
         if ticks is None:
-            return self._freely(pair, start, end)
-        return self._by_ticks(pair, start, np.asarray(ticks))
+            self._freely(pair, start, end)
+        else:
+            self._by_ticks(pair, start, np.asarray(ticks))
 
-    def _freely(self, pair: Pair[State], start: float, end: float) -> Pair[State]:
+    def _freely(self, pair: Pair[State], start: float, end: float) -> None:
         time, step = start, self._pace or _FIRST * (end - start)
         while time < end:
             # no splinter at the end
@@ -226,14 +218,12 @@ class _March(Generic[State]):
                 self.rejected += 1
                 step *= max(_SHRINK, _SAFETY * ratio ** (-1.0 / 3.0))
                 continue
-            pair = self._take(tried, reached, end)
-            time = reached
             # A step that an end has cut short says little about the next one.
             step = max(proposed if step < proposed and ratio < 1.0 else 0.0, step * _growth(ratio))
-        self._pace = step
-        return pair
+            pair = self._take(tried, reached, end, step)
+            time = reached
 
-    def _by_ticks(self, pair: Pair[State], start: float, ticks: Array) -> Pair[State]:
+    def _by_ticks(self, pair: Pair[State], start: float, ticks: Array) -> None:
         """March by whole ticks: two or more for the coarse chain, half as many for the fine one."""
         edges = np.concatenate([[start], ticks])
         place, count = 0, 2
@@ -249,9 +239,8 @@ class _March(Generic[State]):
                 continue
             self._limited |= ratio > 1.0
             place += count
-            pair = self._take(tried, float(edges[place]), float(ticks[-1]))
+            pair = self._take(tried, float(edges[place]), float(ticks[-1]), 0.0)
             count = max(2, 2 * int(0.5 * count * _growth(ratio)))
-        return pair
 
     def _try(self, pair: Pair[State], times: list[float]) -> Pair[State]:
         """Step from the first time to the last: the coarse chain at once, the fine one by those in between too."""
@@ -277,13 +266,14 @@ class _March(Generic[State]):
         before, after = (over_scales(difference(one), scales) for one in (pair, tried))
         return max(abs(two - one) for one, two in zip(before, after, strict=True)) / (self.share * self.accuracy)
 
-    def _take(self, tried: Pair[State], reached: float, end: float) -> Pair[State]:
+    def _take(self, tried: Pair[State], reached: float, end: float, pace: float) -> Pair[State]:
         self.taken += 1
         self.mover.accept(tried.fine.state, self.schedule.at(reached, after=False))
         pair = self._seen(tried)
         worst = max(map(abs, over_scales(difference(pair), self._scales))) / 3.0
         if worst > self.accuracy and not self._limited:
             raise _TooLargeError(worst / self.accuracy)
+        self._pace, self._at = pace, replace(self._at, pair=pair, time=reached, jumped=False)
         if self.times is None and reached < end:
             self._record(pair, self.schedule.at(reached), asked=True)
         if self.progress is not None:

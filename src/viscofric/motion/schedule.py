@@ -180,8 +180,8 @@ def make_schedule(
     law = material.shift if changes else None
     if changes and material.vertical_shift is not None:
         raise InputError(
-            "temperature: changes in a material with a vertical shift; moduli at constant temperatures do not say how "
-            "it acts on the stress of the past.  Give one temperature, or a Material without vertical_shift.",
+            "temperature: changes in a material with a vertical shift, and moduli at constant temperatures do not say "
+            "how it acts on the stress of the past; give one temperature, or a Material without vertical_shift.",
             code="vertical-shift",
         )
     clocks, begun = [], 0.0

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from viscofric.arrays import Array
-    from viscofric.motion.march import Moment, Track
+    from viscofric.motion.chains import Moment, Track
     from viscofric.motion.mover import Mover
     from viscofric.motion.schedule import Schedule
     from viscofric.units import Quantities

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import ConvergenceError
-from viscofric.motion.chains import Errors
+from viscofric.motion.chains import Errors, Moment, Track
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.setting import Setting, with_fewer_kinks
-from viscofric.motion.march import Moment, Track, march
+from viscofric.motion.march import march
 from viscofric.motion.memory import Modes
 from viscofric.motion.mover import Scales
 from viscofric.notes import Note
