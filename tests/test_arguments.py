@@ -344,7 +344,7 @@ CALLS: dict[str, Any] = {
         "kind": "point"}),
     "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "history": vf.History([0.0, 0.1],
         load=[0.0, 1.0], temperature=300.0), "times": np.array([0.05, 0.1]), "accuracy": 1e-2, "layer": None,
-        "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None},
+        "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None, "resume": None},
     "solve_cycle": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "one_period": vf.History([0.0, 0.1, 0.2],
         load=[0.5, 1.0, 0.5], temperature=300.0), "accuracy": 1e-2, "layer": None, "indenter_modulus": 1e9,
         "indenter_poisson_ratio": 0.3, "most_periods": 60, "progress": None},
@@ -356,6 +356,8 @@ CALLS: dict[str, Any] = {
         0.3},
     "TransientSolution.pressure_at": lambda: (vf.solve_transient(rubber(), vf.Ball(1e-2), vf.History([0.0, 0.1],
         load=1.0), times=[0.1]), {"time": 0.1}),
+    "TransientSolution.save_state": lambda: (vf.solve_transient(rubber(), vf.Ball(1e-2), vf.History([0.0, 0.1],
+        load=1.0), times=[0.1]), {"path": "state.npz"}),
     "Isotherm": lambda: {"temperature": 300.0, "angular_frequency": np.array([1.0, 10.0]), "storage_modulus":
         np.array([3e6, 4e6]), "loss_modulus": np.array([3e5, 4e5]), "strain_amplitude": np.array([1e-3, 1e-3])},
     "IsothermalSweeps": lambda: {"isotherms": sweeps().isotherms, "deformation": "tension", "source": "", "notes": (),

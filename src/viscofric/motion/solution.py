@@ -12,10 +12,13 @@ from viscofric.errors import InputError
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     import xarray
 
     from viscofric.arrays import Array
     from viscofric.motion.mover import Field
+    from viscofric.motion.restart import Restart
     from viscofric.units import Quantity
 
 
@@ -122,6 +125,7 @@ class TransientSolution:
     warnings: tuple[str, ...] = ()
     dent: Array | None = None
     _fields: tuple[Field | None, ...] = field(default=(), repr=False)
+    _restart: Restart | None = field(default=None, repr=False)
 
     @property
     def friction_coefficient(self) -> Array:
@@ -172,6 +176,36 @@ class TransientSolution:
         axes = {name: (name, values, {"units": "m"}) for name, values in held.axes.items()}
         attributes = {"units": "Pa", "long_name": "contact pressure", "time": float(self.time[near[-1]])}
         return xarray.DataArray(held.pressure, coords=axes, dims=tuple(held.axes), attrs=attributes)
+
+    def save_state(self, path: str | PathLike[str]) -> None:
+        """Write the state that the run has reached, with its results, to go on later.
+
+        Parameters
+        ----------
+        path : str or path
+            A file of arrays (.npz), replaced if it exists.
+
+        Raises
+        ------
+        InputError
+            If the contact was solved on cells, which do not go on.
+        DataFileError
+            If the file cannot be written.
+
+        Examples
+        --------
+        >>> import viscofric as vf
+        >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+        >>> ball, dwell = vf.Ball("10 mm"), vf.History(time=[0.0, 0.1], load="1 N")
+        >>> vf.solve_transient(rubber, ball, dwell, times=["0.1 s"]).save_state("dwell.npz")
+        >>> longer = vf.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"])
+        >>> run = vf.solve_transient(rubber, ball, longer, times=["0.2 s"], resume="dwell.npz")
+        >>> run.time.tolist()
+        [0.1, 0.2]
+        """
+        from viscofric.motion.restart_files import reached, write_restart
+
+        write_restart(path, reached(self._restart))
 
     def to_dataset(self) -> xarray.Dataset:
         """Return forces, depth, extents, energies and errors along ``time`` (s)."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +18,7 @@ from viscofric.errors import ConvergenceError, InputError, brief
 from viscofric.motion.history import History
 from viscofric.motion.march import march
 from viscofric.motion.problem import Problem
+from viscofric.motion.restart import Restart
 from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
@@ -50,6 +53,7 @@ def solve_transient(
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
     progress: Callable[[float, float], object] | None = None,
+    resume: TransientSolution | str | PathLike[str] | None = None,
 ) -> TransientSolution:
     """Solve a contact through a history of load or depth, path and temperature.
 
@@ -71,6 +75,10 @@ def solve_transient(
         Of an elastic indenter.
     progress : callable, optional
         Called with the time reached and the last time, s.
+    resume : TransientSolution or path, optional
+        A run to go on with, or the file in which its `TransientSolution.save_state` was written: one that was
+        interrupted, or one whose history is the beginning of this history.  Results are those of one run without a
+        pause, and contain those of the earlier one.  Not for contacts on cells.
 
     Returns
     -------
@@ -80,6 +88,8 @@ def solve_transient(
     ------
     InputError
         If a value cannot be used, or the contact would be wider than the indenter.
+    DataFileError
+        If `resume` is a file that is not the state of a run.
     ConvergenceError
         If the accuracy is not reached.
 
@@ -112,12 +122,15 @@ def solve_transient(
     insist_on_function(progress, "progress")
     problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     asked = _checked_times(times, problem.schedule)
+    if resume is not None:
+        return _resumed(resume, problem, history, asked, progress)
     notes: tuple[Note, ...] = ()
     if not needs_grid(problem, history):
         mover, method = mover_of(problem, history)
         try:
             track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
-            return assemble(track, problem, history, method)
+            found = assemble(track, problem, history, method)
+            return replace(found, _restart=Restart.of(problem, history, method, mover, track))
         except ConvergenceError as error:
             if error.code != "not-one-disc" or getattr(indenter, "has_walls", False):
                 raise
@@ -126,6 +139,38 @@ def solve_transient(
 
     track, doubts = solve_free(problem, asked, progress)
     return assemble(track, problem, history, "grid", notes=(*notes, *doubts))
+
+
+def _resumed(
+    resume: TransientSolution | str | PathLike[str],
+    problem: Problem,
+    history: History,
+    times: list[float] | None,
+    progress: Callable[[float, float], object] | None,
+) -> TransientSolution:
+    """Go on with a run."""
+    from viscofric.motion.restart_files import reached, read_restart
+
+    if isinstance(resume, TransientSolution):
+        restart = reached(resume._restart)
+    elif isinstance(resume, (str, PathLike)):
+        restart = read_restart(resume)
+    else:
+        raise InputError(
+            f"resume = {brief(resume)}: must be a TransientSolution, or the file of its state.", code="wrong-type"
+        )
+    method = "waves" if problem.kind == "periodic" else "springs"
+    if restart.method != method or (method == "springs" and needs_grid(problem, history)):
+        raise InputError(
+            "resume: this contact is not solved in the way of the run; solve the whole history from its start.",
+            code="not-available",
+        )
+    restart.insist_on_same(problem)
+    mover, begin = restart.mover(problem)
+    track = march(mover, problem.schedule, accuracy=problem.accuracy, times=times, progress=progress, begin=begin)
+    track = restart.joined(track)
+    found = assemble(track, problem, history, method)
+    return replace(found, _restart=Restart.of(problem, history, method, mover, track))
 
 
 def checked_problem(

@@ -1,0 +1,117 @@
+"""Runs that go on from a stored state: the numbers are those of one run without a pause."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.errors import DataFileError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+RUBBER = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [3e-7, 3e-7, 3e-7], [1e-3, 1e-2, 1.0]))
+BALL = vf.Ball("10 mm")
+WHOLE = vf.History([0.0, 0.02, 0.02, 0.04], load=[0.0, 1.0, 0.5, 0.2])
+X = 2.0 * np.pi * np.arange(24) / 24.0
+WAVE = vf.PeriodicSurface(1e-6 * (np.cos(X) + 0.3 * np.cos(2.0 * X + 1.0)), 1e-3 / 24.0)
+SLIDING = vf.History([0.0, 2e-3, 2e-3, 5e-3], pressure=1e3, speed=[0.0, 0.0, 0.05, 0.05])
+
+
+def stopped_after(count: int):
+    """Return a callback that interrupts the run after so many steps."""
+    calls = []
+
+    def stop(reached: float, end: float) -> None:
+        calls.append(reached)
+        if len(calls) == count:
+            raise KeyboardInterrupt
+
+    return stop
+
+
+def same(one: vf.TransientSolution, two: vf.TransientSolution, rel: float = 1e-12) -> None:
+    assert one.time.tolist() == two.time.tolist()
+    for name in ("load", "indentation", "friction_force", "contact_area", "work", "stored", "dissipated"):
+        wanted = getattr(two, name)
+        assert getattr(one, name) == pytest.approx(wanted, rel=rel, abs=rel * float(np.abs(wanted).max())), name
+    assert one.errors.energy == pytest.approx(two.errors.energy, rel=1e-6, abs=1e-12 * float(two.work.max()))
+
+
+@pytest.mark.parametrize(
+    ("steps", "times"), [(1, None), (17, [0.0, 0.01, 0.02, 0.02, 0.03, 0.04]), (43, None), (30, [0.03, 0.04])]
+)
+def test_an_interrupted_run_of_springs_goes_on_from_a_file(tmp_path: Path, steps: int, times: list[float] | None):
+    whole = vf.solve_transient(RUBBER, BALL, WHOLE, times=times)
+    part = vf.solve_transient(RUBBER, BALL, WHOLE, times=times, progress=stopped_after(steps))
+    assert part.interrupted
+    part.save_state(tmp_path / "part.npz")
+    again = vf.solve_transient(RUBBER, BALL, WHOLE, times=times, resume=tmp_path / "part.npz")
+    same(again, whole)
+    assert not again.interrupted
+    assert again.steps == whole.steps
+    assert again.pressure_at(0.04).values == pytest.approx(whole.pressure_at(0.04).values)
+
+
+def test_an_interruption_at_a_kink_loses_nothing():
+    """The last step before the jump is the one that is interrupted."""
+    reached: list[float] = []
+    whole = vf.solve_transient(RUBBER, BALL, WHOLE, progress=lambda now, end: reached.append(now))
+    part = vf.solve_transient(RUBBER, BALL, WHOLE, progress=stopped_after(reached.index(0.02) + 1))
+    same(vf.solve_transient(RUBBER, BALL, WHOLE, resume=part), whole)
+
+
+def test_an_interrupted_run_of_waves_goes_on_from_a_file(tmp_path: Path):
+    whole = vf.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2)
+    part = vf.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2, progress=stopped_after(whole.steps // 2))
+    part.save_state(tmp_path / "part.npz")
+    same(vf.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2, resume=tmp_path / "part.npz"), whole, rel=1e-9)
+
+
+def test_a_run_goes_on_under_a_larger_load():
+    """More springs are added beyond those that were touched: as solved at once, to the accuracy."""
+    dwell = vf.History([0.0, 0.02], load=0.1)
+    longer = vf.History([0.0, 0.02, 0.04], load=[0.1, 0.1, 4.0])
+    at_once = vf.solve_transient(RUBBER, BALL, longer, times=[0.02, 0.03, 0.04])
+    first = vf.solve_transient(RUBBER, BALL, dwell, times=[0.02])
+    run = vf.solve_transient(RUBBER, BALL, longer, times=[0.02, 0.03, 0.04], resume=first)
+    assert run.time.tolist() == [0.02, 0.03, 0.04]
+    assert run.indentation == pytest.approx(at_once.indentation, rel=1e-4)
+    assert run.contact_radius == pytest.approx(at_once.contact_radius, rel=1e-3)
+    assert run.dissipated == pytest.approx(at_once.dissipated, abs=3e-4 * at_once.dissipated.max())
+    further = vf.History([0.0, 0.02, 0.04, 0.04, 0.05], load=[0.1, 0.1, 4.0, 8.0, 8.0])
+    again = vf.solve_transient(RUBBER, BALL, further, times=[0.05], resume=run)
+    assert again.time.tolist() == [0.02, 0.03, 0.04, 0.05]
+    whole = vf.solve_transient(RUBBER, BALL, further, times=[0.05])
+    assert again.indentation[-1] == pytest.approx(whole.indentation[-1], rel=1e-4)
+    assert again.energy_imbalance < 1e-4
+
+
+def test_what_cannot_go_on_is_refused(tmp_path: Path):
+    run = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02], load=1.0), times=[0.02])
+    longer = vf.History([0.0, 0.04], load=1.0)
+    other = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+    for code, material, indenter, history in (
+        ("not-the-same", other, BALL, longer),
+        ("not-the-same", RUBBER, vf.Ball("11 mm"), longer),
+        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], load=1.1)),
+        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.01], load=1.0)),
+        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], indentation=1e-4)),
+        ("not-available", RUBBER, BALL, vf.History([0.0, 0.04], load=1.0, speed=[0.0, 1.0])),
+    ):
+        with refused(code):
+            vf.solve_transient(material, indenter, history, resume=run)
+    with refused("not-the-same"):
+        vf.solve_transient(RUBBER, BALL, longer, resume=run, accuracy=1e-2)
+    with refused("wrong-type"):
+        vf.solve_transient(RUBBER, BALL, longer, resume=3)
+    (tmp_path / "other.npz").write_bytes(b"no archive")
+    with refused("not-a-state", DataFileError):
+        vf.solve_transient(RUBBER, BALL, longer, resume=tmp_path / "other.npz")
+    np.savez(tmp_path / "numbers.npz", format="numbers")
+    with refused("not-a-state", DataFileError):
+        vf.solve_transient(RUBBER, BALL, longer, resume=tmp_path / "numbers.npz")
