@@ -130,6 +130,48 @@ def test_pressing_and_releasing_an_indenter_that_is_nearly_a_ball():
     assert cells.contact_area[3] == 0.0
 
 
+def test_a_curved_path_turns_with_the_plane_and_friction_follows_it():
+    angle = np.linspace(0.0, 1.0, 21)
+    arc = 1e-3 * np.column_stack([np.sin(angle), 1.0 - np.cos(angle)])
+    time = 0.01 * angle
+
+    def force(path):
+        history = vf.History(time, load=1.0, position=path, before="at rest")
+        run = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.002, 0.01], accuracy=2e-2)
+        return np.column_stack([run.friction_force, run.lateral_force])
+
+    straight = force(1e-3 * np.column_stack([angle, 0.0 * angle]))
+    bent = force(arc)
+    assert np.hypot(*bent[0]) == pytest.approx(straight[0, 0], rel=2e-2)
+    assert 0.1 < np.arctan2(*bent[0, ::-1]) < 0.2  # from the chord of the path so far to its tangent
+    turn = np.array([[np.cos(2.0), np.sin(2.0)], [-np.sin(2.0), np.cos(2.0)]])
+    # A place halfway between two cells is rounded to either.
+    assert force(arc @ turn) == pytest.approx(bent @ turn, abs=5e-3 * straight.max())
+
+
+def test_speed_that_turns_within_an_interval_is_motion():
+    history = vf.History([0.0, 0.02], load=1.0, speed=[0.1, -0.1], before="at rest")
+    time = np.linspace(0.0, 0.02, 41)
+    places = vf.History(time, load=1.0, position=0.1 * (time - time**2 / 0.02), before="at rest")
+    one, two = (
+        vf.solve_transient(RUBBER, vf.Ball("10 mm"), each, times=[0.005, 0.02], accuracy=2e-2)
+        for each in (history, places)
+    )
+    assert one.method == "grid"
+    assert one.friction_force == pytest.approx(two.friction_force, rel=2e-2)
+    with refused("sharp-edge"):
+        vf.solve_transient(RUBBER, vf.FlatPunch("1 mm"), history)
+
+
+def test_a_short_history_after_steady_sliding_begins_with_the_steady_friction():
+    """Modes that are slow for the history are not slow for the motion before it."""
+    rubber = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", np.full(6, 1.5e-7), 1e-3 * 4.0 ** np.arange(6)))
+    steady = vf.solve_steady(rubber, CYLINDER, speed=0.1, load=LOAD).friction_coefficient
+    history = vf.History([0.0, 1e-4], load=LOAD, speed=0.1, before="sliding")
+    run = vf.solve_transient(rubber, CYLINDER, history, times=[0.0, 1e-4], accuracy=5e-3)
+    assert run.friction_coefficient == pytest.approx(steady, rel=5e-3)
+
+
 def test_line_contacts_refuse_a_depth_and_a_path_across():
     with refused("no-level"):
         vf.solve_transient(RUBBER, CYLINDER, vf.History([0.0, 1.0], indentation="1 mm", speed=1.0))

@@ -152,7 +152,12 @@ class History:
     @property
     def moves(self) -> bool:
         """Whether the position ever changes."""
-        return bool(np.any(self.position != self.position[0]))
+        if np.any(self.position != self.position[0]):
+            return True
+        if self.speed is None:
+            return False
+        lasting = np.diff(self.time) > 0.0  # there and back within an interval
+        return bool(np.any(self.speed[:-1][lasting] != 0.0) or np.any(self.speed[1:][lasting] != 0.0))
 
     def schedule(self, material: Material, kind: str) -> Schedule:
         """Return the history in SI units for one material, with its clock, for a kind of contact.

@@ -97,6 +97,11 @@ class Schedule:
         return float(self.kinks[-1])
 
     @property
+    def given(self) -> Array:
+        """Times of the points given, each once; s."""
+        return np.unique(self._time)
+
+    @property
     def duration(self) -> float:
         """The whole history by the material's clock, s."""
         return self.at(self.end).clock

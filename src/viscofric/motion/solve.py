@@ -101,7 +101,8 @@ def solve_transient(
 
     Sliding contacts, contacts on layers and those of other indenters are solved on cells that are fixed to the body, on
     finer and finer grids.  An indenter moves by whole cells wherever it can.  A line contact has no absolute
-    indentation: its change since the first contact is given.  Without `times`, the first steps after a start or a turn,
+    indentation: its change since the first contact is given, to the accuracy of the largest change or of a fiftieth of
+    the indentation a²/R, if that is more.  Without `times`, the first steps after a start or a turn,
     within which the contact moves by less than its cells, may have larger errors than the accuracy; they are stated.
 
     References

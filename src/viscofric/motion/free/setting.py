@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 _LEVEL = 20.0
 # Part of a cell, and of the largest load or depth, below which nothing is moved.
 _STILL = 1e-9
+# Path before the start, in units of length, over which modes of a steady contact differ.
+_SLID = 1000.0
 # Ticks of a change of the load or depth by its largest value, and those in each e-fold of the time after a jump.
 _OF_LOAD, _OF_TIME = 48, 6
 # Shortest time that matters in an interval without motion, as a part of it.
@@ -125,7 +127,7 @@ class Setting:
     @cached_property
     def path_length(self) -> float:
         """Largest distance between two places of the indenter along either axis."""
-        places = np.array([self.turned(self.schedule.at(float(time)).position) for time in self.schedule.kinks])
+        places = np.array([self.turned(one) for one in _places(self.schedule)])
         return float(np.ptp(places, axis=0).max())
 
     @property
@@ -167,7 +169,7 @@ class Setting:
         kinks = self.schedule.kinks
         places = np.array([self.turned(self.schedule.at(float(time)).position) for time in kinks])
         moves = np.diff(places, axis=0)
-        if len(moves) == 0 or np.any(moves[:, 1] != 0.0):
+        if len(moves) == 0 or np.abs(moves[:, 1]).max() > _STILL * np.abs(moves).max():
             return 0.0
         forward = moves[:, 0] > 0.0
         first = int(np.argmax(forward))
@@ -176,19 +178,26 @@ class Setting:
 
     def shortest_time(self, spacing: float, times: Sequence[float] | None) -> float:
         """Return the least time, s of the clock, in which the pressure at a point changes noticeably on a grid."""
-        kinks, least = self.schedule.kinks, self.schedule.duration
-        stops = np.unique(np.concatenate([kinks, np.asarray(times or [], dtype=float)]))
+        least = self.schedule.duration
+        stops = np.unique(np.concatenate([self.schedule.kinks, np.asarray(times or [], dtype=float)]))
         for start, end in itertools.pairwise(stops):
+            first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
+            least = min(least, _OF_INTERVAL * (last.clock - first.clock))
+        for start, end in itertools.pairwise(self.schedule.given):
             first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
             speed = max(
                 math.hypot(*self.turned(self.schedule.velocity(float(time), after=side)))
                 for time, side in ((start, True), (end, False))
             )
-            clock = last.clock - first.clock
-            rate = clock / float(end - start)
-            passing = rate * spacing / speed if speed > 0.0 else math.inf
-            least = min(least, passing, _OF_INTERVAL * clock)
+            rate = (last.clock - first.clock) / float(end - start)
+            least = min(least, rate * spacing / speed if speed > 0.0 else math.inf)
         return least
+
+    @property
+    def longest_time(self) -> float:
+        """Return the time, s of the clock, over which modes differ: longer than the history after sliding for ever."""
+        duration = self.schedule.duration
+        return max(duration, _SLID / self.first_speed) if self.schedule.before == "sliding" else duration
 
     @property
     def first_speed(self) -> float:
@@ -211,7 +220,9 @@ class Setting:
         if length[-1] < _STILL * cell:
             return self._at_rest(start, end, cell)
         along = path[:, 0]
-        if np.all(path[:, 1] == path[0, 1]) and (np.all(np.diff(along) >= 0.0) or np.all(np.diff(along) <= 0.0)):
+        if float(np.ptp(path[:, 1])) < _STILL * cell and (
+            np.all(np.diff(along) >= 0.0) or np.all(np.diff(along) <= 0.0)
+        ):
             low, high = sorted((along[0], along[-1]))
             whole = cell * np.arange(math.ceil(low / cell + 1e-6), math.ceil(high / cell - 1e-6))
             if along[-1] < along[0]:
@@ -277,13 +288,19 @@ class Setting:
 
 def _direction(schedule: Schedule) -> tuple[float, float]:
     """Return the direction of the first motion; zeros where there is none."""
-    places = np.array([schedule.at(float(time)).position for time in schedule.kinks])
-    moves = np.diff(places, axis=0)
+    moves = np.diff(_places(schedule), axis=0)
     lengths = np.hypot(*moves.T)
     if not np.any(lengths > 0.0):
         return 0.0, 0.0
     x, y = moves[int(np.argmax(lengths > 0.0))] / lengths[int(np.argmax(lengths > 0.0))]
     return float(x), float(y)
+
+
+def _places(schedule: Schedule) -> Array:
+    """Return the places at the given times and halfway between them, m; (n, 2)."""
+    given = schedule.given
+    times = np.sort(np.concatenate([given, 0.5 * (given[1:] + given[:-1])]))
+    return np.array([schedule.at(float(time)).position for time in times])
 
 
 def with_fewer_kinks(schedule: Schedule) -> Schedule:

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from viscofric.errors import ConvergenceError
 from viscofric.motion.chains import Errors, Moment, Track
@@ -49,6 +50,8 @@ _EXTRAPOLATED, _RESOLVED_STEPS = 0.4, 4
 _FIRST_WINDOW, _SHORT = 1.25, 0.6
 # Least friction coefficient that errors are compared with, in the slope of the indenter at the contact's edge.
 _LEAST_FRICTION = 1e-3
+# Least change of the depth of a line contact that errors are compared with, in the unit of depth.
+_LEAST_DEPTH = 0.02
 # Change of the load that is none.
 _STEADY_LOAD = 1e-6
 # Of the contact conditions, in the accuracy.
@@ -88,7 +91,7 @@ def solve_free(
         before, spacing = level, _fitted(level.mover.setting, level.mover.grid.spacing / _FINER)
         steps *= _FINER_STEPS
         level = _march(problem, _around(before, spacing), times, progress, largest, steps)
-        moments = _compared(level.track.moments, before.track.moments, level.mover.setting.geometry.scatter)
+        moments = _compared(level, before)
         largest = _largest(level)
         judged = moments if times is not None else _resolved(moments, before.track.moments, problem.schedule.kinks)
         error = _worst(judged, largest)
@@ -149,9 +152,7 @@ def _setting(problem: Problem, spacing: float, times: Sequence[float] | None) ->
     if len(every) < 4:
         return setting
     shortest = setting.shortest_time(spacing, times)
-    modes = Modes.for_history(
-        problem.schedule.spectrum, shortest, problem.schedule.duration, _MERGED * problem.accuracy
-    )
+    modes = Modes.for_history(problem.schedule.spectrum, shortest, setting.longest_time, _MERGED * problem.accuracy)
     return Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
 
 
@@ -175,22 +176,28 @@ def _largest(level: _Level) -> Scales:
     """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope."""
     seen = [one.seen for one in level.track.moments]
     load = max((one.load for one in seen), default=0.0)
+    setting = level.mover.setting
+    # In plane strain only a change of the depth is known, which may be none.
+    least_depth = 0.0 if setting.is_levelled else _LEAST_DEPTH * setting.scale.depth
     return Scales(
         load=load,
-        depth=max((abs(one.depth) for one in seen), default=0.0),
+        depth=max(least_depth, max((abs(one.depth) for one in seen), default=0.0)),
         friction=max(
-            _LEAST_FRICTION * load * level.mover.setting.scale.slope,
+            _LEAST_FRICTION * load * setting.scale.slope,
             max((math.hypot(*one.friction_force) for one in seen), default=0.0),
         ),
         energy=max((max(abs(one.stored), one.dissipated) for one in seen), default=0.0),
     )
 
 
-def _compared(fine: list[Moment[Any]], coarse: list[Moment[Any]], scatter: float) -> list[Moment[Any]]:
+def _compared(level: _Level, coarser: _Level) -> list[Moment[Any]]:
     """Return the moments of the finer grid with the errors of steps and cells, the friction extrapolated."""
+    fine, coarse = level.track.moments, coarser.track.moments
+    setting = level.mover.setting
+    scatter, kinks = setting.geometry.scatter, setting.schedule.kinks
     here, there = np.array([_values(one) for one in fine]), np.array([_values(one) for one in coarse])
     clock, before = _order([one.instant.time for one in fine]), _order([one.instant.time for one in coarse])
-    left = _LEFT * np.array([a - np.interp(clock, before, b) for a, b in zip(here.T, there.T, strict=True)]).T
+    left = _LEFT * (here - _interpolated(clock, before, there, kinks))
     # One change may be small by chance.
     usual = np.sqrt(np.mean(left**2, axis=0))
     load, depth, energy = np.maximum(np.abs(left), usual).T[:3]
@@ -208,6 +215,20 @@ def _compared(fine: list[Moment[Any]], coarse: list[Moment[Any]], scatter: float
         force = x + float(left[place, 3]), y + float(left[place, 4])
         seen = one.seen._replace(friction_force=force)
         found.append(replace(one, errors=errors, seen=seen, work=one.work + float(left[place, 5])))
+    return found
+
+
+def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Array:
+    """Return values (n, m) at other times, by cubics between kinks that overshoot nowhere."""
+    found = np.empty((len(clock), values.shape[1]))
+    for start, end in itertools.pairwise(kinks):
+        begin = np.nextafter(start, math.inf)  # the second of two points, at a jump
+        inside = (given >= (begin if begin in given else start)) & (given <= end)
+        wanted = (clock >= (begin if begin in clock else start)) & (clock <= end)
+        if np.count_nonzero(inside) > 1:
+            found[wanted] = PchipInterpolator(given[inside], values[inside])(clock[wanted])
+        else:
+            found[wanted] = values[inside]
     return found
 
 
@@ -233,7 +254,7 @@ def _order(times: list[float]) -> Array:
     found = np.array(times)
     for i, (one, two) in enumerate(itertools.pairwise(times)):
         if two <= one:
-            found[i + 1] = np.nextafter(found[i], math.inf)
+            found[i + 1] = np.nextafter(max(found[i], one), math.inf)
     return found
 
 
