@@ -15,6 +15,7 @@ from friction.made_runs import friction_curves, traction_runs
 from friction.synthetic_curves import synthetic_curves
 from friction.test_curve_files import FOREIGN
 from friction.test_tribometry import rows_of, runs_from
+from viscofric.errors import InputError
 from viscofric.friction.identification.conclusions import _anchor_notes, with_origin
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.shifting.collapse import Collapse
@@ -380,3 +381,15 @@ def test_files_of_curves(old: str, new: str, sentence: str, tmp_path: Path, monk
     with pytest.raises(vf.DataFileError) as caught:
         vf.read_friction_curves("curves.csv")
     assert str(caught.value) == f"curves.csv{sentence}"
+
+
+def test_indentation_says() -> None:
+    depth = [1e-4, 1.1e-4, 1.2e-4, 0.9e-4, 0.8e-4, 0.7e-4]
+    record = vf.IndentationRecord(np.arange(6.0), np.ones(6), depth, 300.0, control="indentation")
+    with pytest.raises(InputError) as caught:
+        vf.identify_from_indentation(record, vf.Ball("10 mm"))
+    assert str(caught.value) == (
+        "record 1: in only 2 averaged rows the contact grows and the response is clearly above its scatter; "
+        "identification from shrinking contacts (oscillation, rebound, unloading) is not available: give a creep or "
+        "relaxation test, or a ramp."
+    )

@@ -163,6 +163,34 @@ def test_dense_records_are_averaged() -> None:
     assert contact.error == pytest.approx(0.015 / np.sqrt(contact.count), rel=0.05)
 
 
+def test_the_approach_to_the_surface_is_left_out() -> None:
+    random = np.random.default_rng(4)
+    before = np.linspace(-0.5, -0.01, 50)
+    time = np.append(before, np.linspace(0.0, 40.0, 1001)[1:])
+    J = RUBBER.at(KELVIN).creep_compliance(time[50:])
+    load, depth = (
+        np.repeat([0.0, 2.0], [50, 1000]),
+        np.append(np.zeros(50), (PLANE_STRAIN * J * 2.0 / KAPPA) ** (2 / 3)),
+    )
+    load, depth = load + 2e-3 * random.standard_normal(1050), depth + 1e-6 * random.standard_normal(1050)
+    record = vf.IndentationRecord(time, load, depth, KELVIN, control="load")
+    contact = growing(record, Reduced(BALL, float(depth.max())), has_walls=False)
+    assert (contact.count.sum(), contact.unclear, contact.shrinking) == (1000, 0, 0)
+    # The step was put on between two rows, within 10 ms: 5 ms of 40, or 0.2 % of J after a second.
+    spectrum = RUBBER.at(KELVIN)
+    value, _, _ = Functional(contact, np.array(spectrum.tau))(1.0 / spectrum.E_inf, spectrum.C, 0.0, 0.0)
+    late = contact.time > 1.5
+    assert PLANE_STRAIN * value[late] == pytest.approx(contact.response[late], rel=0.02)  # 1 µm of 150 is 1 % of X
+
+
+def test_responses_of_no_more_than_scatter_are_refused() -> None:
+    depth = 1e-6 * np.random.default_rng(1).standard_normal(40)
+    record = vf.IndentationRecord(TIME, np.full(40, 2.0), depth, KELVIN, control="load", start=0.0, error=1e-5)
+    with pytest.raises(InputError) as caught:
+        vf.identify_from_indentation(record, BALL)
+    assert caught.value.code == "no-growing-contact"
+
+
 def test_an_oscillation_is_refused() -> None:
     time = np.linspace(0.0, 10.0, 50)
     depth = 1e-4 * (1.0 + 0.2 * np.sin(3.0 * time + 1.3))

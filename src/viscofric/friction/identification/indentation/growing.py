@@ -93,7 +93,7 @@ class Growing:
     grid: Array  # (G,), times at which R and M are evaluated, s
     weights: Array  # (n, 2G), of M and of R: their product with both is the response times E/(1−ν²), or its inverse
     shrinking: int  # rows left out from where the contact shrinks
-    unclear: int  # rows left out before, as the response is not clearly above zero
+    unclear: int  # rows of the contact left out, as the response is not clearly above its scatter
 
     def __len__(self) -> int:
         return len(self.time)
@@ -103,15 +103,17 @@ def growing(record: IndentationRecord, reduced: Reduced, *, has_walls: bool) -> 
     """Return what the rows of a record determine, up to where the contact begins to shrink."""
     end = len(record) if has_walls else _shrinks(record)
     time = record.time[:end] - record.start
-    load, depth = np.maximum(record.load[:end], 0.0), np.maximum(record.indentation[:end], 0.0)
     creep = record.control == "load"
+    load, depth = (np.maximum(column[:end], 0.0) for column in (record.load, record.indentation))
+    prescribed, measured = (load, depth) if creep else (depth, load)
+    prescribed[: _contact(prescribed)] = 0.0
     response = reduced(depth) if creep else load
     error = None
     if record.error is not None:
         up = record.indentation[:end] + record.error[:end]
         moved = reduced(up) - response if creep else record.error[:end]
         error = moved / np.maximum(response, 1e-300)
-    knots, values = _knots(time, load if creep else depth)
+    knots, values = _knots(time, prescribed)
     changes, jumps = _changes(knots, values)
     kinks = knots[(changes != 0.0) | (jumps != 0.0)]
     if not creep:
@@ -119,8 +121,13 @@ def growing(record: IndentationRecord, reduced: Reduced, *, has_walls: bool) -> 
         values = reduced(depths)
         changes, jumps = _changes(knots, values)
     starts = float(knots[max(int(np.argmax(values > 0.0)) - 1, 0)])
-    clear = (response > 0.0) & (time > starts) & ~np.isin(time, knots[jumps != 0.0])
-    clear &= True if error is None else error < 1.0 / CLEAR
+    after = (time > starts) & ~np.isin(time, knots[jumps != 0.0])
+    clear = after & (response > 0.0)
+    clear &= measured > CLEAR * _scatter(measured) if error is None else error < 1.0 / CLEAR
+    left_out = len(record) - end, int(np.count_nonzero(after & ~clear))
+    if not (len(kinks) and np.any(clear)):
+        none = np.zeros(0)
+        return Growing(creep, none, (np.inf, 0.0), none, None, none, none, np.zeros((0, 0)), *left_out)
     time, response = time[clear], response[clear]
     last = np.searchsorted(kinks, time, side="left") - 1 if len(kinks) <= MOST_KINKS else np.zeros(len(time), int)
     since = time - kinks[last]
@@ -134,8 +141,12 @@ def growing(record: IndentationRecord, reduced: Reduced, *, has_walls: bool) -> 
     if error is not None:
         spread = np.sqrt((average**2) @ (error[clear] * response) ** 2) / mean
     lags = float(since.min()), float(time.max() - kinks[0])
-    left_out = len(record) - end, int(np.count_nonzero(~clear))
     return Growing(creep, average @ time, lags, mean, spread, count, grid, average @ weights, *left_out)
+
+
+def _contact(prescribed: Array) -> int:
+    """Return the row before which a record shows no more than scatter: the approach to the surface."""
+    return int(np.argmax(prescribed > SCATTERS * _scatter(prescribed)))
 
 
 def _shrinks(record: IndentationRecord) -> int:

@@ -80,9 +80,9 @@ def usable_records(records: Sequence[IndentationRecord], indenter: Indenter) -> 
         contact = growing(record, Reduced(indenter, largest), has_walls=indenter.has_walls)
         if len(contact) < LEAST_POINTS:
             raise InputError(
-                f"record {number}: only {len(contact)} averaged rows lie where the contact grows; identification from "
-                "shrinking contacts (oscillation, rebound, unloading) is not available: give a creep or relaxation "
-                "test, or a ramp.",
+                f"record {number}: in only {len(contact)} averaged rows the contact grows and the response is clearly "
+                "above its scatter; identification from shrinking contacts (oscillation, rebound, unloading) "
+                "is not available: give a creep or relaxation test, or a ramp.",
                 code="no-growing-contact",
                 field="records",
             )
@@ -93,6 +93,12 @@ def usable_records(records: Sequence[IndentationRecord], indenter: Indenter) -> 
                 "shrinks; only growing contacts are identified."
             )
             notes.append(Note("shrinking-left-out", said, values={"record": number, "rows": contact.shrinking}))
+        if contact.unclear:
+            said = (
+                f"Record {number}: {contact.unclear} of {len(record)} rows were left out, as the response is not "
+                "clearly above its scatter."
+            )
+            notes.append(Note("unclear-left-out", said, values={"record": number, "rows": contact.unclear}))
     widest = Reduced(indenter, deepest).radius
     strained = indenter.strain_warning(Extent(widest, widest, widest), deepest)
     if strained is not None:
