@@ -26,6 +26,7 @@ from viscofric.motion.mover import Field, Observation, Scales
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.free.grids import Grid
+    from viscofric.motion.free.wake import Wake
     from viscofric.motion.memory import StepCoefficients
     from viscofric.motion.schedule import Instant
 
@@ -77,6 +78,8 @@ class FreeMover(Cells):
             left = np.tensordot(body.compliances * coefficients.decay, memory, 1)
             left += float(body.compliances @ coefficients.start) * held
             known = self.response.seen_from(left, box, window)
+            if state.wake is not None:
+                known = known + self._of_wake(state.wake, coefficients, window, end)
             shape = self.height(place) + known
             solved, found = self.solved(compliance, shape, load, depth, self._guess(state, window, place, duration))
             if found is None or not self.widened(found.pressure > 0.0):
@@ -85,6 +88,17 @@ class FreeMover(Cells):
             raise ConvergenceError("no window was found that holds the contact.", code="no-window")
         force = self.force(solved[0], known)
         return self._after(state, coefficients, duration, place, window, box, held, memory, solved, force)
+
+    def _of_wake(self, wake: Wake, coefficients: StepCoefficients, window: Box, end: Instant) -> Array:
+        """Return the displacement by the far wake on a window after a step."""
+        if wake.holds_near(window):
+            raise ConvergenceError(
+                f"at time {end.time:.4g} s the contact returns to where it slid long before the start, which is not "
+                "known; give that motion as a part of the history.",
+                code="beyond-wake",
+            )
+        far = wake.faded(coefficients.decay).at(self.response, window)
+        return np.asarray((self.setting.body.compliances @ far)[:, None])
 
     def accept(self, state: FreeState, instant: Instant) -> None:
         """Note how far a contact reaches that the march has accepted."""
@@ -179,6 +193,10 @@ class FreeMover(Cells):
         end, with_end = float(np.vdot(now, spread)), float(np.vdot(held, spread))
         flat = memory.reshape(len(memory), -1)
         modes_with_end = flat @ spread.ravel()
+        wake = state.wake
+        if wake is not None:
+            modes_with_end = modes_with_end + wake.at(self.response, window) @ pressure.sum(axis=1)
+            wake = wake.faded(coefficients.decay)
         lost = 0.0
         if duration > 0.0:
             each = state.products.dissipated(duration / body.times, with_end, modes_with_end, end)
@@ -206,6 +224,7 @@ class FreeMover(Cells):
             depth=depth,
             dissipated=state.dissipated + lost,
             force=force,
+            wake=wake,
         )
 
     def _footprint(self, state: FreeState, window: Grid) -> tuple[float, dict[str, float]]:

@@ -60,10 +60,7 @@ class Response:
         if nx > self._quarter.shape[0] or ny > self._quarter.shape[1]:
             x = np.arange(float(max(nx, self._quarter.shape[0])))[:, None]
             y = self.aspect * np.arange(float(max(ny, self._quarter.shape[1])))
-            found = self._cell(x, y)
-            if self.level > 0.0:
-                found = found - self._cell(np.full((1, 1), self.level / self.spacing), np.zeros(1))
-            self._quarter = (2.0 if self.line else 1.0) / np.pi * self.spacing * found
+            self._quarter = self._scaled(x, y)
         return self._quarter[:nx, :ny]
 
     def __call__(self, pressure: Array) -> Array:
@@ -74,6 +71,16 @@ class Response:
         waves *= spectrum
         lines = scipy.fft.ifft(waves, axis=0, overwrite_x=True)[:nx]
         return np.asarray(scipy.fft.irfft(lines, py, axis=1)[:, :ny])
+
+    def far_from(self, cells: Array) -> Array:
+        """Displacement at distances along x, in cells, from a loaded cell."""
+        return self._scaled(cells, np.zeros(1))
+
+    def _scaled(self, x: Array, y: Array) -> Array:
+        found = self._cell(x, y)
+        if self.level > 0.0:
+            found = found - self._cell(np.full((1, 1), self.level / self.spacing), np.zeros(1))
+        return np.asarray((2.0 if self.line else 1.0) / np.pi * self.spacing * found)
 
     def seen_from(self, pressure: Array, box: Box, target: Box) -> Array:
         """Displacement on a box within that of the pressures."""

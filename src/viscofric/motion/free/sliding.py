@@ -14,6 +14,7 @@ from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.energy import Products
 from viscofric.motion.free.state import FreeState
+from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import step_coefficients
 
 if TYPE_CHECKING:
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 # Patience of the solver, as of the steady contact's.
 _PATIENCE = 4
 _MOST_WINDOWS = 30
-# Distance behind the contact up to which its memory is kept: in memory lengths, and in windows of a line and a point.
-_FADED, _LINE_WINDOWS, _POINT_WINDOWS = 20.0, 100.0, 12.0
+# Distance behind the contact up to which its memory is kept on cells: in memory lengths, and in windows.
+_FADED, _WINDOWS = 20.0, 12.0
 
 
 def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
@@ -35,9 +36,8 @@ def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
     window = cells.window(place)
     nx, ny = window.shape
     spacing = cells.grid.spacing
-    windows = _LINE_WINDOWS if cells.setting.is_line else _POINT_WINDOWS
-    tail = min(_FADED * speed * float(body.times.max(initial=0.0)) / spacing, windows * nx)
-    behind = int(tail) + 1
+    faded = _FADED * speed * float(body.times.max(initial=0.0)) / spacing
+    behind = int(min(faded, _WINDOWS * nx)) + 1
     box = Box(window.i - behind, window.j, nx + behind, ny)
     steps = spacing / speed / body.times
     decay, first, last = (one[:, None] for one in step_coefficients(steps))
@@ -53,12 +53,19 @@ def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
     spread = response(here)
     each = [response(one) for one in memory]
     mixed = memory.reshape(len(memory), -1) @ spread.ravel()
-    products = Products(
-        float(np.vdot(here, spread)), mixed, np.array([float(np.vdot(a, b)) for a, b in zip(memory, each, strict=True)])
-    )
+    modes = np.array([float(np.vdot(a, b)) for a, b in zip(memory, each, strict=True)])
+    wake, far = None, np.zeros((1, nx))
+    if behind < faded:
+        wake = Wake.of(box.i - 1, behind, (decay * before + first * ahead).sum(axis=1), steps)
+        far = wake.at(response, window)
+        mixed = mixed + far @ pressure.sum(axis=1)
+        # In steady motion ⟨q, q⟩ does not change, so that ⟨q, p − q⟩ is zero.
+        modes = np.where(behind < faded * steps.min() / steps, mixed, modes)
+    products = Products(float(np.vdot(here, spread)), mixed, modes)
     facing = cells.facing or response
     opposite = facing(pressure)
     remembered = np.tensordot(body.compliances, np.array(each).reshape(len(each), *box.shape), 1)
+    remembered[window.within(box)] += (body.compliances @ far)[:, None] if wake is not None else 0.0
     surface = body.instant * spread + remembered
     loaded = pressure > 0.0
     level = surface[window.within(box)] + body.counterface * opposite + cells.height(place)
@@ -66,7 +73,7 @@ def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
     faced = float(np.vdot(pressure, opposite))
     zero = np.zeros_like(pressure)
     force = cells.force(pressure, remembered[window.within(box)])
-    return FreeState(place, window, pressure, zero, 0.0, box, memory, products, faced, depth, 0.0, force)
+    return FreeState(place, window, pressure, zero, 0.0, box, memory, products, faced, depth, 0.0, force, wake)
 
 
 def _steady_pressure(cells: Cells, instant: Instant, speed: float) -> Array:

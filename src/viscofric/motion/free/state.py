@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.motion.free.box import Box
     from viscofric.motion.free.energy import Products
+    from viscofric.motion.free.wake import Wake
 
 
 class Place(NamedTuple):
@@ -36,3 +37,4 @@ class FreeState:
     depth: float  # of the indenter's lowest point
     dissipated: float
     force: tuple[float, float]  # of friction, along and across the lattice
+    wake: Wake | None = None  # memory far behind a contact that has slid for ever
