@@ -299,7 +299,8 @@ class _March(Generic[State]):
             return
         coarse, fine = pair
         load, depth, along, across, *energies = (abs(one) / 3.0 for one in difference(pair))
-        errors = Errors(load, depth, math.hypot(along, across), max(energies))
+        of_load, of_depth, of_energy = fine.seen.left_out
+        errors = Errors(load + of_load, depth + of_depth, math.hypot(along, across), max(energies) + of_energy)
         # What is added up over all steps is smooth enough to be extrapolated.
         stored, dissipated, work = (
             two + (two - one) / 3.0

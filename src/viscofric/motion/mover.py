@@ -34,6 +34,8 @@ class Observation(NamedTuple):
         not from the work of load and friction, which the march adds up itself.
     extents : mapping
         ``contact_radius``, or ``front``, ``rear`` and ``half_width``, m.
+    left_out : (float, float, float)
+        Errors of load, depth and dissipated energy that shorter steps do not reduce: by the number of springs.
     """
 
     load: float
@@ -43,6 +45,7 @@ class Observation(NamedTuple):
     stored: float
     dissipated: float
     extents: Mapping[str, float]
+    left_out: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 class Scales(NamedTuple):

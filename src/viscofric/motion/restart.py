@@ -89,17 +89,17 @@ class Restart:
         """Return the mover of the longer history, and the states on its springs."""
         reached = self.track.reached
         if self.method == "waves":
-            return self._waves(problem), reached
+            return _seen(self._waves(problem), reached)
         fresh, s = NormalMotion.of(problem), self.basis["s"]
         if np.array_equal(fresh.s, s):
-            return fresh, reached
+            return _seen(fresh, reached)
         states = [link.state for link in reached.pair]
         touched = [np.flatnonzero((one.force > 0.0) | one.memory.any(axis=1)) for one in states]
         kept = 1 + max((int(one[-1]) for one in touched if len(one)), default=0)
         places = _extended(s[:kept], fresh)
         mover = replace(fresh, s=places, g=profile(fresh.indenter, places), weights=both_sides(places))
         links = [link._replace(state=_padded(link.state, kept, mover)) for link in reached.pair]
-        return mover, replace(reached, pair=Pair(*links))
+        return _seen(mover, replace(reached, pair=Pair(*links)))
 
     def joined(self, track: Track[Any]) -> Track[Any]:
         """Return all that both runs have found."""
@@ -136,6 +136,12 @@ class Restart:
                 code="merged-modes",
             )
         return PeriodicMover(problem, held)
+
+
+def _seen(mover: Mover[Any], reached: Reached[Any]) -> tuple[Mover[Any], Reached[Any]]:
+    """Return a mover and states with what it sees of them."""
+    links = [link._replace(seen=mover.observe(link.state)) for link in reached.pair]
+    return mover, replace(reached, pair=Pair(*links))
 
 
 def _row(instant: Any) -> Array:

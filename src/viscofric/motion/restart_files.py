@@ -143,7 +143,7 @@ def _link(named: Mapping[str, Any], name: str, method: str) -> Link[Any]:
 
 def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Observation:
     x, y = values["friction_force"].tolist()
-    numbers = {one: float(values[one]) for one in _SEEN if one != "friction_force"}
+    numbers: dict[str, Any] = {one: float(values[one]) for one in _SEEN if one != "friction_force"}
     return Observation(**numbers, friction_force=(x, y), extents={one: float(value) for one, value in extents.items()})
 
 

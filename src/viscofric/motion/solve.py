@@ -279,7 +279,8 @@ def assemble(
         load=column(lambda one: one.errors.load),
         indentation=column(lambda one: one.errors.depth),
         friction_force=column(lambda one: one.errors.friction),
-        energy=column(lambda one: one.errors.energy),
+        # An energy keeps the errors of its past, also where the difference of the chains changes its sign.
+        energy=np.maximum.accumulate(column(lambda one: one.errors.energy)),
         balance=work - (stored - track.stored) - dissipated,
     )
     times = column(lambda one: one.instant.time)
