@@ -98,6 +98,21 @@ def test_reciprocation_is_reached_by_waiting_too() -> None:
     assert cycle.to_dataset().attrs["periods"] == cycle.periods
 
 
+@pytest.mark.slow
+def test_reciprocation_of_a_cylinder() -> None:
+    """Independent solution (cells fixed to the body), known to 2e-5; the polygon of the path is shorter by 4e-4."""
+    radius = 0.0021850968611841584
+    phase = np.linspace(0.0, 2.0 * np.pi, 129)
+    path = radius * np.sin(phase)
+    path[-1] = path[0]
+    history = vf.History(phase / 100.0, load=500.0, position=path, before="at rest")
+    cycle = vf.solve_cycle(SLS, vf.Cylinder("10 mm"), history, accuracy=1e-2)
+    assert cycle.energy_per_cycle == pytest.approx(0.3836871665069123, rel=1e-3)
+    assert cycle.mean_friction_coefficient == pytest.approx(0.08779637491652949, rel=2e-3)
+    assert cycle.run.work[-1] == pytest.approx(cycle.energy_per_cycle, rel=1e-3)
+    assert cycle.run.friction_force[-1] == pytest.approx(cycle.run.friction_force[0], rel=2e-3)
+
+
 def test_what_does_not_repeat_itself_is_refused() -> None:
     with refused("not-a-period"):
         vf.solve_cycle(SLS, BALL, vf.History([0.0, 1.0], load=[1.0, 2.0]))

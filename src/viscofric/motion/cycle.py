@@ -10,6 +10,7 @@ iterated, with Anderson's acceleration [1]_, until it changes nothing.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
@@ -20,7 +21,7 @@ from viscofric.motion.chains import Link, Pair, Reached
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.march import march
 from viscofric.motion.mover import Mover, State
-from viscofric.motion.solve import assemble, checked_problem, mover_of
+from viscofric.motion.solve import assemble, checked_problem, mover_of, needs_grid
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
@@ -32,9 +33,10 @@ if TYPE_CHECKING:
     from viscofric.contact.bodies import Layer
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.motion.chains import Track
     from viscofric.motion.history import History
     from viscofric.motion.problem import Problem
-    from viscofric.motion.schedule import Instant
+    from viscofric.motion.schedule import Instant, Schedule
     from viscofric.rheology.material import Material
     from viscofric.units import Quantity
 
@@ -127,43 +129,78 @@ def solve_cycle(
     whole_number(most_periods, "most_periods", 1)
     problem = checked_problem(material, indenter, one_period, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     _insist_on_period(one_period, problem.kind)
-    found, method = mover_of(problem, one_period)
-    if not hasattr(found, "memory_of"):
-        raise InputError(
-            "indenter: the repeating state of this contact is not available; repeat its history in solve_transient.",
-            code="not-available",
+    search = _Search(_damping(problem), most_periods, progress)
+    if needs_grid(problem, one_period):
+        from viscofric.motion.free.solve import solve_free
+
+        track, notes = solve_free(problem, None, None, search.follow)
+        method = "grid"
+    else:
+        found, method = mover_of(problem, one_period)
+        track, notes = search.follow(cast("RepeatingMover[Any]", found), problem.schedule, accuracy=accuracy), ()
+    run = assemble(track, problem, one_period, method, notes=notes)
+    return CycleSolution.of(run, problem.schedule.control, search.periods, search.change)
+
+
+@dataclass(eq=False)
+class _Search:
+    """The search for the state that repeats itself."""
+
+    damping: float
+    most_periods: int
+    progress: Callable[[int, float], object] | None
+    periods: int = 0
+    change: float = np.inf
+
+    def follow(
+        self,
+        mover: RepeatingMover[Any],
+        schedule: Schedule,
+        *,
+        accuracy: float,
+        extrapolate: bool = False,
+        times: None = None,
+        progress: None = None,
+    ) -> Track[Any]:
+        """Return the period in the state that repeats itself."""
+        first, last = schedule.at(schedule.start), schedule.at(schedule.end, after=False)
+        state = mover.begin()
+        if schedule.before == "untouched":
+            state = mover.step(state, schedule.at(schedule.start, after=False), first)
+        mixing = _Anderson(self.damping)
+        for _ in range(self.most_periods):
+            memory = mover.memory_of(state)
+            # The pressure that goes with this memory, at once.
+            begun = mover.step(mover.with_memory(state, memory), first, first)
+            link = Link(begun, mover.observe(begun), 0.0)
+            track = march(
+                mover,
+                schedule,
+                accuracy=accuracy,
+                fields=False,
+                begin=Reached(Pair(link, link)),
+                extrapolate=extrapolate,
+            )
+            if track.interrupted:
+                raise KeyboardInterrupt
+            state = track.reached.pair.fine.state
+            reached = mover.memory_of(state)
+            if reached.shape != memory.shape:  # more cells have been loaded
+                memory, mixing = mover.memory_of(begun), _Anderson(self.damping)
+            change = mover.recovered(reached - memory, first, last)
+            size = float(np.linalg.norm(reached))
+            self.change = float(np.linalg.norm(change)) / size if size > 0.0 else 0.0
+            self.periods += 1
+            if self.progress is not None:
+                self.progress(self.periods, self.change)
+            if self.change <= _CLOSE * accuracy:
+                return track
+            state = mover.with_memory(state, mixing.next(memory, change))
+        raise ConvergenceError(
+            f"the state did not repeat itself after {self.most_periods} periods: its memory was {self.change:.2g} of "
+            "itself away; allow more periods (most_periods=).",
+            code="not-repeating",
         )
-    mover = cast("RepeatingMover[Any]", found)
-    schedule = problem.schedule
-    first, last = schedule.at(schedule.start), schedule.at(schedule.end, after=False)
-    state = mover.begin()
-    if schedule.before == "untouched":
-        state = mover.step(state, schedule.at(schedule.start, after=False), first)
-    mixing, far = _Anderson(_damping(problem)), np.inf
-    for period in range(1, most_periods + 1):
-        memory = mover.memory_of(state)
-        # The pressure that goes with this memory, at once.
-        begun = mover.step(mover.with_memory(state, memory), first, first)
-        link = Link(begun, mover.observe(begun), 0.0)
-        track = march(mover, schedule, accuracy=accuracy, fields=False, begin=Reached(Pair(link, link)))
-        if track.interrupted:
-            raise KeyboardInterrupt
-        state = track.reached.pair.fine.state
-        reached = mover.memory_of(state)
-        change = mover.recovered(reached - memory, first, last)
-        size = float(np.linalg.norm(reached))
-        far = float(np.linalg.norm(change)) / size if size > 0.0 else 0.0
-        if progress is not None:
-            progress(period, far)
-        if far <= _CLOSE * accuracy:
-            run = assemble(track, problem, one_period, method)
-            return CycleSolution.of(run, problem.schedule.control, period, far)
-        state = mover.with_memory(state, mixing.next(memory, change))
-    raise ConvergenceError(
-        f"the state did not repeat itself after {most_periods} periods: its memory was {far:.2g} of itself away; allow "
-        "more periods (most_periods=).",
-        code="not-repeating",
-    )
 
 
 def _damping(problem: Problem) -> float:

@@ -18,6 +18,7 @@ from viscofric.contact.free.stage import Footprint
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.cells import Cells
+from viscofric.motion.free.energy import Products
 from viscofric.motion.free.resting import rested, untouched
 from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
@@ -43,6 +44,8 @@ class FreeMover(Cells):
     reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
     longest: float = field(default=0.0, init=False)  # the longest of them
     first_depth: float | None = field(default=None, init=False)  # at the first contact
+
+    _swept: Box | None = field(default=None, init=False)  # cells of all memories that were read
 
     @property
     def scales(self) -> Scales:
@@ -155,6 +158,30 @@ class FreeMover(Cells):
     def ticks(self, start: Instant, end: Instant) -> Array:
         """Return times at which steps may end: the indenter is a whole number of cells away."""
         return self.setting.ticks(start, end, _TICK * self.grid.spacing)
+
+    def memory_of(self, state: FreeState) -> Array:
+        """Return the memory on the cells of all memories so far, scaled by the root of its compliances."""
+        self._swept = state.box if self._swept is None else self._swept.joined(state.box)
+        return np.asarray(self._roots * state.box.carried(state.memory, self._swept))
+
+    def with_memory(self, state: FreeState, memory: Array) -> FreeState:
+        """Return a state with another memory, which has not dissipated anything yet."""
+        box = self._swept or state.box
+        fields = memory / self._roots
+        own = np.array([float(np.vdot(one, self.response(one))) for one in fields])
+        products = state.products
+        # The products with the pressure are those after the next step, a jump.
+        return replace(
+            state, box=box, memory=fields, products=Products(products.pressure, products.mixed, own), dissipated=0.0
+        )
+
+    def recovered(self, change: Array, start: Instant, end: Instant) -> Array:
+        """Return the change of a memory over a period, over 1 − e^(−T/τ)."""
+        return np.asarray(change / -np.expm1(-(end.clock - start.clock) / self.setting.body.times)[:, None, None])
+
+    @property
+    def _roots(self) -> Array:
+        return np.asarray(np.sqrt(self.setting.body.compliances)[:, None, None])
 
     def _grid_of(self, state: FreeState) -> Grid:
         behind = state.place.i - state.window.i

@@ -73,13 +73,17 @@ def solve_free(
     problem: Problem,
     times: Sequence[float] | None,
     progress: Callable[[float, float], object] | None = None,
+    follow: Callable[..., Track[Any]] = march,
 ) -> tuple[Track[Any], tuple[Note, ...]]:
-    """March a free contact through its schedule; return the moments with all errors, and notes on assumptions."""
+    """March a free contact through its schedule; return the moments with all errors, and notes on assumptions.
+
+    `follow` takes the arguments of `march`, and returns the track on one grid.
+    """
     problem = replace(problem, schedule=with_fewer_kinks(problem.schedule))
     line = problem.indenter.geometry.dimension == 1  # type: ignore[union-attr]
     cells = _LINE_CELLS if line else _POINT_CELLS
     most = _MOST_LINE_CELLS if line else _MOST_POINT_CELLS
-    level = _first(problem, cells, times, progress)
+    level = _first(problem, cells, times, progress, follow)
     largest, steps = _largest(level), problem.accuracy
     while not level.track.interrupted:
         finer = level.cells * _FINER
@@ -90,7 +94,7 @@ def solve_free(
             )
         before, spacing = level, _fitted(level.mover.setting, level.mover.grid.spacing / _FINER)
         steps *= _FINER_STEPS
-        level = _march(problem, _around(before, spacing), times, progress, largest, steps)
+        level = _march(problem, _around(before, spacing), times, progress, follow, largest, steps)
         moments = _compared(level, before)
         largest = _largest(level)
         judged = moments if times is not None else _resolved(moments, before.track.moments, problem.schedule.kinks)
@@ -106,7 +110,11 @@ def solve_free(
 
 
 def _first(
-    problem: Problem, cells: int, times: Sequence[float] | None, progress: Callable[[float, float], object] | None
+    problem: Problem,
+    cells: int,
+    times: Sequence[float] | None,
+    progress: Callable[[float, float], object] | None,
+    follow: Callable[..., Track[Any]],
 ) -> _Level:
     """March on the coarsest grid that has so many cells along the longest contact."""
     size = 1.0
@@ -115,7 +123,7 @@ def _first(
         half = _FIRST_WINDOW * size
         spacing = _fitted(setting, 2.0 * size / cells)
         grid = replace(setting.geometry.grid.around(half, half, half, math.ceil(2.0 * half / spacing)), spacing=spacing)
-        level = _march(problem, grid, times, progress, None, problem.accuracy)
+        level = _march(problem, grid, times, progress, follow, None, problem.accuracy)
         longest = level.mover.longest
         if longest == 0.0 or _SHORT < 0.5 * longest / size < 1.0 / _SHORT or level.track.interrupted:
             break
@@ -128,6 +136,7 @@ def _march(
     grid: Grid,
     times: Sequence[float] | None,
     progress: Callable[[float, float], object] | None,
+    follow: Callable[..., Track[Any]],
     largest: Scales | None,
     steps: float,
 ) -> _Level:
@@ -135,7 +144,7 @@ def _march(
     if largest is not None:
         setting = replace(setting, known=largest)
     mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy)
-    track = march(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
+    track = follow(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
     if not setting.is_levelled:
         # Of a line contact, only the change of the indentation has a meaning.
         unit = setting.scale.depth * (mover.first_depth or 0.0)
