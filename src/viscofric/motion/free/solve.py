@@ -54,8 +54,8 @@ _LEAST_FRICTION = 1e-3
 _LEAST_DEPTH = 0.02
 # Change of the load that is none.
 _STEADY_LOAD = 1e-6
-# Of the contact conditions, in the accuracy.
-_TOLERANCE = 0.01
+# Of the contact conditions, in the accuracy, for a friction coefficient that is such a part of the slope; least part.
+_TOLERANCE, _TYPICAL_FRICTION, _SMALLEST = 0.01, 0.2, 0.02
 # Error of the creep compliance by merged modes, in the accuracy.
 _MERGED = 0.02
 
@@ -143,7 +143,7 @@ def _march(
     setting = _setting(problem, grid.spacing, times)
     if largest is not None:
         setting = replace(setting, known=largest)
-    mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy)
+    mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy * _smallness(setting))
     track = follow(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
     if not setting.is_levelled:
         # Of a line contact, only the change of the indentation has a meaning.
@@ -151,6 +151,14 @@ def _march(
         moments = [replace(one, seen=one.seen._replace(depth=one.seen.depth - unit)) for one in track.moments]
         track = replace(track, moments=moments)
     return _Level(mover, track, mover.longest / mover.grid.spacing)
+
+
+def _smallness(setting: Setting) -> float:
+    """Return the friction over the load times the slope, if it is small: gaps count in it relative to the depth."""
+    if setting.known is None:
+        return 1.0
+    typical = _TYPICAL_FRICTION * setting.known.load * setting.scale.slope
+    return min(1.0, max(_SMALLEST, setting.known.friction / typical)) if typical > 0.0 else 1.0
 
 
 def _setting(problem: Problem, spacing: float, times: Sequence[float] | None) -> Setting:
