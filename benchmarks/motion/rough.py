@@ -81,11 +81,13 @@ class Run:
             first = self.schedule.at(0.0)
             self.state = self.mover.step(self.state, first, first)
 
-    def friction(self, steps: int) -> np.ndarray:
-        """Slide to the end; return the friction coefficient after each step."""
+    def friction(self, steps: int, taken: int | None = None) -> np.ndarray:
+        """Slide to the end by so many steps, or take the first few; return the friction coefficient after each."""
         found = []
-        for start, end in itertools.pairwise(np.linspace(0.0, self.schedule.end, steps + 1).tolist()):
-            self.state = self.mover.step(self.state, self.schedule.at(start), self.schedule.at(end, after=False))
+        times = np.linspace(0.0, self.schedule.end, steps + 1)[: None if taken is None else taken + 1]
+        for start, end in itertools.pairwise(times.tolist()):
+            instants = self.schedule.at(start), self.schedule.at(end, after=False)
+            self.state = self.mover.step(self.state, *instants, keep=False)
             found.append(self.mover.observe(self.state).friction_force[0] / problems.VISCOELASTIC_PRESSURE)
         return np.array(found)
 
@@ -97,8 +99,8 @@ def cost(material: vf.Material, points: int, steps: int) -> dict[str, Any]:
     before = run.mover.products
     _, seconds = measuring.cpu_seconds(lambda: run.friction(steps))
     products = run.mover.products - before
-    again = Run(material, surface, "at rest", 2 * surface.spacing[0])
-    _, peak = measuring.peak_bytes(lambda: again.friction(2))
+    again = Run(material, surface, "at rest", steps * surface.spacing[0])
+    _, peak = measuring.peak_bytes(lambda: again.friction(steps, min(steps, 3)))
     return {
         "case": "viscofric",
         "points": points,
@@ -108,7 +110,7 @@ def cost(material: vf.Material, points: int, steps: int) -> dict[str, Any]:
         "products": products / steps,
         "seconds_per_step": seconds / steps,
         "seconds": STEPS * seconds / steps,
-        "arrays": (peak + run.state.memory.nbytes) / surface.z.nbytes,
+        "arrays": (peak + again.state.memory.nbytes) / surface.z.nbytes,
     }
 
 

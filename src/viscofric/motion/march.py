@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.motion.schedule import Instant, Schedule
 
-#: First share of the accuracy that one step may add to the difference of the chains.
+#: First share of the accuracy that one step may add to the difference of the chains, for movers without a `share`
+#: of their own, and where all steps are returned: integrals over these, such as means of cycles, need short ones.
 _SHARE = 0.05
 _MOST_MARCHES = 6
 #: Changes of the step from one to the next; order 3 of the local error.
@@ -80,7 +81,9 @@ def march(
     ConvergenceError
         If the accuracy is not reached, but for a mover whose ticks are too far apart for it: see the errors.
     """
-    share = _SHARE if begin is None or begin.share is None else begin.share
+    share = _SHARE if times is None else float(getattr(mover, "share", _SHARE))
+    if begin is not None and begin.share is not None:
+        share = begin.share
     for _ in range(_MOST_MARCHES):
         one = _March(mover, schedule, accuracy, share, times, fields, progress, extrapolate)
         try:

@@ -52,6 +52,7 @@ _KEPT = 2
 _MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
 # Points from which on residuals are extended, which saves products but costs time.
 _EXTENDED = 10_000
+_SHARES = (0.05, 0.3)  # see `march`: for ridges, and for spots, where errors of steps that come and go nearly cancel
 _SAME = 1e-12  # relative difference up to which steps are the same
 
 
@@ -124,6 +125,7 @@ class PeriodicMover:
         self.height = (surface.z.max() - surface.z) / self.depth_unit
         self.mean_height = float(self.height.mean())
         self._tightness = _TIGHTNESS * problem.accuracy
+        self.share = _SHARES[min(surface.shape) > 1]
         self.products = 0
         self._steps: dict[tuple[float, ...], _Step] = {}
 
@@ -161,22 +163,22 @@ class PeriodicMover:
         stored = 0.5 * float(np.linalg.norm(self._roots * memory)) ** 2
         return self._state(pressure, waves, memory, problem.response, past, depth, (stored, 0.0), None)
 
-    def step(self, state: PeriodicState, start: Instant, end: Instant) -> PeriodicState:
-        """Return the state at the end of a step, or on the other side of a jump."""
+    def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
+        """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""
         path = np.asarray(end.position) - np.asarray(start.position)
         clock_step = end.clock - start.clock
         problem = self._step_of(clock_step, path)
-        before = self._scale * state.waves
-        past = problem.response.known(self.modes, state.memory, before)
+        past = problem.response.known(self.modes, state.memory, self._scale * state.waves)
         guess = state.pressure
         if state.trend is not None and clock_step > 0.0:
             guess = guess + clock_step * state.trend
         pressure, depth = self._solved(problem, past, end, guess)
         waves = self.grid.of(pressure)
-        after = advance(problem.response, self.modes, state.memory, before, self._scale * waves)
+        ends = self._scale * state.waves, self._scale * waves
+        after = advance(problem.response, self.modes, state.memory, *ends, keep=keep)
         trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
-        energies = after.stored, state.dissipated + after.dissipated
-        return self._state(pressure, waves, after.memory, problem.response, past, depth, energies, trend)
+        done = after.stored, state.dissipated + after.dissipated
+        return self._state(pressure, waves, after.memory, problem.response, past, depth, done, trend)
 
     def accept(self, state: PeriodicState, instant: Instant) -> None:
         """Do nothing: the method holds for every state."""
@@ -243,11 +245,9 @@ class PeriodicMover:
         qx, qy = self.grid.numbers
         friction = float(work.sum(axis=1) @ qx[:, 0]), float(work.sum(axis=0) @ qy[0])
         elastic = self.modes.instantaneous * self._shape + self._rigid
-        stored = 0.5 * self._norm(elastic, waves) + energies[0]
+        squares = np.square(waves.real) + np.square(waves.imag)
+        stored = 0.5 * float(np.vdot(self.grid.weights * elastic, squares)) + energies[0]
         return PeriodicState(pressure, waves, memory, depth, friction, stored, energies[1], trend)
-
-    def _norm(self, factor: Array, waves: ComplexArray) -> float:
-        return float(np.vdot(self.grid.weights * factor, np.square(waves.real) + np.square(waves.imag)))
 
     def _step_of(self, clock_step: float, path: Array) -> _Step:
         """Return the problem of a step, kept from one that differs by rounding only."""
@@ -279,7 +279,8 @@ class PeriodicMover:
         """Return the pressure and the depth, without the mean displacement, at the end of a step."""
         known = self._unscaled * past
         known[0, 0] = 0.0  # a mean displacement is added to the depth afterwards
-        height = self.height + self.grid.field(known)
+        height = self.grid.field(known) + self.height
+        del known  # large
         load = indentation = None
         if end.gap is None:
             load = end.pressure / self.pressure_unit * height.size  # type: ignore[operator]
@@ -330,8 +331,7 @@ class PeriodicMover:
         """Solve as a steady contact is solved, from any guess."""
         mean = None if target.load is None else target.load / height.size
         gap = None if target.indentation is None else float(height.mean()) - target.indentation
-        transfer = problem.exact.transfer
-        stage = Stage(height, transfer, lambda: self._elastic, problem.toward)
+        stage = Stage(height, problem.exact.transfer, lambda: self._elastic, problem.toward)
         one = OneGrid(stage, mean, gap, target.tolerance, _MOST_PRODUCTS, self.backend)
         result = one.solve(guess)
         self.products += one.products

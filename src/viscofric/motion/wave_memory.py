@@ -95,27 +95,36 @@ class _Pressures(NamedTuple):
     phase: ComplexArray | None
     before: ComplexArray
     change: ComplexArray
-    # f = constant + linear θ, its integral and that of θ f
+    after: ComplexArray
+    squares: float  # |p|² at the beginning less that at the end
+    # f = constant + linear θ; its integral and that of θ f, each without the part of p in r0 − r1 and −r1
     constant: ComplexArray
     linear: ComplexArray
-    whole: ComplexArray
-    first: ComplexArray
+    rest: ComplexArray
+    moment: ComplexArray
 
 
 def advance(
-    response: StepResponse, modes: Modes, memory: ComplexArray, before: ComplexArray, after: ComplexArray
+    response: StepResponse,
+    modes: Modes,
+    memory: ComplexArray,
+    before: ComplexArray,
+    after: ComplexArray,
+    *,
+    keep: bool = True,
 ) -> Advanced:
-    """Return the memory (n, rows, columns) after a step from one pressure to another, both (rows, columns)."""
-    found = np.empty_like(memory)
+    """Return the memory (n, rows, columns) after a step from one pressure to another, both (rows, columns).
+
+    It overwrites the memory given unless that is to be kept.
+    """
+    found = np.empty_like(memory) if keep else memory
     stored = dissipated = 0.0
     turns, befores, afters = response.turn.reshape(-1), before.reshape(-1), after.reshape(-1)
     phases = None if response.phase is None else response.phase.reshape(-1)
     old, new = memory.reshape(len(modes), -1), found.reshape(len(modes), -1)
     for start in range(0, turns.size, _BLOCK):
         part = slice(start, start + _BLOCK)
-        given = _pressures(
-            turns[part], None if phases is None else phases[part], befores[part], afters[part] - befores[part]
-        )
+        given = _pressures(turns[part], None if phases is None else phases[part], befores[part], afters[part])
         for k, (compliance, kappa) in enumerate(zip(modes.C, response.steps, strict=True)):
             loss = _one(float(kappa), given, old[k, part], new[k, part])
             dissipated += compliance * loss
@@ -123,47 +132,69 @@ def advance(
     return Advanced(found, float(stored), float(dissipated))
 
 
-def _pressures(turn: Array, phase: ComplexArray | None, before: ComplexArray, change: ComplexArray) -> _Pressures:
+def _pressures(turn: Array, phase: ComplexArray | None, before: ComplexArray, after: ComplexArray) -> _Pressures:
+    change, squares = after - before, _square(before) - _square(after)
     if phase is None:
-        return _Pressures(turn, phase, before, change, change, np.zeros_like(change), change, 0.5 * change)
+        none = np.zeros_like(change)
+        return _Pressures(turn, phase, before, change, after, squares, change, none, none, none)
     rate = -1j * turn
     constant, linear = change + rate * before, rate * change
-    return _Pressures(
-        turn, phase, before, change, constant, linear, constant + 0.5 * linear, 0.5 * constant + linear / 3.0
-    )
+    rest, moment = constant + 0.5 * linear - change, 0.5 * constant + linear / 3.0 - after
+    return _Pressures(turn, phase, before, change, after, squares, constant, linear, rest, moment)
 
 
 def _square(values: ComplexArray) -> float:
     return float(np.vdot(values, values).real)
 
 
+def _product(one: ComplexArray, other: ComplexArray) -> float:
+    return float(np.vdot(one, other).real)
+
+
 def _one(kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray) -> float:
-    """Write q after a step into q1; return κ ∫ |p − q|² dθ, summed over the waves."""
-    turn, phase, p0, change = given[:4]
-    decay = np.exp(-kappa) if phase is None else np.exp(-kappa) * phase
+    """Write q after a step into q1, which may be q0; return κ ∫ |p − q|² dθ, summed over the waves."""
+    turn, phase, p0, change, p1 = given[:5]
     if kappa == 0.0:
-        np.multiply(decay, q0, out=q1)
+        np.multiply(1.0 if phase is None else phase, q0, out=q1)
         return 0.0
-    small = np.hypot(kappa, turn) < _SERIES_BELOW if kappa < _SERIES_BELOW else None
+    if kappa < _SERIES_BELOW:
+        small = np.hypot(kappa, turn) < _SERIES_BELOW
+        if small.any():
+            return _near(kappa, given, q0, q1, small)
     if phase is None:
-        slope = change
         level = p0 - change / kappa
+        new = q0 - level
+        new *= np.exp(-kappa)
+        level += change
+        new += level
+        np.subtract(new, q0, out=level)
+        level += given.rest
+        work = _product(level, given.constant) / kappa
     else:
         share = _share(kappa, turn)
         slope = share * change
         level = slope * (-1.0 / kappa)
         level += p0
         level *= share
-    np.subtract(q0, level, out=q1)
-    q1 *= decay
-    q1 += level
-    q1 += slope
-    r0 = p0 - q0
-    r1 = p0 - q1
-    r1 += change
-    if small is not None and small.any():
-        return _near(kappa, given, q0, q1, small, r0, r1)
-    return 0.5 * (_square(r0) - _square(r1)) + _work(kappa, given, r0, r1, None if phase is None else share)
+        new = q0 - level
+        new *= phase
+        new *= np.exp(-kappa)
+        level += slope
+        new += level
+        share *= 1.0 / kappa
+        np.subtract(new, q0, out=level)
+        level += given.rest
+        level *= share  # ∫ r dθ
+        work = _product(level, given.constant)
+        level += new
+        level += given.moment
+        level *= share  # ∫ r θ dθ
+        work += _product(level, given.linear)
+    # |r|² at the ends, multiplied out: this needs no array of r.
+    ends = given.squares + _square(q0) - _square(new)
+    loss = 0.5 * ends - _product(p0, q0) + _product(p1, new) + work
+    q1[...] = new
+    return loss
 
 
 def _share(kappa: float, turn: Array) -> ComplexArray:
@@ -178,35 +209,20 @@ def _share(kappa: float, turn: Array) -> ComplexArray:
     return found
 
 
-def _work(kappa: float, given: _Pressures, r0: ComplexArray, r1: ComplexArray, share: ComplexArray | None) -> float:
-    """Return Re ∫ r* f dθ, summed over the waves."""
-    whole = r0 - r1
-    whole += given.whole
-    whole *= 1.0 / kappa
-    if share is None:
-        return float(np.vdot(whole, given.constant).real)
-    whole *= share  # ∫ r dθ
-    first = whole - r1
-    first += given.first
-    first *= share
-    first *= 1.0 / kappa  # ∫ r θ dθ
-    return float((np.vdot(whole, given.constant) + np.vdot(first, given.linear)).real)
-
-
-def _near(
-    kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray, small: Mask, r0: ComplexArray, r1: ComplexArray
-) -> float:
+def _near(kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray, small: Mask) -> float:
     """Do the same where some |z| are near zero: there r is nearly linear."""
-    near = step_coefficients(kappa, given.turn[small] if given.phase is not None else 0.0)
-    p0, change = given.before[small], given.change[small]
-    q1[small] = near.decay * q0[small] + (near.start + near.end) * p0 + near.end * change
-    first, last = r0[small], p0 + change - q1[small]
-    loss = kappa / 3.0 * (_square(first) + _square(last) + float(np.vdot(first, last).real))
-    far = ~small
-    if not far.any():
-        return loss
-    phase = None if given.phase is None else given.phase[far]
-    rest = _pressures(given.turn[far], phase, given.before[far], given.change[far])
-    ends = r0[far], r1[far]
-    share = _share(kappa, rest.turn)
-    return loss + 0.5 * (_square(ends[0]) - _square(ends[1])) + _work(kappa, rest, *ends, share)
+    moves, far = given.phase is not None, ~small
+    near = step_coefficients(kappa, given.turn[small] if moves else 0.0)
+    p0, p1, old = given.before[small], given.after[small], q0[small]
+    new = near.decay * old + near.start * p0 + near.end * p1
+    first, last = p0 - old, p1 - new
+    loss = kappa / 3.0 * (_square(first) + _square(last) + _product(first, last))
+    if far.any():
+        rest = _pressures(
+            given.turn[far], None if given.phase is None else given.phase[far], given.before[far], given.after[far]
+        )
+        others = q0[far]
+        loss += _one(kappa, rest, others, others)
+        q1[far] = others
+    q1[small] = new
+    return loss
