@@ -161,6 +161,11 @@ class TransientSolution:
         ------
         InputError
             If the pressure of that time was not kept; it is for every time asked for.
+
+        Notes
+        -----
+        Unlike forces and depths, the pressure next to an edge that advances carries the marks of single steps in time:
+        for a ball pressed in at a constant rate, 4 % of the largest pressure at an accuracy of 1e-3, 0.6 % at 1e-4.
         """
         import xarray
 
