@@ -11,6 +11,7 @@ from refusals import refused
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
+from viscofric.motion.free import mover
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.energy import _relaxation
 from viscofric.motion.free.response import response_of
@@ -187,6 +188,13 @@ def test_far_wake_is_the_sum_over_its_cells(line):
         ]
         assert wake.at(response, window)[:, place] == pytest.approx(exact, rel=1e-5)  # the midpoint rule's, (1/201)²/24
     assert wake.holds_near(Box(-190, 0, 50, 1))
+
+
+def test_a_path_too_long_for_the_memory_is_refused_before_it_is_full(monkeypatch):
+    monkeypatch.setattr(mover, "MOST_BYTES", 8 * 350)
+    history = vf.History([0.0, 3.0 * A0 / SPEED], load=LOAD, speed=SPEED, before="at rest")
+    with refused("too-long-path", vf.ConvergenceError):
+        vf.solve_transient(RUBBER, CYLINDER, history, accuracy=2e-2)
 
 
 def test_line_contacts_refuse_a_depth_and_a_path_across():

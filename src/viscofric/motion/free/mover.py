@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 # Space by which the box of the memory is wider than it must be, as a part of it.
 _SPARE = 0.3
 MOST_WINDOWS = 30
+MOST_BYTES = 2**32  # of the memory of one state; a few states are held at a time
 _TICK = 1.0  # distance between times at which steps may end, in cells
 
 
@@ -76,6 +77,7 @@ class FreeMover(Cells):
         for _ in range(MOST_WINDOWS):
             window = self.window(place)
             box = state.box if state.box.holds(window) else state.box.grown(window, _SPARE)
+            self._check_size(box)
             held = state.window.carried(state.pressure, box)
             memory = state.box.carried(state.memory, box)
             left = np.tensordot(body.compliances * coefficients.decay, memory, 1)
@@ -91,6 +93,17 @@ class FreeMover(Cells):
             raise ConvergenceError("no window was found that holds the contact.", code="no-window")
         force = self.force(solved[0], known)
         return self._after(state, coefficients, duration, place, window, box, held, memory, solved, force)
+
+    def _check_size(self, box: Box) -> None:
+        """Refuse a path whose cells do not fit into memory."""
+        size = 8 * len(self.setting.body.times) * box.nx * box.ny
+        if size > MOST_BYTES:
+            raise ConvergenceError(
+                f"the path has covered {box.nx} × {box.ny} cells, whose memory needs {size / 2**30:.1f} GiB; shorten "
+                "the path, or ask for less accuracy.",
+                code="too-long-path",
+                values={"gibibytes": size / 2**30},
+            )
 
     def _of_wake(self, wake: Wake, coefficients: StepCoefficients, window: Box, end: Instant) -> Array:
         """Return the displacement by the far wake on a window after a step."""
