@@ -15,6 +15,7 @@ import numpy as np
 
 from viscofric.rheology.superposition.gauge import continued, continued_covariance, identified
 from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, Offsets, estimated
+from viscofric.rheology.superposition.most_likely_shifts import most_likely
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, join, parted
 from viscofric.rheology.superposition.quantity import BOTH
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 
 OFFSET_PASSES = 3  # each smooths the curves again, with the offsets found
+TEST_PASSES = 2  # of step tests; the second has the variance of correlated points
 LARGEST_STEP = 0.3  # decades, in one iteration
 PASSES = 8  # each chooses knots and smoothing again
 CONVERGED = 1e-5  # decades
@@ -162,6 +164,8 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     moduli, with shifts of their own, show the offsets that its errors include; the shifts found depend on it alone.
     """
     search, own, gradient = _beside_offsets(search)
+    if search.problem.moduli == 1 and not quantities.alone and np.any(own.covariance):
+        return _with_offsets_of_tests(search, own, sweeps, quantities)
     problem, offsets, seen, onto = search.problem, own, np.eye(len(own.covariance)), quantities.onto_moduli
     if quantities.alone:
         both = _of_both(sweeps, problem.gauge)
@@ -179,6 +183,41 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     return replace(
         _result(search, covariance, freedom),
         offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto),
+    )
+
+
+def _with_offsets_of_tests(
+    search: _Search, offsets: Offsets, sweeps: list[LogSweep], quantities: Quantities
+) -> CommonShifts:
+    """Continue to the most likely shifts of step tests, with offsets of the size found.
+
+    Where residuals are correlated even without the offsets, the variance of the points is increased, and the search is
+    repeated.
+    """
+    problem, ways, size = search.problem, search.problem.ways, search.problem.size
+    spread: Array = np.asarray(np.kron(offsets.covariance, np.eye(size)), dtype=float)
+    free = slice(size)
+    freedom = _covariance(search, offsets.expected)[1]
+    excess: list[Array] | None = None
+    for _ in range(TEST_PASSES):
+        information, _, _ = problem.with_offsets(search.parameters, search.smoothers, None)
+        across = information[free, size:]
+        onto = across @ spread @ np.linalg.inv(np.eye(size) + information[size:, size:] @ spread)
+        normal = ways.T @ (information[free, free] - onto @ across.T + problem.prior.T @ problem.prior) @ ways
+        scale = ways @ np.linalg.inv(np.linalg.cholesky(normal)).T
+        profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), spread, excess)
+        parameters, covariance = most_likely(profiles.in_parts, search.parameters, scale)
+        search = replace(search, parameters=parameters)
+        expected = _offsets(search, offsets.expected)[0].expected
+        excess = problem.inflations(parameters, search.smoothers, expected)
+        if max(float(one.max()) for one in excess) == 1.0:
+            break
+    follow = np.zeros((2 * size, size))
+    follow[:size] = covariance @ onto
+    widened = profiles.widened(parameters, covariance, covariance, covariance)
+    return replace(
+        _result(search, widened, freedom),
+        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, quantities.onto_moduli),
     )
 
 

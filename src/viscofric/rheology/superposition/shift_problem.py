@@ -200,8 +200,7 @@ class ShiftProblem:
             curves = smoother.curves(frequency, moduli, weights)
             scatters = smoother.scatter
             if expected is not None:
-                beside = smoother.curves(frequency, moduli - piece.own(self._of_isotherms(expected)), weights)
-                scatters = scatters * np.sqrt([inflation(one, piece.same) for one in beside.residual.T])
+                scatters = scatters * np.sqrt(self._inflations(piece, smoother, parameters, expected))
             belongs = np.eye(piece.size)[piece.isotherm]
             level = belongs * curves.root
             slopes = curves.slopes_of_basis @ curves.coefficients
@@ -217,6 +216,18 @@ class ShiftProblem:
                 score[places] += columns.T @ curves.residual[:, modulus] / scatter**2
                 gradient[np.ix_(shifts, offsets)] += self.weights[modulus] * found[: len(shifts), len(shifts) :]
         return information, score, gradient
+
+    def inflations(self, parameters: Array, smoothers: list[Smoother], expected: Array) -> list[Array]:
+        """Return of each piece the factors (m,) of the variance of its points where residuals have a common part."""
+        return [
+            self._inflations(piece, smoother, parameters, expected)
+            for piece, smoother in zip(self.pieces, smoothers, strict=True)
+        ]
+
+    def _inflations(self, piece: Piece, smoother: Smoother, parameters: Array, expected: Array) -> Array:
+        frequency, moduli, weights = piece.reduced(*self.split(parameters))
+        beside = smoother.curves(frequency, moduli - piece.own(self._of_isotherms(expected)), weights)
+        return np.array([inflation(one, piece.same) for one in beside.residual.T])
 
     def state(
         self,

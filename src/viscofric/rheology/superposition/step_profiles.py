@@ -93,14 +93,24 @@ class StepProfiles:
 
     Curves are cubic splines with equal intervals, so that the same splines apply to all shifts.  `levels` (m n, m n) is
     the covariance of levels of the m moduli of n isotherms: offsets and vertical shifts; decades².  `problem` and
-    `smoothers` are those at the end of the search.
+    `smoothers` are those at the end of the search; `excess` (m,) of each is the factor of the variance of its points.
     """
 
-    def __init__(self, problem: ShiftProblem, smoothers: list[Smoother], sweeps: list[LogSweep], levels: Array) -> None:
+    def __init__(
+        self,
+        problem: ShiftProblem,
+        smoothers: list[Smoother],
+        sweeps: list[LogSweep],
+        levels: Array,
+        excess: list[Array] | None = None,
+    ) -> None:
         self.problem = problem
         self.smoothers = smoothers
         self.sweeps = sweeps
         self.levels = levels
+        self.scatters = [one.scatter / np.sqrt(problem.weights) for one in smoothers]
+        if excess is not None:
+            self.scatters = [np.sqrt(one) * scatter for one, scatter in zip(excess, self.scatters, strict=True)]
 
     def widened(self, parameters: Array, inverse: Array, noise: Array, covariance: Array) -> Array:
         """Return the covariance (p, p) with the variance that profiles of the steps add, at the parameters (p,) found.
@@ -141,11 +151,16 @@ class StepProfiles:
         """Evaluate moves of steps, and record their likelihood."""
         moved = np.array([parameters + move * profile.follow for profile, move in moves if move])
         still = self(parameters[None])[0] if len(moved) < len(moves) else 0.0
-        size = max(AT_ONCE // sum(len(piece.frequency) for piece in self.problem.pieces), 1)
-        found = [fall for first in range(0, len(moved), size) for fall in self(moved[first : first + size])]
+        found = list(self.in_parts(moved))
         for profile, move in moves:
             profile.moves.append(move)
             profile.falls.append(float(found.pop(0) if move else still))
+
+    def in_parts(self, parameters: Array) -> Array:
+        """Return the same as a call, with few enough parameters evaluated together to bound the memory."""
+        size = max(AT_ONCE // sum(len(piece.frequency) for piece in self.problem.pieces), 1)
+        parts = (self(parameters[first : first + size]) for first in range(0, len(parameters), size))
+        return np.array([fall for part in parts for fall in part])
 
     def __call__(self, parameters: Array) -> Array:
         """Return −2 log of the likelihood (k,) of each of several parameters (k, p), up to a constant."""
@@ -155,7 +170,7 @@ class StepProfiles:
         total = np.sum((problem.wanted - steps @ problem.prior.T) ** 2, axis=1)
         rank = len(self.levels)
         inner, wish = np.zeros((count, rank, rank)), np.zeros((count, rank))
-        for piece, smoother in zip(problem.pieces, self.smoothers, strict=True):
+        for piece, smoother, scatters in zip(problem.pieces, self.smoothers, self.scatters, strict=True):
             inside = slice(piece.first, piece.last)
             shifts = parameters[:, inside] - parameters[:, inside].mean(axis=1, keepdims=True)
             values = piece.moduli - piece.moduli.mean(axis=0)
@@ -165,7 +180,7 @@ class StepProfiles:
             for modulus in range(values.shape[1]):
                 products, logarithm = _eliminated(known, square, float(smoother.smoothing[modulus]))
                 own = piece.size + modulus
-                scatter = smoother.scatter[modulus] / np.sqrt(problem.weights[modulus])
+                scatter = scatters[modulus]
                 left = (weight - products[:, : piece.size, : piece.size]) / scatter**2
                 gained = (level[:, modulus] - products[:, own, : piece.size]) / scatter**2
                 total += (weighted[:, modulus] @ values[:, modulus] - products[:, own, own]) / scatter**2 + logarithm
