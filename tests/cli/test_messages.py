@@ -263,7 +263,7 @@ def test_a_refusal_says(
 @pytest.mark.parametrize(
     ("command", "phrases"),
     [
-        ("", ["Exit status"]),
+        ("", ["143 terminated"]),
         (SOLVE, ["friction coefficient", "centre of pressure", "ahead of the axis", "not resolved"]),
         (SOLVE.replace("1 m/s", "inf"), ["0 (elastic: no dissipation)", "on the axis"]),
         (
