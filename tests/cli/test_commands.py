@@ -341,7 +341,7 @@ def test_interruption_while_modules_load_is_one_sentence(finished: Path, tmp_pat
     assert done.stderr.strip() == "Interrupted."
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_matplotlib_writes_nothing_to_the_home_folder(finished: Path, tmp_path: Path) -> None:
     home = tmp_path / "home"
     home.mkdir()

@@ -98,7 +98,7 @@ def test_reciprocation_is_reached_by_waiting_too() -> None:
     assert cycle.to_dataset().attrs["periods"] == cycle.periods
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_reciprocation_of_a_cylinder() -> None:
     """Independent solution (cells fixed to the body), known to 2e-5; the polygon of the path is shorter by 4e-4."""
     radius = 0.0021850968611841584

@@ -85,7 +85,7 @@ def test_start_of_a_ball_from_rest():
     assert run.energy_imbalance < 1e-4
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_reciprocation_of_a_cylinder():
     """Independent solution of the state that repeats, forces over the load known to 8e-6, energy to 1e-5."""
     amplitude, omega, energy = A0, 100.0, 0.3836871665069123
@@ -101,7 +101,7 @@ def test_reciprocation_of_a_cylinder():
     assert run.energy_imbalance < 2e-4
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.parametrize(
     ("indenter", "load", "modulus"),
     [(CYLINDER, LOAD, None), (CYLINDER, LOAD, "5 MPa"), (vf.Ball("10 mm"), 2.0, "5 MPa")],
@@ -116,7 +116,7 @@ def test_long_motion_on_a_layer_ends_steadily(indenter, load, modulus):
     assert run.front[0] == pytest.approx(steady.front, rel=2e-2)  # half a cell of the 36 along the contact, and a part
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_pressing_and_releasing_an_indenter_that_is_nearly_a_ball():
     """Loss of contact and its return, against springs, which are exact for the ball: radii differ by 1e-5."""
     history = vf.History([0.0, 0.01, 0.02, 0.04, 0.06], load=[0.0, 1.0, 0.0, 0.0, 1.0])

@@ -263,7 +263,7 @@ def _small_study(folder: Path, **changes: str) -> Path:
     return path
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_every_line_of_a_study_reaches_the_answer(tmp_path: Path) -> None:
     """In one folder, so that a stored case of another study taken for this one's shows as well."""
 
