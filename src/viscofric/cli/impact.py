@@ -85,7 +85,7 @@ Examples:
     "--picture", type=_FILE, help="Draw the contact over time, or the restitution of several (PNG, SVG or PDF)."
 )
 def command(as_json: bool, out: Path | None, picture: Path | None, **parameters: Any) -> None:
-    """Solve the impact of a body of revolution of some mass: restitution, contact time, largest force.
+    """Solve the impact of a body of revolution of given mass: restitution, contact time, largest force.
 
     Quantities carry their unit. Several speeds or temperatures give the restitution curve.
     """

@@ -1,4 +1,4 @@
-"""``viscofric transient``: one contact over time, in words, as JSON, as tables, pictures and an animation."""
+"""``viscofric transient``: one contact over time, as text, JSON, tables, figures and an animation."""
 
 from __future__ import annotations
 
@@ -70,8 +70,8 @@ Examples:
 def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """Solve one contact over time: loading, dwell, start, sliding, return.
 
-    Quantities carry their unit. Without --history, the load is put on at the start, rests for --dwell, and then slides.
-    An interruption (Ctrl-C) keeps the results up to the time reached.
+    Quantities carry their unit. Without --history, the load is applied at the start; after --dwell, the indenter
+    slides. Interrupting (Ctrl-C) keeps the results up to the time reached.
     """
     drawings = {name: parameters.pop(name) for name in ("picture", "pressures", "animation")}
     _check_targets(parameters, out, drawings)

@@ -1,1 +1,1 @@
-"""Contacts in motion: histories of load, depth, path and temperature, and what they do to the material."""
+"""Contacts in motion: histories of load, depth, path and temperature, and the response of the material."""

@@ -1,9 +1,9 @@
-"""The state of a contact that repeats itself from period to period, found without waiting for it.
+"""The periodic state of a contact under a repeated history, found without marching through the transient.
 
 Over a period a mode's delayed pressure becomes q(T) = e^z q(0) + c, with z = −T/τ (+ iq·Δs of a wave that the indenter
-passes), and c depends on the pressures of the period only.  If these stayed as they were, the repeating state would be
-q* = q(0) + [q(T) − q(0)]/(1 − e^z), at once for all modes, however slow.  They change with the state; so this is
-iterated, with Anderson's acceleration [1]_, until it changes nothing.
+passes), and c depends on the pressures of the period only.  If these did not change, the periodic state would be
+q* = q(0) + [q(T) − q(0)]/(1 − e^z), for all modes at once, however slow.  They change with the state, so the formula
+is iterated with Anderson acceleration [1]_ to convergence.
 
 .. [1] D. G. Anderson, J. ACM 12 (1965) 547, doi:10.1145/321296.321305.
 """
@@ -40,11 +40,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.units import Quantity
 
-# Distance from the repeating state as a part of the accuracy, by the norm of the stored energy.
+# Allowed distance from the periodic state, relative to the accuracy, in the norm of the stored energy.
 _CLOSE = 0.3
 # Earlier iterations that the acceleration uses.
 _KEPT = 10
-# Relative difference of the ends of a period that is rounding.
+# Relative difference between the ends of a period that counts as rounding.
 _ROUNDING = 1e-9
 
 
@@ -56,11 +56,11 @@ class RepeatingMover(Mover[State], Protocol[State]):
         ...
 
     def with_memory(self, state: State, memory: NDArray[Any]) -> State:
-        """Return a state with another memory, which has not dissipated anything yet."""
+        """Return a state with another memory, with its dissipated energy set to zero."""
         ...
 
     def recovered(self, change: NDArray[Any], start: Instant, end: Instant) -> NDArray[Any]:
-        """Return the change of a memory over a period, over 1 − e^z."""
+        """Return the change of a memory over a period, divided by 1 − e^z."""
         ...
 
 
@@ -77,27 +77,28 @@ def solve_cycle(
     most_periods: int = 60,
     progress: Callable[[int, float], object] | None = None,
 ) -> CycleSolution:
-    """Solve a contact that does the same again and again, in the state that repeats itself.
+    """Solve the periodic state of a contact under a repeated history.
 
     Parameters
     ----------
     material : Material
-        A table of moduli is described by modes fitted to it.
+        A table of moduli is replaced by retardation modes fitted to it.
     indenter : Indenter or PeriodicSurface
     one_period : History
-        Of load or depth, path and temperature; it ends as it begins.  A periodic surface may go on to another place.
+        History of load or depth, path and temperature over one period.  It must end as it begins, except for the
+        position of a periodic surface.
     accuracy : float
-        As for `solve_transient`; and of the state that repeats itself, by the energy stored.
+        As for `solve_transient`; also the accuracy of the periodic state, in stored energy.
     layer : Layer, optional
-        Thickness and base of the material; a half-space without.
+        Thickness and base of the material; a half-space if omitted.
     indenter_modulus : float, str or pint.Quantity, optional
-        Young's modulus of an elastic indenter, Pa; rigid without it.
+        Young's modulus of an elastic indenter, Pa; rigid if omitted.
     indenter_poisson_ratio : float
         Of an elastic indenter.
     most_periods : int
-        Periods after which the solver gives up.
+        Maximum number of periods.
     progress : callable, optional
-        Called after each period with their number and the relative distance from the repeating state.
+        Called after each period with the number of periods and the relative distance from the periodic state.
 
     Returns
     -------
@@ -108,7 +109,7 @@ def solve_cycle(
     InputError
         If a value cannot be used, or the history does not end as it begins.
     ConvergenceError
-        If the state does not repeat itself to the accuracy after `most_periods`, or the accuracy in time is not
+        If the periodic state is not reached to the accuracy within `most_periods`, or the accuracy in time is not
         reached.
 
     Examples
@@ -144,7 +145,7 @@ def solve_cycle(
 
 @dataclass(eq=False)
 class _Search:
-    """The search for the state that repeats itself."""
+    """The search for the periodic state."""
 
     damping: float
     most_periods: int
@@ -162,7 +163,7 @@ class _Search:
         times: None = None,
         progress: None = None,
     ) -> Track[Any]:
-        """Return the period in the state that repeats itself."""
+        """Return one period in the periodic state."""
         first, last = schedule.at(schedule.start), schedule.at(schedule.end, after=False)
         state = mover.begin()
         if schedule.before == "untouched":
@@ -170,7 +171,7 @@ class _Search:
         mixing = _Anderson(self.damping)
         for _ in range(self.most_periods):
             memory = mover.memory_of(state)
-            # The pressure that goes with this memory, at once.
+            # The instantaneous pressure that belongs to this memory.
             begun = mover.step(mover.with_memory(state, memory), first, first)
             link = Link(begun, mover.observe(begun), 0.0)
             track = march(
@@ -185,7 +186,7 @@ class _Search:
                 raise KeyboardInterrupt
             state = track.reached.pair.fine.state
             reached = mover.memory_of(state)
-            if reached.shape != memory.shape:  # more cells have been loaded
+            if reached.shape != memory.shape:  # more cells have been in contact
                 memory, mixing = mover.memory_of(begun), _Anderson(self.damping)
             change = mover.recovered(reached - memory, first, last)
             size = float(np.linalg.norm(reached))
@@ -197,16 +198,16 @@ class _Search:
                 return track
             state = mover.with_memory(state, mixing.next(memory, change))
         raise ConvergenceError(
-            f"the state did not repeat itself after {self.most_periods} periods: its memory was {self.change:.2g} of "
-            "itself away; allow more periods (most_periods=).",
+            f"no periodic state within {self.most_periods} periods: the memory is still {self.change:.2g} of its "
+            "size away from it; allow more periods (most_periods=).",
             code="not-repeating",
         )
 
 
 def _damping(problem: Problem) -> float:
-    """Return the part of a change of memory that is made.
+    """Return the damping factor for a change of memory.
 
-    At a given depth, pressures fall by E_inf/E0 − 1 times as much as slow modes rise: this damping makes them meet.
+    At a given depth, pressures fall E_inf/E0 − 1 times as much as slow modes rise; the damping prevents overshoot.
     """
     spectrum = problem.schedule.spectrum
     given_depth = problem.schedule.control in ("indentation", "gap")
@@ -229,7 +230,7 @@ def _insist_on_period(history: History, kind: str) -> None:
 
 
 class _Anderson:
-    """Combines the latest iterations so that what they change cancels best."""
+    """Combines the latest iterations so that their changes cancel as well as possible."""
 
     def __init__(self, damping: float) -> None:
         self._damping = damping

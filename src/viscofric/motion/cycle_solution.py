@@ -1,4 +1,4 @@
-"""A period of a contact that repeats itself: energy lost in it, stiffness of an oscillation, mean friction."""
+"""One period of a contact in its periodic state: energy loss, stiffness of an oscillation, mean friction."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class CycleSolution:
-    """One period of a contact in the state that repeats itself.
+    """One period of a contact in its periodic state.
 
     Attributes
     ----------

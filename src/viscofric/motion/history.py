@@ -29,7 +29,7 @@ _CONTROLS_OF = {"point": ("load", "indentation"), "line": ("load", "indentation"
 
 @dataclass(frozen=True, eq=False)
 class History:
-    """What an indenter does over time, linear between the given times; a time given twice is a jump.
+    """Prescribed motion of an indenter, linear between the given times; a time given twice is a jump.
 
     Exactly one of load, indentation, pressure and gap is given.  Each of them, the speed and the temperature may be one
     value, which then holds throughout.  Without position and speed, the indenter stays where it is.
@@ -54,9 +54,9 @@ class History:
         Of the whole material, K if a plain number.  May be left out for a material without a shift law.
     before : str
         What happened before the first time: ``"untouched"``: nothing; ``"at rest"``: the first load (or depth) has
-        acted for ever without motion; ``"sliding"``: also the first speed.
+        acted for an infinite time without motion; ``"sliding"``: also the first speed.
     direction : (float, float)
-        Of a position or speed that is given along one line.
+        Direction of a position or speed given along one line.
 
     Attributes
     ----------
@@ -200,7 +200,7 @@ class History:
 
 
 def _wrong_at(index: int, code: str, sentence: str) -> InputError:
-    """Return the error of one point, with its index in the values."""
+    """Return an error about one point, with its index in the values."""
     return InputError(Note(code, sentence, values={"index": index}))
 
 
@@ -208,7 +208,7 @@ def _checked_time(time: Quantities) -> Array:
     seconds = to_si_array(time, "s", "time")
     if len(seconds) < 2 or seconds[0] == seconds[-1]:
         raise InputError(
-            f"time = {brief(time)}: a history needs two different times at least, such as [0, '1 s'].",
+            f"time = {brief(time)}: a history needs at least two different times, such as [0, '1 s'].",
             code="too-few-points",
         )
     steps = np.diff(seconds)

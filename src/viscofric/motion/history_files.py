@@ -49,9 +49,9 @@ def read_history(
     before : str
         What happened before the first time: ``"untouched"``, ``"at rest"`` or ``"sliding"``; see `History`.
     direction : (float, float)
-        Of a position or speed that is given along one line.
+        Direction of a position or speed given along one line.
     columns : mapping, optional
-        Headings that are not understood, by quantity: ``{"load": "Fz (N)", "position_x": "stage"}``.  A unit in
+        Headings that are not recognised, by quantity: ``{"load": "Fz (N)", "position_x": "stage"}``.  A unit in
         brackets counts instead of that of the file; ``"#3 (N)"`` is the third column.
     sheet : str, optional
         The only sheet of a workbook to read.
@@ -101,7 +101,7 @@ def read_history(
 
 
 def _check(constants: Mapping[str, Any], before: str, direction: Sequence[float]) -> None:
-    """Refuse values that no history can have: those are no errors of the file."""
+    """Refuse values that no history can have; they are not errors of the file."""
     check_choice(before, "before", *BEFORE)
     controlled = constants if set(CONTROLS) & set(constants) else {"load": 0.0, **constants}
     units = CONTROLS | {"speed": "m/s", "temperature": "K"}
@@ -111,7 +111,7 @@ def _check(constants: Mapping[str, Any], before: str, direction: Sequence[float]
 
 
 def _insist_on_control(path: str | PathLike[str], found: HistoryColumns, constants: Mapping[str, Any]) -> None:
-    """Refuse a table that says neither load nor depth."""
+    """Refuse a table without a column of load, indentation, pressure or gap."""
     if set(CONTROLS) & (set(found.values) | set(constants)):
         return
     raise DataFileError(
@@ -138,5 +138,5 @@ def _arguments(found: HistoryColumns) -> dict[str, Any]:
 
 
 def _plane(parts: Sequence[Array | None], count: int) -> Array:
-    """Return x and y in columns; what the table does not have is zero."""
+    """Return x and y in columns; a missing column is zero."""
     return np.stack([np.zeros(count) if part is None else part for part in parts], axis=1)

@@ -1,4 +1,4 @@
-"""Solve the impact of an indenter of some mass: restitution, contact time, largest force and depth."""
+"""Solve the impact of an indenter of given mass: restitution, contact time, largest force and depth."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from viscofric.units import Quantities
 
 TIGHTEST, LOOSEST = 1e-6, 1e-2  # accuracies
-#: Springs in the contact for an accuracy of 1e-4, and most of them; their error of a force is 0.4/N².
+#: Springs in the contact for an accuracy of 1e-4, and their maximum number; N springs give a force error of 0.4/N².
 _SPRINGS, _MOST_SPRINGS = 250, 2500
 #: Steps of a contact in the first run that counts; the following ones halve them, and the last two are extrapolated.
 _STEPS, _LEAST_DIVISION, _HALVINGS = 120, 3, 5
-#: The largest edge is that on an elastic half-space of E0, and a little more.
+#: Largest contact radius, over that on an elastic half-space of E0.
 _MARGIN = 1.03
 _MOST_CONTACTS = 1000
 #: First step over the time to the depth on an elastic half-space of E∞, and shortest time that the modes resolve.
@@ -55,7 +55,7 @@ def solve_impact(
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
 ) -> ImpactSolution:
-    """Solve the impact of an indenter of some mass on a half-space, and its rebounds.
+    """Solve the impact of an indenter of given mass on a half-space, and its rebounds.
 
     The indenter moves along its axis and does not rotate.  The inertia of the half-space is left out: its waves must
     be much faster than the contact.
@@ -63,7 +63,7 @@ def solve_impact(
     Parameters
     ----------
     material : Material
-        A table of moduli is described by modes fitted to it.
+        A table of moduli is replaced by retardation modes fitted to it.
     indenter : Indenter
         Ball, Cone, or another body of revolution.
     mass : float, str or pint.Quantity
@@ -73,7 +73,7 @@ def solve_impact(
     gravity : float, str or pint.Quantity
         Acceleration towards the half-space, not below zero, m/s².
     rebounds : int
-        Most contacts to follow; beyond the first, they need gravity.
+        Maximum number of contacts to follow; more than one needs gravity.
     temperature : float, str or pint.Quantity, optional
         K if a plain number.  May be left out for a material without a shift law.
     accuracy : float
@@ -184,7 +184,7 @@ def restitution_curve(
     each = to_si_array(speeds, "m/s", "speeds")
     kelvin = None if temperatures is None else to_si_array(temperatures, "K", "temperatures")
     if not len(each) or (kelvin is not None and not len(kelvin)):
-        raise InputError("speeds and temperatures: must hold one value at least.", code="empty")
+        raise InputError("speeds and temperatures: must hold at least one value.", code="empty")
     hits = [
         [
             solve_impact(
@@ -217,7 +217,7 @@ def _check_accuracy(accuracy: float) -> None:
 
 
 class _Falling(NamedTuple):
-    """An indenter of some mass above a material."""
+    """An indenter of given mass above a material."""
 
     material: Material
     indenter: Indenter
@@ -256,7 +256,7 @@ class _Falling(NamedTuple):
             impact_radius(indenter, 0.5 * self.mass * speed**2, self.mass * self.gravity, 1.0 / one)
             for one in (glassy, relaxed)
         )
-        # A punch touches all at once: its depth is that of its stiffness.
+        # A punch touches over its whole face at once: its depth follows from its constant stiffness.
         depth = float(profile(indenter, np.array(hard))) or speed * math.sqrt(0.5 * self.mass * glassy / hard)
         shortest = _RESOLVED * depth / speed
         longest = 10.0 * shortest / _RESOLVED * (relaxed / glassy) ** 0.5
@@ -293,7 +293,7 @@ class _Falling(NamedTuple):
         if contacts[-1].restitution == 0.0:
             notes.append(Note("no-rebound", "The indenter does not leave the surface again: it comes to rest on it."))
         kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
-        # By Newton's law, without the springs: the kinetic energy that is gone, and the work of gravity.
+        # By Newton's law, independently of the springs: the loss of kinetic energy plus the work of gravity.
         work = 0.5 * self.mass * (velocity[0] ** 2 - velocity**2) + self.mass * self.gravity * (depth - depth[0])
         still = np.zeros_like(time)
         peaks = [max(one.peak_force for one in run.contacts) for run in (coarse, fine)]
@@ -318,7 +318,7 @@ class _Falling(NamedTuple):
 
 
 def _extrapolated(coarse: list[Contact], fine: list[Contact]) -> tuple[ImpactContact, ...]:
-    """Return the contacts of two runs, one with half the steps of the other; none if they are not the same ones."""
+    """Return the contacts of two runs, one with half the steps of the other; none if the contacts do not correspond."""
     if [one.separates for one in coarse] != [one.separates for one in fine]:
         return ()
     found = []

@@ -1,4 +1,4 @@
-"""What an impact has done: each contact, the run over time, and the restitution over speed and temperature."""
+"""Results of impacts: each contact, the solution over time, and the restitution over speed and temperature."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ImpactContact(NamedTuple):
     peak_force : float
         N.
     largest_indentation, time_of_largest : float
-        m, and when, s after the touch.
+        m, and its time, s after the touch.
     separation_indentation : float
         Depth of the indenter's lowest point where it leaves the surface, m.
     restitution_error : float
@@ -55,11 +55,11 @@ class ImpactSolution:
     Attributes
     ----------
     contacts : tuple of ImpactContact
-        In their order; the properties below are those of the first.
+        In order of time; the properties below are those of the first.
     run : TransientSolution
         Force (its load), indentation, contact radius and energies over time.
     velocity : (n,) array
-        Of the indenter into the material along `run.time`, m/s.
+        Velocity of the indenter into the material at `run.time`, m/s.
     mass : float
         kg.
     gravity : float

@@ -1,12 +1,12 @@
 """The march through a schedule by adaptive steps, the same for all contacts, with its error estimates.
 
-Two chains of states go side by side: one by the steps, one by their halves, each from its own states.  Steps are exact
-for pressures that are linear in between, which leaves errors of second order: that of the second chain is about a
-third of the difference of the two, at every time and with all that has accumulated.  A step is taken if it changes
-this difference by little; if it exceeds the accuracy all the same, the march begins again with smaller steps.
+Two chains of states are computed in parallel: one with the steps, one with half steps, each from its own states.
+Steps are exact for pressures that are linear within a step, so errors are of second order.  The accumulated error of
+the second chain is about a third of the difference between the two, at every time.  A step is accepted if it changes
+this difference by little.  If the difference still exceeds the accuracy, the march restarts with smaller steps.
 
-The work of load and friction is added up by the trapezoidal rule on both chains, and extrapolated; that of a jump, in
-which nothing is dissipated, is the change of the stored energy.
+The work of load and friction is summed by the trapezoidal rule on both chains, and extrapolated.  The work of a jump,
+which dissipates nothing, is the change of the stored energy.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def march(
     accuracy : float
         Largest error of friction, depth, load and energy, relative to the largest values so far.
     times : sequence of float, optional
-        To return, ascending, s; one given twice at a jump: before and after it.  All steps, without.
+        Times to return, ascending, s; one given twice at a jump: before and after it.  All steps if omitted.
     fields : bool
         Whether to keep the pressures of the returned times.
     progress : callable, optional
@@ -79,7 +79,8 @@ def march(
     Raises
     ------
     ConvergenceError
-        If the accuracy is not reached, but for a mover whose ticks are too far apart for it: see the errors.
+        If the accuracy is not reached.  Not raised if the ticks of the mover are too far apart for it; the error
+        estimates then show it.
     """
     share = _SHARE if times is None else float(getattr(mover, "share", _SHARE))
     if begin is not None and begin.share is not None:
@@ -210,7 +211,7 @@ class _March(Generic[State]):
     def _freely(self, pair: Pair[State], start: float, end: float) -> None:
         time, step = start, self._pace or _FIRST * (end - start)
         while time < end:
-            # no splinter at the end
+            # avoid a tiny last step
             left = end - time
             proposed = step
             step = left if step >= left else min(step, 0.5 * left)
@@ -221,7 +222,7 @@ class _March(Generic[State]):
                 self.rejected += 1
                 step *= max(_SHRINK, _SAFETY * ratio ** (-1.0 / 3.0))
                 continue
-            # A step that an end has cut short says little about the next one.
+            # A step shortened by the end of a part is no guide to the length of the next one.
             step = max(proposed if step < proposed and ratio < 1.0 else 0.0, step * _growth(ratio))
             pair = self._take(tried, reached, end, step)
             time = reached
@@ -264,7 +265,7 @@ class _March(Generic[State]):
         return Link(state, seen, link.work + work)
 
     def _ratio(self, pair: Pair[State], tried: Pair[State]) -> float:
-        """Return by how much a step adds to the difference of the chains, over what it may add."""
+        """Return the growth of the difference of the chains in a step, relative to the allowed growth."""
         scales = self._with(tried)
         before, after = (over_scales(difference(one), scales) for one in (pair, tried))
         return max(abs(two - one) for one, two in zip(before, after, strict=True)) / (self.share * self.accuracy)
@@ -304,7 +305,7 @@ class _March(Generic[State]):
         load, depth, along, across, *energies = (abs(one) / 3.0 for one in difference(pair))
         of_load, of_depth, of_energy = fine.seen.left_out
         errors = Errors(load + of_load, depth + of_depth, math.hypot(along, across), max(energies) + of_energy)
-        # What is added up over all steps is smooth enough to be extrapolated.
+        # Sums over all steps are smooth enough to be extrapolated.
         stored, dissipated, work = (
             two + (two - one) / 3.0
             for one, two in (

@@ -4,7 +4,7 @@ The displacement operator of unit compliance, G, and the pressure p give ::
 
     u = G [p/E_inf + Σ C_k q_k],      dq_k/dt = (p − q_k)/τ_k      at a fixed point of the solid.
 
-The fields q_k are delayed pressures.  They are zero where there never was a contact, and equal to p after an infinite
+The fields q_k are delayed pressures.  They are zero where there never was contact, and equal p after an infinite
 rest.  Seen from an indenter at position s, a wave exp(iq·x) of q_k also turns by q·ds.  A step during which p changes
 linearly is exact [1]_: with κ = Δt/τ_k and z = −κ + iq·Δs, ::
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 # |z| below which φ1 and φ2 are summed as power series, and the number of terms: 0.3¹²/14! is below rounding.
 _SERIES_BELOW, _TERMS = 0.3, 12
-# Times at which merged modes are compared with all of them: so many for each factor of ten.
+# Times per decade at which merged modes are compared with the full set.
 _SAMPLES_PER_DECADE = 12
 
 
@@ -64,7 +64,7 @@ class StepCoefficients(NamedTuple):
 def step_coefficients(steps: ArrayLike, turn: ArrayLike = 0.0) -> StepCoefficients:
     """Return the exact coefficients of a step.
 
-    `steps` are κ = Δt/τ, not below zero; zero is a jump, after which q is what it was.  `turn` is q·Δs in the
+    `steps` are κ = Δt/τ, not below zero; zero is a jump, which does not change q.  `turn` is q·Δs in the
     indenter's frame, zero in the solid's; both broadcast.  The coefficients are real without `turn`.
     """
     kappa, angle = np.asarray(steps, dtype=np.float64), np.asarray(turn, dtype=np.float64)
@@ -93,7 +93,7 @@ class Spectrum(Protocol):
 class Modes:
     """Modes whose fields are kept: those of a spectrum, some of them merged.
 
-    It has what a steady contact needs of a spectrum.
+    It has the attributes of a spectrum that a steady contact needs.
     """
 
     instantaneous: float  # compliance that follows at once, 1/Pa; the glassy one and that of modes without a field

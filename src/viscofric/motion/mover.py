@@ -1,4 +1,4 @@
-"""What the march knows of a contact: how to begin, take a step, and observe (the protocol of all movers)."""
+"""Protocol of all movers, the contacts that a march advances: begin, step and observe."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ State = TypeVar("State")
 
 
 class Observation(NamedTuple):
-    """What is seen of a contact at one time.
+    """Observed quantities of a contact at one time.
 
     Forces and energies are per length in a line contact, and per area in a periodic one.
 
@@ -35,7 +35,7 @@ class Observation(NamedTuple):
     extents : mapping
         ``contact_radius``, or ``front``, ``rear`` and ``half_width``, m.
     left_out : (float, float, float)
-        Errors of load, depth and dissipated energy that shorter steps do not reduce: by the number of springs.
+        Errors of load, depth and dissipated energy that shorter steps do not reduce, from the number of springs.
     """
 
     load: float
@@ -106,7 +106,7 @@ class Mover(Protocol[State]):
         ...
 
     def observe(self, state: State) -> Observation:
-        """Return what is seen of a state."""
+        """Return the observed quantities of a state."""
         ...
 
     def pressure(self, state: State) -> Field:
@@ -114,5 +114,5 @@ class Mover(Protocol[State]):
         ...
 
     def ticks(self, start: Instant, end: Instant) -> Array | None:
-        """Return the times after the start at which steps may end, the last of them the end; None: any."""
+        """Return the times after the start at which steps may end, up to the end; None if any."""
         ...

@@ -4,12 +4,13 @@ Each spring at s carries the force f per length; its end moves by
 
     u = c∞ f + Σ c_k y_k,    ẏ_k = (f − y_k)/τ_k,    c∞ = (1−ν²)/E∞ + (1−ν_i²)/E_i,  c_k = (1−ν²) C_k
 
-and by the indenter u ≥ δ − g(s) with f ≥ 0, where one of the two is an equality.  Within a step f is linear and the
-memory exact, so that a spring at the end of the step has the force (δ − g − known)/c, or none.  Load F = 2∫f ds.
+The indenter requires u ≥ δ − g(s) and f ≥ 0, and at each spring one of the two is an equality.  Within a step
+f is linear and the memory exact, so that a spring at the end of the step has the force
+(δ − g − known)/c, or none.  The load is F = 2∫f ds.
 
-This solves the contact of the body exactly while the contact is one disc, for which it is enough that f does not rise
-outwards: the pressure p(r) = −(1/π) ∫ᵣᵃ f'(s) ds/√(s² − r²) is then nowhere below zero, and the gap nowhere either,
-since it is a mean of those of the springs.
+This solves the contact of the body exactly while the contact is one disc.  A force f that does not rise outwards is
+sufficient for that: the pressure p(r) = −(1/π) ∫ᵣᵃ f'(s) ds/√(s² − r²) is then nowhere below zero.  Neither is the
+gap, since it is a mean of the gaps of the springs.
 """
 
 from __future__ import annotations
@@ -32,17 +33,17 @@ if TYPE_CHECKING:
     from viscofric.motion.problem import Problem
     from viscofric.motion.schedule import Instant, Schedule
 
-#: Springs from the axis to the largest edge for an accuracy of 1e-3, and most of them.
+#: Springs from the axis to the largest edge for an accuracy of 1e-3, and their maximum number.
 SPRINGS, MOST_SPRINGS = 400, 2000
-#: Beyond the elastic contact at E0, for what moves a little further.
+#: Margin beyond the edge of the elastic contact at E0.
 _MARGIN = 1.05
 _FAR, _FARTHEST = 60, 4.0
 #: Points of a pressure, roughly.
 _POINTS = 230
 #: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
 _RISE = 0.02
-#: What the trapezoidal rule leaves out of the load, over the largest difference of neighbouring forces times their
-#: distance; least part of the largest load at which it is compared with the load.
+#: Error of the load by the trapezoidal rule, over the largest difference of neighbouring forces times their
+#: distance; smallest load, relative to the largest one, with which it is compared.
 _LEFT_OUT, _LEAST_LOAD = 0.5, 0.01
 
 
@@ -109,7 +110,7 @@ class NormalMotion:
         return Scales(load, depth, load, load * depth)
 
     def begin(self) -> SpringState:
-        """Return springs that nothing has touched, or that have rested under the first load or depth for ever."""
+        """Return untouched springs, or springs at equilibrium under the first load or depth."""
         still = np.zeros(len(self.s))
         untouched = SpringState(0.0, 0.0, still, np.zeros((len(self.s), len(self.tau))), 0.0, self.g)
         if self.schedule.before == "untouched":
@@ -151,7 +152,7 @@ class NormalMotion:
         )  # fmt: skip
 
     def _left_out(self, state: SpringState) -> tuple[float, float, float]:
-        """Return the errors by the number of springs: of a force that is not smooth at the edge of the contact."""
+        """Return the discretisation errors of the springs, caused by a force that is not smooth at the contact edge."""
         if self.indenter.has_walls:
             return 0.0, 0.0, 0.0
         least = _LEFT_OUT * float(self.s[1] / self.radius) ** 2
@@ -175,7 +176,7 @@ class NormalMotion:
         most = float(force.max())
         if most <= 0.0:
             return
-        # Springs just touched are off by what a step leaves out, little against the largest forces of the history.
+        # Springs just touched have errors of one step, small against the largest forces of the history.
         if np.max(force - np.minimum.accumulate(force)) > _RISE * max(most, self._typical):
             raise ConvergenceError(
                 f"at time {time:.4g} s the pressure is no longer that of one disc, for which alone the row of springs "
@@ -192,16 +193,16 @@ class NormalMotion:
         return self._energy_scale * state.memory
 
     def with_memory(self, state: SpringState, memory: Array) -> SpringState:
-        """Return a state with another memory, which has not dissipated anything yet."""
+        """Return a state with another memory, with its dissipated energy set to zero."""
         return replace(state, memory=memory / self._energy_scale, dissipated=0.0)
 
     def recovered(self, change: Array, start: Instant, end: Instant) -> Array:
-        """Return the change of a memory over a period, over 1 − e^(−T/τ)."""
+        """Return the change of a memory over a period, divided by 1 − e^(−T/τ)."""
         return np.asarray(change / -np.expm1(-(end.clock - start.clock) / self.tau))
 
     @cached_property
     def _energy_scale(self) -> Array:
-        """√(c w) of each spring and mode; that of a spring without weight makes no difference."""
+        """√(c w) of each spring and mode; its value for a spring of zero weight is arbitrary."""
         weights = np.maximum(self.weights, 1e-12 * self.weights.max())
         return np.asarray(np.sqrt(weights[:, None] * self.compliances))
 
@@ -221,7 +222,7 @@ class NormalMotion:
         return r, -np.diff(angle, axis=1) / (np.pi * length)
 
     def _pressed(self, threshold: Array, compliance: float, instant: Instant) -> tuple[float, Array]:
-        """Return the depth, and the forces of springs that give way by so much."""
+        """Return the depth, and the forces of springs with these thresholds and this compliance."""
         if instant.depth is not None:
             return instant.depth, self._force(threshold, compliance, instant.depth)
         depth = self._depth(threshold, compliance, float(instant.load))  # type: ignore[arg-type]
@@ -232,7 +233,7 @@ class NormalMotion:
         return np.maximum(depth - threshold, 0.0) / compliance
 
     def _carried(self, force: Array, instant: Instant) -> float:
-        """Return the load: as prescribed, free of the rounding of sums, or what the springs carry."""
+        """Return the load: the prescribed one, without rounding of sums, or else that carried by the springs."""
         return self._load(force) if instant.load is None else instant.load
 
     def _load(self, force: Array) -> float:

@@ -1,7 +1,7 @@
 """Rough periodic surfaces under a pressure or a gap, along any path: steps in the indenter's frame, wave by wave.
 
 Each step is the contact problem of an elastic or steadily sliding solid with another transfer function and a height to
-which the displacement left by the past is added.  The memory is exact for every wave, so that steady sliding is met
+which the displacement left by the past is added.  The memory is exact for every wave, so that steady sliding is solved
 exactly with steps of any length, and speed and direction may change from step to step.
 
 Inside, depths are in rms heights and compliances in that of the most compliant wave after an infinite time.
@@ -57,7 +57,7 @@ _SAME = 1e-12  # relative difference up to which steps are the same
 
 
 def merged_modes(problem: Problem) -> Modes:
-    """Return the modes that a history on a grid needs."""
+    """Return the modes required for a history on a grid."""
     schedule, surface = problem.schedule, problem.indenter
     assert isinstance(surface, PeriodicSurface)
     cell, shortest = min(surface.spacing), math.inf
@@ -84,7 +84,7 @@ class PeriodicState:
 
 
 class _Step(NamedTuple):
-    """What steps of one length along one path share."""
+    """Quantities common to steps of one length along one path."""
 
     response: StepResponse
     exact: PeriodicOperator
@@ -94,7 +94,7 @@ class _Step(NamedTuple):
 
 
 class _Target(NamedTuple):
-    """What a step is solved for: the sum of the pressures or the indentation, and the tolerance of the gap."""
+    """Target of a step: the sum of the pressures or the indentation, and the tolerance of the gap."""
 
     load: float | None
     indentation: float | None
@@ -184,7 +184,7 @@ class PeriodicMover:
         """Do nothing: the method holds for every state."""
 
     def observe(self, state: PeriodicState) -> Observation:
-        """Return what is seen of a state, per area."""
+        """Return the observed quantities of a state, per area."""
         work = self.pressure_unit * self.depth_unit
         loaded = np.count_nonzero(state.pressure > 0.0)
         return Observation(
@@ -210,13 +210,13 @@ class PeriodicMover:
         return np.asarray(self._roots * state.memory)
 
     def with_memory(self, state: PeriodicState, memory: NDArray[Any]) -> PeriodicState:
-        """Return a state with another memory, which has not dissipated anything yet."""
+        """Return a state with another memory, with its dissipated energy set to zero."""
         change = float(np.linalg.norm(memory) ** 2 - np.linalg.norm(self.memory_of(state)) ** 2)
         found = np.asarray(memory / self._roots, dtype=complex)
         return replace(state, memory=found, stored=state.stored + 0.5 * change, dissipated=0.0)
 
     def recovered(self, change: NDArray[Any], start: Instant, end: Instant) -> NDArray[Any]:
-        """Return the change of a memory over a period, over 1 − e^z."""
+        """Return the change of a memory over a period, divided by 1 − e^z."""
         turn = self.grid.turn(np.asarray(end.position) - np.asarray(start.position))
         steps = ((end.clock - start.clock) / self.modes.tau)[:, None, None]
         return change / -np.expm1(-steps + 1j * turn)
@@ -264,7 +264,7 @@ class PeriodicMover:
 
     def _made(self, response: StepResponse, path: Array) -> _Step:
         transfer = self.grid.folded(self._shape * response.end + self._rigid)
-        transfer[0, 0] = 0.0  # the mean moves no point relative to another
+        transfer[0, 0] = 0.0  # the mean displaces all points equally
         shape, spacing = self.surface.shape, self.surface.spacing
         exact = PeriodicOperator(transfer, shape, backend=self.backend)
         single = exact.for_corrections()
@@ -291,7 +291,7 @@ class PeriodicMover:
             if indentation <= float(height.min()):
                 return np.zeros(height.shape), indentation
         if load is not None and guess is not None and guess.min() > 0.0:
-            # Full contact, if it goes on, is a linear problem.
+            # Full contact that persists is a linear problem.
             level = float(height.mean())
             pressure = problem.exact.precondition(level - height)
             pressure += load / height.size - float(pressure.mean())
@@ -328,7 +328,7 @@ class PeriodicMover:
         )  # fmt: skip
 
     def _surely(self, problem: _Step, height: Array, target: _Target, guess: Array | None) -> ComplementaritySolution:
-        """Solve as a steady contact is solved, from any guess."""
+        """Solve with the method of steady contacts, from any initial guess."""
         mean = None if target.load is None else target.load / height.size
         gap = None if target.indentation is None else float(height.mean()) - target.indentation
         stage = Stage(height, problem.exact.transfer, lambda: self._elastic, problem.toward)

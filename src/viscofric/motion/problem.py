@@ -1,4 +1,4 @@
-"""A contact in motion, checked: what every mover is made from."""
+"""A checked contact problem, from which every mover is constructed."""
 
 from __future__ import annotations
 

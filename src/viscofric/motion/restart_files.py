@@ -1,4 +1,4 @@
-"""States of runs in files: arrays by name, packed (.npz of NumPy), without anything that could be executed."""
+"""Files of the states of runs: named arrays (.npz of NumPy) without executable content."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def reached(restart: Restart | None) -> Restart:
 
 
 def write_restart(path: str | PathLike[str], restart: Restart) -> None:
-    """Write the state of a run, whole or not at all."""
+    """Write the state of a run, atomically."""
     history, track = restart.history, restart.track
     named: dict[str, Any] = {"format": _FORMAT, "method": restart.method}
     named |= {f"same/{name}": value for name, value in restart.same.items()}

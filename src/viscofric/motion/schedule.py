@@ -5,7 +5,7 @@ follows the clock
 
     dξ/dt = α(T₁)/α(T(t))
 
-with the modes that it has at T₁, the first temperature.  Between two given times T is linear; the integral is taken by
+with the modes at the first temperature T₁.  Between two given times T is linear; the integral is taken by
 Gauss's rule on parts that are halved until it no longer changes.
 
 References
@@ -185,8 +185,8 @@ def make_schedule(
     law = material.shift if changes else None
     if changes and material.vertical_shift is not None:
         raise InputError(
-            "temperature: changes in a material with a vertical shift, and moduli at constant temperatures do not say "
-            "how it acts on the stress of the past; give one temperature, or a Material without vertical_shift.",
+            "temperature: changes in a material with a vertical shift, and moduli at constant temperatures do not "
+            "determine its effect on earlier stress; give one temperature, or a Material without vertical_shift.",
             code="vertical-shift",
         )
     clocks, begun = [], 0.0
@@ -240,7 +240,7 @@ def _clock(
         return _Clock(both, np.array([begun, begun + (end - start)]), ends, None, first)
     whole = _Clock(both, both, ends, law, first)
     low, high = ends
-    law.log10([low, high])  # refuses temperatures where it has no meaning
+    law.log10([low, high])  # raises outside the range of the law
     parts: list[tuple[float, float]] = []
     waiting = [(start, end, whole._part(start, end), 0)]
     while waiting:

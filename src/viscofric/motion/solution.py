@@ -1,4 +1,4 @@
-"""What a contact has done over time: forces, depth, extents, energies and their errors."""
+"""Solution of a contact over time: forces, depth, extents, energies and their errors."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class TransientErrors:
     energy : array
         Of the dissipated energy, J.
     balance : array
-        Work less stored and dissipated energy, J.
+        Work minus stored and dissipated energy, J.
     """
 
     load: Array
@@ -76,9 +76,9 @@ class TransientSolution:
     contact_area : array
         m².
     contact_radius : array or None
-        Of a contact that stays a disc, m.
+        Radius of a contact that remains one disc, m.
     front, rear, half_width : array or None
-        Of another contact, as those of a steady one, m.
+        Extents of any other contact, defined as for steady contacts, m.
     work, stored, dissipated : array
         Since the start, J: work of load and friction on the material, energy stored in it, and dissipated by it; each
         computed on its own.
@@ -86,18 +86,18 @@ class TransientSolution:
     steps, rejected_steps : int
         Steps in time.
     interrupted : bool
-        Whether the computation was interrupted; what was found until then is here.
+        Whether the computation was interrupted; the results up to then are kept.
     method : str
         How it was solved: "springs", "grid" or "waves".
     geometry : str
         "point", "line" or "periodic".
     direction : (float, float)
-        Of the history: that of the friction force.
+        Direction of the history and of `friction_force`.
     warnings : tuple of str
         One note for each assumption that is doubtful.
     dent : array or None
-        Depth of the surface under the indenter's lowest point, m: what is left of the indentation after a contact; None
-        where it is not known.
+        Depth of the surface under the indenter's lowest point, m: the residual indentation after a contact; None
+        where it is unknown.
     """
 
     time: Array
@@ -160,11 +160,11 @@ class TransientSolution:
         Raises
         ------
         InputError
-            If the pressure of that time was not kept; it is for every time asked for.
+            If the pressure at that time was not kept; it is kept for all requested times.
 
         Notes
         -----
-        Unlike forces and depths, the pressure next to an edge that advances carries the marks of single steps in time:
+        Unlike forces and depths, the pressure next to an advancing edge shows the single time steps:
         for a ball pressed in at a constant rate, 4 % of the largest pressure at an accuracy of 1e-3, 0.6 % at 1e-4.
         """
         import xarray
@@ -183,7 +183,7 @@ class TransientSolution:
         return xarray.DataArray(held.pressure, coords=axes, dims=tuple(held.axes), attrs=attributes)
 
     def save_state(self, path: str | PathLike[str]) -> None:
-        """Write the state that the run has reached, with its results, to go on later.
+        """Write the last state of the run and its results to a file, to resume it later.
 
         Parameters
         ----------
@@ -193,7 +193,7 @@ class TransientSolution:
         Raises
         ------
         InputError
-            If the contact was solved on cells, which do not go on.
+            If the contact was solved on cells; such runs cannot be resumed.
         DataFileError
             If the file cannot be written.
 

@@ -60,25 +60,25 @@ def solve_transient(
     Parameters
     ----------
     material : Material
-        A table of moduli is described by modes fitted to it.
+        A table of moduli is replaced by retardation modes fitted to it.
     indenter : Indenter or PeriodicSurface
     history : History
     times : (m,) array of float, str or pint.Quantity, optional
-        To return, ascending, within the history, s; they are met exactly.  All steps taken, without.
+        Times to return, ascending, within the history, s; they are met exactly.  All steps if omitted.
     accuracy : float
         Largest error of load, indentation, friction force and energy in time, relative to their largest values so far.
     layer : Layer, optional
-        Thickness and base of the material; a half-space without.
+        Thickness and base of the material; a half-space if omitted.
     indenter_modulus : float, str or pint.Quantity, optional
-        Young's modulus of an elastic indenter, Pa; rigid without it.
+        Young's modulus of an elastic indenter, Pa; rigid if omitted.
     indenter_poisson_ratio : float
         Of an elastic indenter.
     progress : callable, optional
         Called with the time reached and the last time, s.
     resume : TransientSolution or path, optional
-        A run to go on with, or the file in which its `TransientSolution.save_state` was written: one that was
-        interrupted, or one whose history is the beginning of this history.  Results are those of one run without a
-        pause, and contain those of the earlier one.  Not for contacts on cells.
+        Run to continue, or the file that its `TransientSolution.save_state` wrote: an interrupted run, or one whose
+        history is the beginning of this history.  The results equal those of one uninterrupted run, and include
+        those of the earlier one.  Not available for contacts on cells.
 
     Returns
     -------
@@ -101,9 +101,10 @@ def solve_transient(
 
     Sliding contacts, contacts on layers and those of other indenters are solved on cells that are fixed to the body, on
     finer and finer grids.  An indenter moves by whole cells wherever it can.  A line contact has no absolute
-    indentation: its change since the first contact is given, to the accuracy of the largest change or of a fiftieth of
-    the indentation a²/R, if that is more.  Without `times`, the first steps after a start or a turn,
-    within which the contact moves by less than its cells, may have larger errors than the accuracy; they are stated.
+    indentation, so its change since the first contact is given.  The accuracy of this change is relative to the largest
+    change, or to a fiftieth of the indentation a²/R if that is more.  Without `times`, the first steps after a start or
+    a reversal, in which the contact moves by less than one cell, may have errors above the accuracy; `errors` holds
+    them.
 
     References
     ----------
@@ -211,7 +212,7 @@ def checked_problem(
 
 
 def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:
-    """Return what solves this contact, and the name of the method."""
+    """Return the mover for this contact, and the name of the method."""
     indenter = problem.indenter
     if isinstance(indenter, Indenter) and not history.moves and problem.layer is None:
         from viscofric.motion.normal import NormalMotion
@@ -279,7 +280,7 @@ def assemble(
         load=column(lambda one: one.errors.load),
         indentation=column(lambda one: one.errors.depth),
         friction_force=column(lambda one: one.errors.friction),
-        # An energy keeps the errors of its past, also where the difference of the chains changes its sign.
+        # Errors of an energy accumulate, even where the difference of the chains changes sign.
         energy=np.maximum.accumulate(column(lambda one: one.errors.energy)),
         balance=work - (stored - track.stored) - dissipated,
     )

@@ -1,6 +1,6 @@
 """One-dimensional profile of a body of revolution, for the method of dimensionality reduction.
 
-A body of revolution f(r) in contact over one disc is as deep, and carries as much, as the profile
+A body of revolution f(r) in contact over one disc has the same indentation and load as the profile
 
     g(s) = s ∫₀^{π/2} f'(s sin θ) dθ
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _NODES, _PARTS = np.polynomial.legendre.leggauss(40)
 _ANGLES, _ANGLE_WEIGHTS = 0.25 * math.pi * (_NODES + 1.0), 0.25 * math.pi * _PARTS
 _DIRECTIONS = np.array([0.3, 0.9, 1.5707963267948966, 2.2, 3.141592653589793, 4.4])
-#: Rounding of heights that should be the same in all directions.
+#: Rounding error of heights that should be the same in all directions.
 _ROUND = 1e-9
 _BISECTIONS = 200
 
@@ -40,7 +40,7 @@ def is_body_of_revolution(indenter: Indenter) -> bool:
     try:
         along = np.asarray(indenter.height(radii, 0.0 * radii))
         around = np.asarray(indenter.height(radii * np.cos(_DIRECTIONS), radii * np.sin(_DIRECTIONS)))
-    except InputError:  # a height map ends somewhere
+    except InputError:  # beyond the edge of a height map
         return False
     if indenter.has_walls:
         return bool(np.array_equal(around, np.broadcast_to(along, around.shape)))
@@ -59,7 +59,7 @@ def profile(indenter: Indenter, s: Array) -> Array:
 def elastic_radius(indenter: Indenter, depth: float | None, load: float | None, modulus: float) -> float:
     """Return the contact radius on an elastic half-space of the plane-strain modulus E*, for a depth or a load, m."""
     if indenter.has_walls:
-        return float(getattr(indenter, "radius"))  # noqa: B009  the only walls that exist are those of a FlatPunch
+        return float(getattr(indenter, "radius"))  # noqa: B009  only a FlatPunch has vertical walls
     nodes, weights = np.polynomial.legendre.leggauss(20)
     share, part = 0.5 * (nodes + 1.0), 0.5 * weights
 
@@ -76,7 +76,7 @@ def elastic_radius(indenter: Indenter, depth: float | None, load: float | None, 
 def impact_radius(indenter: Indenter, energy: float, weight: float, modulus: float) -> float:
     """Return the largest contact radius on an elastic half-space after an impact of some energy under a weight, m.
 
-    The energy E* ∫₀ᵃ (δ − g)² ds of the springs is the kinetic one and the work of the weight.
+    The energy E* ∫₀ᵃ (δ − g)² ds of the springs is the kinetic energy plus the work of the weight.
     """
     if indenter.has_walls:
         return elastic_radius(indenter, 0.0, None, modulus)

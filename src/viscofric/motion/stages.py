@@ -1,4 +1,4 @@
-"""Histories of three stages: a load or depth put on, a dwell, and a slide forth and back."""
+"""Histories of three stages: loading (or indenting), dwell, and sliding back and forth."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def staged_history(
     before: str = "untouched",
     direction: Sequence[float] = (1.0, 0.0),
 ) -> History:
-    """Return the history of a load or depth that is put on, rests, and then slides; SI.
+    """Return the history of loading (or indenting), dwell and sliding; SI.
 
     Parameters
     ----------
@@ -33,15 +33,15 @@ def staged_history(
     value : float
         N (N/m) or m.
     load_time : float
-        In which it rises from zero, s; zero: at once.
+        Time in which the load or depth rises from zero, s; zero for a step.
     dwell : float
         At rest, s.
     slide, speed : float
         Length of the path, m, and the speed, m/s; zero: no sliding.
     strokes : int
-        Times the path is followed, forth and back.
+        Number of strokes along the path, in alternating directions.
     temperature, before, direction : optional
-        As of `History`.
+        As in `History`.
 
     Raises
     ------
@@ -51,7 +51,7 @@ def staged_history(
     time, values, speeds = [0.0], [0.0 if load_time else value], [0.0]
 
     def stage(duration: float, at: float) -> None:
-        """Go on for a time; a change of the speed is a jump, at the start the first speed."""
+        """Append a stage; a change of speed is a jump, and the first stage sets the first speed."""
         if at != speeds[-1] and len(time) > 1:
             time.append(time[-1])
             values.append(value)

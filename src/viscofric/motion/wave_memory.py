@@ -9,8 +9,8 @@ A mode dissipates C G |r|²/τ with r = p − q, which obeys dr/dθ = z r + f, f
 
     κ ∫|r|² dθ = ½ (|r0|² − |r1|²) + Re ∫ r* f dθ,
 
-and the integrals of r and r θ follow from that equation.  For |z| near zero, where A and B cancel, power series take
-their place.
+and the integrals of r and r θ follow from that equation.  For |z| near zero, where A and B cancel, power series
+replace them.
 
 Waves of pressures and memory are multiplied by √(w G), w their weights in a mean over the grid: their squares are
 energies.
@@ -32,13 +32,13 @@ if TYPE_CHECKING:
 
 # |z| below which series are used: the closed forms lose 1e-16/|z| of their digits there, the series 1e-12.
 _SERIES_BELOW = 1e-3
-# Waves that are worked on at once; their arrays stay in the processor's cache.
+# Waves processed at once; their arrays stay in the processor's cache.
 _BLOCK = 8192
 
 
 @dataclass(frozen=True, eq=False)
 class StepResponse:
-    """What one step makes of pressures, for all modes together."""
+    """Response of all modes together to the pressures of one step."""
 
     steps: Array  # (n,) κ of each mode
     turn: Array  # (rows, columns) q·Δs
@@ -48,7 +48,7 @@ class StepResponse:
 
     @classmethod
     def of(cls, modes: Modes, clock_step: float, turn: Array) -> StepResponse:
-        """Return the response to a step of so much of the material's time, in which each wave turns so far."""
+        """Return the response to a step, given its duration on the material's clock and the turn of each wave."""
         steps = clock_step / modes.tau
         moves = bool(turn.any())
         kind = complex if moves else float
@@ -69,9 +69,9 @@ class StepResponse:
         return cls(steps, turn, phase, start, end)
 
     def known(self, modes: Modes, memory: ComplexArray, pressure: ComplexArray) -> ComplexArray:
-        """Waves of the displacement, for a response of one, that the past causes at the end of the step.
+        """Return waves of the displacement at the end of the step that the past causes, for a unit transfer function.
 
-        With the factor that memory (n, rows, columns) and pressure (rows, columns) have.
+        They carry the same factor as memory (n, rows, columns) and pressure (rows, columns).
         """
         found = np.tensordot(modes.C * np.exp(-self.steps), memory, 1)
         if self.phase is not None:
@@ -89,14 +89,14 @@ class Advanced(NamedTuple):
 
 
 class _Pressures(NamedTuple):
-    """What all modes share in a block of waves."""
+    """Quantities common to all modes in a block of waves."""
 
     turn: Array
     phase: ComplexArray | None
     before: ComplexArray
     change: ComplexArray
     after: ComplexArray
-    squares: float  # |p|² at the beginning less that at the end
+    squares: float  # |p|² at the beginning minus that at the end
     # f = constant + linear θ; its integral and that of θ f, each without the part of p in r0 − r1 and −r1
     constant: ComplexArray
     linear: ComplexArray
@@ -115,7 +115,7 @@ def advance(
 ) -> Advanced:
     """Return the memory (n, rows, columns) after a step from one pressure to another, both (rows, columns).
 
-    It overwrites the memory given unless that is to be kept.
+    The given memory is overwritten unless `keep` is set.
     """
     found = np.empty_like(memory) if keep else memory
     stored = dissipated = 0.0
@@ -190,7 +190,7 @@ def _one(kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray) ->
         level += given.moment
         level *= share  # ∫ r θ dθ
         work += _product(level, given.linear)
-    # |r|² at the ends, multiplied out: this needs no array of r.
+    # |r|² at the ends, expanded, so that no array of r is needed.
     ends = given.squares + _square(q0) - _square(new)
     loss = 0.5 * ends - _product(p0, q0) + _product(p1, new) + work
     q1[...] = new

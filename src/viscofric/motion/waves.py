@@ -1,4 +1,4 @@
-"""Waves of a periodic contact: what a solid of unit compliance answers to each, and how far each has turned.
+"""Waves of a periodic contact: response of a solid of unit compliance to each, and the turn of each.
 
 Fields are multiplied wave by wave in the order of `scipy.fft.rfft2`, with one row more where the number of points along
 x is even: the Nyquist wave along x stands for two that run opposite ways, and their memories differ.  Along y the real

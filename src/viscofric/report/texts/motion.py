@@ -24,7 +24,7 @@ _FORCES = {"point": ("N", "J"), "line": ("N/m", "J/m"), "periodic": ("Pa", "J/mÂ
 
 
 def history_words(history: History, geometry: str) -> str:
-    """Return a history in one line: how long, under what, how far, at which temperature, and what was before."""
+    """Return a history in one line: duration, load or depth, distance, temperature, and prior state."""
     duration = float(history.time[-1] - history.time[0])
     units = {"load": _FORCES[geometry][0], "indentation": "m", "pressure": "Pa", "gap": "m"}
     values = getattr(history, history.control)
@@ -48,13 +48,13 @@ def _range(values: Any, unit: str) -> str:
 
 
 def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return what an engineer wants to know of a contact over time, as pairs of name and value.
+    """Return the main results of a contact over time, as pairs of name and value.
 
     Parameters
     ----------
     run : TransientSolution
     seconds : float
-        That it took.
+        Computing time, s.
     """
     force, energy = _FORCES[run.geometry]
     slides = bool(np.any(run.position != run.position[0]))
@@ -99,7 +99,7 @@ def _friction(run: TransientSolution, place: int) -> str:
 
 
 def _largest(run: TransientSolution) -> str:
-    """Return the largest friction coefficient in size, and when and where it was reached."""
+    """Return the friction coefficient of largest magnitude, with its time and distance."""
     place = int(np.abs(run.friction_coefficient).argmax())
     steps = np.hypot(*np.diff(run.position[: place + 1], axis=0).T)
     after = prefixed(float(run.time[place] - run.time[0]), None, "s")
@@ -107,13 +107,13 @@ def _largest(run: TransientSolution) -> str:
 
 
 def impact_lines(hit: ImpactSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return what an engineer wants to know of an impact, as pairs of name and value.
+    """Return the main results of an impact, as pairs of name and value.
 
     Parameters
     ----------
     hit : ImpactSolution
     seconds : float
-        That it took.
+        Computing time, s.
     """
     lines: list[tuple[str, str]] = []
     for number, one in enumerate(hit.contacts, 1):
@@ -150,7 +150,7 @@ def impact_record(inputs: dict[str, Any], result: ImpactSolution | RestitutionCu
         What was requested, in SI units and plain types.
     result : ImpactSolution or RestitutionCurve
     seconds : float
-        That it took.
+        Computing time, s.
     """
     contacts = [one._asdict() for one in getattr(result, "contacts", ())]
     return {
@@ -176,7 +176,7 @@ def transient_record(
     history : History
     run : TransientSolution
     seconds : float
-        That it took.
+        Computing time, s.
     """
     columns = {name: getattr(history, name) for name in ("time", history.control, "position", "speed", "temperature")}
     said = {name: plain(values, None) for name, values in columns.items() if values is not None}

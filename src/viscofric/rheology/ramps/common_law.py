@@ -133,7 +133,7 @@ class _Problem:
         return reduced
 
     def smoother(self, logs: Array) -> CorrelatedSmoother:
-        """Choose knots, smoothing and the correlation of errors anew."""
+        """Choose knots, smoothing and the correlation of errors again."""
         return CorrelatedSmoother.fitted(self.reduced(logs), self.points.moduli, self.points.same)
 
     def misfit(self, logs: Array) -> float:

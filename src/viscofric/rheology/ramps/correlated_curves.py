@@ -1,9 +1,9 @@
 """Smooth curves through ramps whose errors are correlated from point to point, by generalised least squares.
 
-A drift of the oven, of the clamping or of the static load gives neighbouring points of a ramp errors that are alike.
+A drift of the oven, of the clamping or of the static load gives neighbouring points of a ramp similar errors.
 They are described by an autoregression of first order along each ramp, for E' and for E''.  Its coefficient and the
-smoothing of the curve follow together from the restricted likelihood: a smoothing chosen as for independent errors
-lets the curve follow the correlated ones, and the residuals then hide them (J. D. Opsomer, Y. Wang, Y. Yang, Statist.
+smoothing of the curve follow together from the restricted likelihood: if smoothing is chosen as for independent errors,
+the curve follows the correlated ones, and the residuals do not show them (J. D. Opsomer, Y. Wang, Y. Yang, Statist.
 Sci. 16 (2001) 134).
 """
 
@@ -36,7 +36,7 @@ CORRELATIONS = np.tanh(np.linspace(0.0, 2.0, 13))
 
 @dataclass(frozen=True, eq=False)
 class CorrelatedSmoother:
-    """Splines to be drawn through ramps: K basis functions, m quantities (log E' and log E'')."""
+    """Splines through ramps: K basis functions, m quantities (log E' and log E'')."""
 
     knots: Array
     degree: int
@@ -101,7 +101,7 @@ class CorrelatedCurve:
 
 
 def whitened(values: Array, same: Mask, alike: float) -> Array:
-    """Return what is independent and of equal variance in values (n, …) with an autoregression along each ramp."""
+    """Return values (n, …) whitened: the autoregression along each ramp is removed, and variances are equal."""
     found = np.array(values, dtype=float)
     after = np.flatnonzero(same) + 1
     found[after] = (values[after] - alike * values[after - 1]) / np.sqrt(1.0 - alike**2)
@@ -119,8 +119,8 @@ def _likelihood(basis: Array, penalty: Array, moduli: Array, same: Mask, alike: 
 def _expected(criterion: Array) -> float:
     """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`.
 
-    The variance of what ramps determine grows by (1 + ρ)/(1 − ρ), and the mean of this over the likelihood counts: the
-    most likely ρ of 250 points with 0.7 is 0.68, and standard errors were 4 % too small with it.
+    The variance of fitted parameters grows by (1 + ρ)/(1 − ρ), so ρ is chosen by the mean of this factor over the
+    likelihood: for 250 points with ρ = 0.7, the most likely ρ is 0.68, which made standard errors 4 % too small.
     """
     weight = np.exp(0.5 * (criterion.min() - criterion))
     weight[[0, -1]] *= 0.5

@@ -1,7 +1,7 @@
 """Shifts of step tests with offsets: the maximum of the likelihood, with the curve and the offsets integrated over.
 
-Least squares attribute a part of each offset to the shift.  But an offset changes all points of a test alike, so that
-differences between points of one test determine its shift better than their level does.  The likelihood weighs both
+Least squares attributes a part of each offset to the shift.  An offset changes all points of a test equally, so
+differences between points of one test determine its shift better than their level does.  The likelihood weights both
 (generalised least squares).  With offsets, errors of the shifts are typically three to seven times smaller.
 """
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
-#: Differences are taken over this many standard errors.
+#: Step of the finite differences, in standard errors.
 DIFFERENCE = 0.5
-#: Second derivatives are at least this part of those of Gauss and Newton.
+#: Second derivatives are at least this fraction of the Gauss–Newton ones.
 SMALLEST_PART = 0.2
-PASSES = 4  # each takes the second derivatives again
+PASSES = 4  # each computes the second derivatives again
 STEPS = 6  # of each pass
 LARGEST_STEP = 0.3  # decades, in one step
 SHORTENED = 0.5 ** np.arange(7)
@@ -34,7 +34,7 @@ def most_likely(likelihood: Callable[[Array], Array], start: Array, scale: Array
     """Return the parameters (p,) that minimise −2 log of a likelihood, and their covariance (p, p).
 
     `likelihood` returns −2 log of it (k,) at several parameters (k, p).  The columns of `scale` (p, q) are the q
-    directions in which parameters may change, each by one standard error of Gauss and Newton.
+    directions in which parameters may change, each by one Gauss–Newton standard error.
     """
     found = start
     for _ in range(PASSES):
@@ -49,7 +49,7 @@ def most_likely(likelihood: Callable[[Array], Array], start: Array, scale: Array
 
 
 def _descended(likelihood: Callable[[Array], Array], start: Array, ways: Array) -> Array:
-    """Take Newton's steps along directions `ways` (p, q) that are scaled so that the second derivatives are one."""
+    """Take Newton steps along directions `ways` (p, q) that are scaled so that the second derivatives are one."""
     found, q = start, ways.shape[1]
     for _ in range(STEPS):
         moves = DIFFERENCE * ways.T

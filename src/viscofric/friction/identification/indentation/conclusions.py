@@ -1,4 +1,4 @@
-"""Results of a fit to indentation: bands, residuals, doubts about them, and the material's origin."""
+"""Results of a fit to indentation: bands, residuals, notes on them, and the origin of the material."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
 
 #: Bands of moduli begin at this factor below the inverse of the longest time; they end at that of the shortest one.
 BEYOND = 3.0
-#: Successive residuals are correlated from this many standard deviations of von Neumann's ratio on …
+#: Successive residuals count as correlated above this many standard deviations of von Neumann's ratio.
 FOLLOWING = 3.0
-#: … which is worth a note where they are larger than this: a record repeats no better.
+#: Correlated residuals smaller than this get no note: records do not repeat better.
 WORTH_A_NOTE = 2e-3
 
 
@@ -88,7 +88,7 @@ def conclude(
 
 
 def _fitted(usable: Usable, posterior: Posterior[IndentationProblem]) -> tuple[FittedRecord, ...]:
-    """Return what was measured and fitted of every record, with 95 % limits of the latter."""
+    """Return the measured and fitted responses of every record, with 95 % limits of the fit."""
     problem, place = posterior.best.problem, posterior.best.minimum.place
     value, _ = problem.fitted(place)
     lower, upper = limits(np.array([problem.fitted(row)[0] for row in posterior.drawn]))
@@ -112,14 +112,14 @@ def _fitted(usable: Usable, posterior: Posterior[IndentationProblem]) -> tuple[F
 
 
 def _doubts(records: tuple[FittedRecord, ...], error_scale: float) -> list[Note]:
-    """Return notes on doubts about the residuals."""
+    """Return notes on doubtful residuals."""
     notes = []
     if error_scale > 1.0:
         notes.append(
             Note(
                 "errors-enlarged",
                 f"The residuals are {error_scale:.2g} times larger than the given standard errors, which were "
-                "multiplied by that: they are too small, or one linear material does not describe all of the records.",
+                "multiplied by this factor. The errors are too small, or no one linear material describes all records.",
                 values={"factor": error_scale},
             )
         )

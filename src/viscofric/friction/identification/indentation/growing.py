@@ -1,4 +1,4 @@
-"""Growing contacts: what was measured as a linear functional of the creep compliance or of the relaxation modulus.
+"""Growing contacts: the response as a linear functional of the creep compliance or the relaxation modulus.
 
 While the contact of a body of revolution grows, load and depth of a viscoelastic half-space follow from those of an
 elastic one by the correspondence principle (E. H. Lee, J. R. M. Radok, J. Appl. Mech. 27 (1960) 438): with
@@ -6,7 +6,7 @@ X(δ) = 2 ∫₀ᵃ (δ − g(s)) ds of the one-dimensional profile g, g(a) = δ
 
     X(δ(t)) = (1−ν²) ∫ J(t−s) dF(s),        F(t) = ∫ E(t−s) dX(δ(s))/(1−ν²).
 
-The prescribed one is linear between knots s_m, where its slope changes by κ_m or it jumps by Δ_m, so that
+The prescribed quantity I is linear between knots s_m, where its slope changes by κ_m or it jumps by Δ_m, so that
 
     ∫ R(t−s) dI(s) = Σ κ_m (t−s_m) M(t−s_m) + Σ Δ_m R(t−s_m),    M(t) = ∫₀ᵗ R ds/t,
 
@@ -35,19 +35,19 @@ GRID = 20
 PARTS = 20
 #: … or since the first row, if there are more kinks than this.
 MOST_KINKS = 12
-#: Error with which knots of the prescribed quantity are left out, relative to its largest value; of many rows also in
-#: their scatter, up to a part of the largest value.
+#: Allowed error of omitting knots of the prescribed quantity, relative to its largest value; for many rows also their
+#: scatter, up to a part of the largest value.
 SIMPLIFIED, MANY_ROWS, SCATTERS, MOST_SIMPLIFIED = 1e-6, 400, 3.0, 1e-3
-#: Depths that fall by less, relative to the largest one, are no shrinking.
+#: A smaller fall of the depth, relative to the largest depth, does not count as shrinking.
 LEAST_FALL = 1e-4
 #: Ratio of prescribed depths between which X is taken as linear, good to 1.5e-4 of it, and the least depth over the
 #: largest one at which that is so.
 FINE, LEAST_DEPTH = 1.04, 1e-4
-#: A response of less than so many standard errors is left out: its logarithm has no normal error.
+#: A response below this many standard errors is left out: the error of its logarithm is not normal.
 CLEAR = 5.0
-#: Times below this part of the first row's are not resolved.
+#: Times below this fraction of the first row's time are not resolved.
 SHORTEST = 1e-5
-#: X is known to so many times the contact radius of the largest depth: errors reach beyond it.
+#: X is tabulated up to this multiple of the contact radius at the largest depth, as errors extend beyond it.
 BEYOND, _RADII = 2.0, 400
 BLOCK = 500_000  # lags at once
 
@@ -100,7 +100,7 @@ class Growing:
 
 
 def growing(record: IndentationRecord, reduced: Reduced, *, has_walls: bool) -> Growing:
-    """Return what the rows of a record determine, up to where the contact begins to shrink."""
+    """Return the usable rows of a record, up to where the contact begins to shrink."""
     end = len(record) if has_walls else _shrinks(record)
     time = record.time[:end] - record.start
     creep = record.control == "load"
@@ -152,8 +152,8 @@ def _contact(prescribed: Array) -> int:
 def _shrinks(record: IndentationRecord) -> int:
     """Return the row from which the contact shrinks; the number of rows if it does not.
 
-    It may shrink once what is prescribed falls, by more than its scatter; under a falling load the depth may still grow
-    for a while.
+    It may shrink once the prescribed quantity falls by more than its scatter.  Under a falling load the depth may still
+    grow for a while.
     """
     prescribed = record.load if record.control == "load" else record.indentation
     largest = np.maximum.accumulate(prescribed)
@@ -209,7 +209,7 @@ def _knots(time: Array, values: Array) -> tuple[Array, Array]:
 
 
 def _subdivided(knots: Array, depths: Array) -> tuple[Array, Array]:
-    """Return depths at more knots: X is no linear function of the depth."""
+    """Return depths at more knots, since X is not linear in the depth."""
     times, values = [knots[:1]], [depths[:1]]
     for (start, above), (end, below) in pairwise(zip(knots, depths, strict=True)):
         within = np.array([below])

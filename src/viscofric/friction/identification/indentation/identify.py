@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 FEWEST_SAMPLES, FEWEST_MODES = 20, 8
-#: Errors that are found from the residuals are found anew while they change by more than this, so many times at most.
+#: Errors are estimated again from the residuals while they change by more than this, up to this many times.
 SETTLED, PASSES = 0.05, 4
-#: Least relative error of a response: what discretisation in time leaves.
+#: Smallest relative error of a response, from discretisation in time.
 LEAST_ERROR = 1e-4
 #: Residuals this many standard deviations above their expectation enlarge the given errors.
 DOUBTFUL = 3.0
@@ -63,14 +63,14 @@ def identify_from_indentation(
     Parameters
     ----------
     records : IndentationRecord or list of IndentationRecord
-        Each on a place of the material that nothing has touched before.
+        Each at a point of the material that was never in contact before.
     indenter : Indenter
         A body of revolution: Ball, Cone or FlatPunch.
     shift : ShiftLaw, optional
-        α(T), as from a DMA, with its covariance where it has one; of several temperatures found by superposition if
-        left out.
+        α(T), e.g. from DMA, with its covariance if known.  If omitted, it is found by superposition of the
+        temperatures.
     reference : float, str or pint.Quantity, optional
-        Temperature at which the material is described, K if a plain number; without it, that of `shift`, or the middle
+        Temperature at which the material is described, K if a plain number; if omitted, that of `shift`, or the middle
         one of the records.
     poisson_ratio : float
         Of the rubber, constant.
@@ -79,11 +79,11 @@ def identify_from_indentation(
     indenter_poisson_ratio : float
         Of an elastic indenter.
     modes : int
-        Retardation times; more are taken where these would be more than 0.4 decades apart.
+        Number of retardation times; more are used if these would be more than 0.4 decades apart.
     limit : float
         Largest relative standard error of an identified modulus.
     samples : int
-        Materials drawn from the posterior density.
+        Number of materials drawn from the posterior density.
     seed : int
         Of the draws.
     name : str
@@ -99,25 +99,25 @@ def identify_from_indentation(
         If a value cannot be used, a record has too few rows in which the contact grows (oscillation, rebound), or
         α(T) is neither given nor to be found because the temperatures do not overlap.
     ConvergenceError
-        If the fit does not settle.
+        If the fit does not converge.
 
     Notes
     -----
     While the contact of a body of revolution grows, its record is linear in J(t), or in E(t) (E. H. Lee, J. R. M.
-    Radok, J. Appl. Mech. 27 (1960) 438): of a ball δ^{3/2}(t) = (3/4)(1−ν²)/√R ∫J(t−s)dF(s) and
+    Radok, J. Appl. Mech. 27 (1960) 438): for a ball δ^{3/2}(t) = (3/4)(1−ν²)/√R ∫J(t−s)dF(s) and
     F(t) = (4/3)√R/(1−ν²) ∫E(t−s)dδ^{3/2}(s).  What was prescribed is taken as exact and linear between the rows.
     ln of the response is fitted, averaged over twentieths of a decade of time since what was prescribed last changed
     its slope, with the prior, the evidence and the samples of `identify_material`: unknowns are ln C_k, ln E_inf and
     ln α.  Several temperatures are first fitted one by one, their J(t) is superposed as creep tests are, and the
     factors are then refined together with the spectrum.
 
-    Assumed are a half-space, small strain, no friction and no adhesion in the contact.  Errors that all rows of a
-    record share, of the indenter's radius, of the machine's compliance and above all of the depth's zero, are not in
-    the bands: 1 % of the radius is 0.5 % of the modulus, 1 % of the depth 1.5 %.
+    Assumed are a half-space, small strain, no friction and no adhesion in the contact.  The bands leave out
+    errors that all rows of a record share: those of the indenter's radius, the machine's compliance and above all the
+    zero of the depth: 1 % of the radius is 0.5 % of the modulus, 1 % of the depth 1.5 %.
 
     Examples
     --------
-    A planted material, and a creep test of it under a ball (synthetic):
+    A known material, and a synthetic creep test of it with a ball:
 
     >>> import numpy as np
     >>> import viscofric as vf
@@ -175,9 +175,9 @@ def _checked(records: object, indenter: object, shift: object) -> tuple[Indentat
 
 
 def _fitted(problem: IndentationProblem) -> tuple[list[Weighed[IndentationProblem]], float]:
-    """Fit under every roughness, with errors found from the residuals where they are not given, or enlarged by them.
+    """Fit at every roughness.  Errors not given are estimated from the residuals; too small ones are enlarged.
 
-    Returned is also the factor by which given errors were enlarged.
+    The factor by which given errors were enlarged is returned too.
     """
     start = np.concatenate([problem.smoothness.middle, problem.shifts.middle])
     place = descend(problem, start, metric=problem.metric).place
@@ -209,7 +209,7 @@ def _fitted(problem: IndentationProblem) -> tuple[list[Weighed[IndentationProble
 
 
 def _ratio(best: Weighed[IndentationProblem], unknown: Sequence[bool]) -> float:
-    """Return the mean square of the residuals, of records with given errors, over what is expected of it."""
+    """Return the mean square of the residuals of records with given errors, relative to its expectation."""
     problem = best.problem
     given = np.repeat(~np.array(unknown), [len(contact) for contact in problem.contacts])
     away = problem.measured(best.minimum.place)[0][given]
@@ -218,7 +218,7 @@ def _ratio(best: Weighed[IndentationProblem], unknown: Sequence[bool]) -> float:
 
 
 def _errors(best: Weighed[IndentationProblem]) -> tuple[Array, ...]:
-    """Return errors like the residuals, for every record, constant but for the number of rows averaged."""
+    """Return errors of the size of the residuals for every record; they vary with the number of averaged rows only."""
     problem = best.problem
     away = problem.measured(best.minimum.place)[0]
     left = max(freedom_of(best, problem.count), 1.0) / problem.count

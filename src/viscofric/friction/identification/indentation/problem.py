@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.indentation.growing import Growing
 
 
-#: Change of ln α that changes nothing: that of a temperature whose α is known is held to 1e-7.
+#: Negligible change of ln α: where α is known, it is held to 1e-7.
 SAME = 1e-6
 
 
 class _Kernel(NamedTuple):
-    """What depends on the retardation times only, for one shift factor."""
+    """Matrices that depend on the retardation times only, for one shift factor."""
 
     log_alpha: float
     relaxed: NDArray[Any]  # (G K, m), 1/(1 + s τ) at the nodes
@@ -77,7 +77,7 @@ class Functional:
 
 @dataclass(frozen=True, eq=False)
 class IndentationProblem(SpectrumProblem):
-    """Identification from growing contacts; measured are the logarithms of their responses."""
+    """Identification from growing contacts; the data are the logarithms of their responses."""
 
     contacts: tuple[Growing, ...]
     number: tuple[int, ...]  # of each contact's temperature

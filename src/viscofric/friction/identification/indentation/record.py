@@ -37,14 +37,14 @@ LEAST_ROWS = 5
 
 @dataclass(frozen=True, eq=False)
 class IndentationRecord:
-    """Load and depth of an indenter over time at one temperature, on material that nothing has touched before.
+    """Load and depth of an indenter over time at one temperature, on material that was never in contact before.
 
     Parameters
     ----------
     time : (n,) array of float, str or pint.Quantity
-        s, never decreasing, five rows at least; a time given twice is a jump.
+        s, never decreasing, at least five rows; a time given twice is a jump.
     load : (n,) array of float, str or pint.Quantity
-        Normal load, N.  A first load above zero is put on at once, at `start`.
+        Normal load, N.  A first load above zero is applied as a step at `start`.
     indentation : (n,) array of float, str or pint.Quantity
         Depth of the indenter's lowest point below the undeformed surface, m.
     temperature : float, str or pint.Quantity
@@ -53,8 +53,8 @@ class IndentationRecord:
         What was prescribed, and is taken as exact; linear between the rows.  The other one is the response: its values
         at equal times to those prescribed are fitted.
     error : float, str, pint.Quantity or (n,) array of them, optional
-        Standard error of the response in every row, m or N, independent from row to row; found from the residuals,
-        as a constant part of the response, if left out.
+        Standard error of the response in every row, m or N, independent from row to row; if omitted, it is a
+        constant fraction of the response, found from the residuals.
     start : float, str or pint.Quantity, optional
         Time of the first contact, s, not after the first row; that of the first row if left out.
     source : str
@@ -67,7 +67,7 @@ class IndentationRecord:
 
     Examples
     --------
-    A ball that is loaded with 1 N at once, at the time 0, and sinks in:
+    Creep of a ball under a load step of 1 N at time 0:
 
     >>> import numpy as np
     >>> import viscofric as vf
@@ -199,7 +199,7 @@ def read_indentation(
     start : float, str or pint.Quantity, optional
         Time of the first contact, s; that of the first row if left out.
     columns : mapping, optional
-        Headings that are not understood, by quantity: ``{"load": "Fz (N)"}``.
+        Headings that are not recognised, by quantity: ``{"load": "Fz (N)"}``.
     sheet : str, optional
         The only sheet of a workbook to read.
 

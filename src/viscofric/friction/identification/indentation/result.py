@@ -42,10 +42,10 @@ class FittedRecord:
     time : (n,) array
         Since its start, s.
     response : (n,) array
-        Measured: where the load was prescribed X(δ), m², which is (4/3) √R δ^{3/2} of a ball; the load, N, where the
-        depth was.
+        Measured response.  If the load was prescribed, X(δ), m², which is (4/3) √R δ^{3/2} for a ball; if the depth
+        was, the load, N.
     fitted, lower, upper : (n,) array
-        Of the identified material, and 95 % limits from the samples.
+        Response of the identified material, and its 95 % limits from the samples.
     error : (n,) array
         Relative standard error of the response: as given, or as found from the residuals.
     count : (n,) array
@@ -106,7 +106,7 @@ class MaterialFromIndentation:
     Attributes
     ----------
     material : Material
-        Of the greatest posterior density, at the reference.
+        Material of the greatest posterior density, at the reference.
     samples : MaterialSamples
         Materials drawn from the posterior density: their spread is the uncertainty.
     shift_factors : ShiftLaw or None
@@ -130,9 +130,9 @@ class MaterialFromIndentation:
     rms : float
         Root mean square of the relative residuals of the responses.
     error_scale : float
-        Factor by which given standard errors were multiplied, as the residuals are larger.
+        Factor by which given standard errors were multiplied because the residuals are larger.
     roughness : float
-        Standard deviation of d ln C/d ln τ over an e-fold of τ for which there is most evidence.
+        Standard deviation of d ln C/d ln τ over an e-fold of τ, at the greatest evidence.
     notes : tuple of str
         One sentence each.
     """
@@ -172,7 +172,7 @@ class MaterialFromIndentation:
         -------
         xarray.Dataset
             Along ``angular_frequency``: ``storage_modulus`` and ``loss_modulus`` with ``_lower`` and ``_upper`` (Pa);
-            what was found besides, in SI units, in its attributes.
+            the other results, in SI units, are its attributes.
         """
         wanted = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
         omega = np.ravel(wanted)

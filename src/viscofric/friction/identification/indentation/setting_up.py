@@ -37,10 +37,10 @@ FIRST_ERROR = 0.01
 LEAST_POINTS = 5
 #: Decades to which retardation times extend beyond the measured times.
 MARGIN = 1.9
-#: Fewest modes per decade with which J(t) does not ripple.
+#: Fewest modes per decade for a J(t) without ripple.
 LEAST_PER_DECADE = 2.5
 #: Modes within a decade of the first or the last time affect the response from one side only, and a spectrum may end,
-#: or rise to the glass transition, there: no smoothness is assumed for them; of a narrow range, for this part of it.
+#: or rise to the glass transition, there.  Smoothness is not assumed for them; in a narrow range, for this part of it.
 ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
 #: Times per decade at which J(t) of one temperature is superposed.
 SUPERPOSED = 10
@@ -67,7 +67,7 @@ class Usable:
 
 
 def usable_records(records: Sequence[IndentationRecord], indenter: Indenter) -> Usable:
-    """Return what of the records can be used; InputError if too few rows of one can."""
+    """Return the usable rows of the records; InputError if a record has too few."""
     contacts, notes, deepest = [], [], 0.0
     for number, record in enumerate(records, 1):
         largest = float(np.max(record.indentation))
@@ -127,7 +127,7 @@ def problem_of(usable: Usable, shifts: Shifts, plane_strain: float, extra: float
 
 
 def _first_guess(contacts: Sequence[Growing], plane_strain: float) -> float:
-    """Return a compliance, 1/Pa: the mean of those of elastic contacts."""
+    """Return the mean of the compliances of elastic contacts, 1/Pa."""
     logs = []
     for one in contacts:
         of_elastic = one.weights @ np.ones(one.weights.shape[1])
@@ -178,7 +178,7 @@ def shifts_of(
 
 
 def _creep(usable: Usable, plane_strain: float, extra: float) -> StepTest:
-    """Return J(t) of the records at one temperature over the measured times, fitted without those of others."""
+    """Return J(t) of the records at one temperature over the measured times, fitted without the other records."""
     kelvin = float(usable.temperatures[0])
     problem = problem_of(usable, Shifts.unknown(usable.temperatures, kelvin), plane_strain, extra, 0)
     start = np.concatenate([problem.smoothness.middle, problem.shifts.middle])

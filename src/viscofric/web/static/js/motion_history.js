@@ -81,7 +81,7 @@ export function read(text, kind) {
   return /^[+-]?[\d.]+(e[+-]?\d+)?$/i.test(plain) ? units.si(Number(plain), kind) : units.parse(plain, kind);
 }
 
-/** The table of points; columns are [label, kind], onChange gets other rows, refuse a sentence. */
+/** The table of points; columns are [label, kind], onChange gets the changed rows, refuse an error message. */
 export function pointTable({ onChange, refuse }) {
   const head = h("tr");
   const body = h("tbody");
@@ -214,7 +214,7 @@ export function sketch({ onChange }) {
     const [low, most] = scales.lanes[lane];
     const value = low + (1 - (at.y - GAP - lane * (LANE + GAP)) / LANE) * (most - low);
     const snapped = Math.round((100 * value) / (most - low)) * ((most - low) / 100);
-    const least = lane === 0 ? 0 : -Infinity; // loads are not below zero
+    const least = lane === 0 ? 0 : -Infinity; // no negative loads
     const [from, to] = scales.time;
     const time = from + ((at.x - EDGE) / (WIDE - 2 * EDGE)) * (to - from);
     const step = 10 ** Math.floor(Math.log10((to - from) / 100));

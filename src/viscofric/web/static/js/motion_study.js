@@ -1,6 +1,6 @@
-// The history of the study, [history] of its run file: taken from the step, shown in it, edited, removed.
+// The history of the study ([history] in the run file): set from this step, shown in it, edited or removed.
 
-/** The card's part; `rows()` gives the step's history, `take(found)` has the step show another. */
+/** Part of the card; `rows()` returns the history of the step, `take(found)` shows another one in the step. */
 export function studyHistory({ state, fields, units, api, explain, announce }, { rows, take }) {
   const { h, button } = fields;
   const failed = fields.note([], "error");
@@ -59,8 +59,8 @@ export function studyHistory({ state, fields, units, api, explain, announce }, {
     const has = state.get("history") !== undefined;
     form.hidden = show.hidden = remove.hidden = !has;
     words.textContent = has
-      ? "Export and viscofric run also solve the study over time, stages at its loads and speeds."
-      : "A study can also be solved over time, by its export and by viscofric run.";
+      ? "Export and viscofric run also solve the study over time; stages use its loads and speeds."
+      : "To solve the study over time too, add a history; Export and viscofric run then include it.";
   };
   state.subscribe("history", refresh);
   refresh();

@@ -1,4 +1,4 @@
-// Motion in time: a history that is edited as a table or a sketch, or an impact, and the contact solved through it.
+// Motion over time: a history edited as a table or a sketch, or an impact, and the solved contact.
 
 import { studyHistory } from "../motion_study.js";
 import { DEPENDS_ON, outdated, shows, studyOf } from "../inputs.js";
@@ -74,7 +74,7 @@ export function mount(section, app) {
     (value) => change({ path: value, rows: converted(history.rows, value) }),
   );
   const before = select(BEFORE, (value) => change({ before: value }));
-  /** A text field of one number; others are refused in a sentence. */
+  /** A text field for one number; other input gives an error message. */
   const box = (label, kind, onRead) => {
     const element = h("input", { type: "text", autocomplete: "off" });
     element.addEventListener("change", () => {
@@ -110,7 +110,7 @@ export function mount(section, app) {
   const help = (words) => h("p", { class: "help" }, words);
   const jumps = help("Drag a point, or change its numbers in the table. Two points at the same time are a jump.");
   const drawing = card("Sketch of the history", picture.element, jumps);
-  const rest = help("Material, indenter, layer and accuracy are those of the study; of several values, the first.");
+  const rest = help("Material, indenter, layer and accuracy are the first values given in the study.");
   const form = card(
     "History",
     labelled("Example", preset),
@@ -121,7 +121,7 @@ export function mount(section, app) {
     solveButton,
     kept,
   );
-  const about = help("± is the estimated numerical error; that of the grid of a rough surface is not part of it.");
+  const about = help("± is the estimated numerical error; it does not include the grid error of a rough surface.");
   about.hidden = true;
   const found = card("Contact over time", bar, failed, warnings, numbers, about, pictures.grid, notes);
   section.append(h("div", { class: "columns" }, h("div", {}, form), h("div", {}, drawing, found)));
@@ -178,7 +178,7 @@ export function mount(section, app) {
     return { rows: rows.map(([time, value, along]) => ({ time, value, along })), control, path, before };
   };
 
-  /** Interrupt the job, which then sends what it has found; if it does not begin or end, give it up. */
+  /** Interrupt the job, which then sends its results so far; cancel it if it does not start or stop. */
   function stop() {
     const { abort, number } = running ?? {};
     if (number) {
