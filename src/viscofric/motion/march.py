@@ -20,7 +20,7 @@ import numpy as np
 
 from viscofric.errors import ConvergenceError
 from viscofric.motion.chains import Errors, Link, Moment, Pair, Reached, Track, difference, over_scales
-from viscofric.motion.mover import Mover, Scales, State
+from viscofric.motion.mover import SHARE, Mover, Scales, State
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.motion.schedule import Instant, Schedule
 
-#: First share of the accuracy that one step may add to the difference of the chains, for movers without a `share`
-#: of their own, and where all steps are returned: integrals over these, such as means of cycles, need short ones.
-_SHARE = 0.05
 _MOST_MARCHES = 6
 #: Changes of the step from one to the next; order 3 of the local error.
 _SHRINK, _GROW, _SAFETY = 0.1, 3.0, 0.85
@@ -82,7 +79,8 @@ def march(
         If the accuracy is not reached.  Not raised if the ticks of the mover are too far apart for it; the error
         estimates then show it.
     """
-    share = _SHARE if times is None else float(getattr(mover, "share", _SHARE))
+    # Where all steps are returned, integrals over these, such as means of cycles, need short ones.
+    share = SHARE if times is None else mover.share
     if begin is not None and begin.share is not None:
         share = begin.share
     for _ in range(_MOST_MARCHES):

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 State = TypeVar("State")
 
+#: First part of the accuracy that one step may add to the difference of the chains; see `viscofric.motion.march`.
+SHARE = 0.05
+
 
 class Observation(NamedTuple):
     """Observed quantities of a contact at one time.
@@ -88,6 +91,11 @@ class Mover(Protocol[State]):
     @property
     def scales(self) -> Scales:
         """Sizes that errors are compared with."""
+        ...
+
+    @property
+    def share(self) -> float:
+        """First part of the accuracy that one step may add to the difference of the chains, between times asked for."""
         ...
 
     def begin(self) -> State:

@@ -18,13 +18,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
-from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.mover import SHARE, Field, Observation, Scales
 from viscofric.motion.springs import both_sides, elastic_radius, profile
 from viscofric.motion.steps import step_parts
 
@@ -72,6 +72,7 @@ class NormalMotion:
     s: Array
     g: Array
     weights: Array  # of ∫ over both sides
+    share: ClassVar[float] = SHARE
 
     @classmethod
     def of(cls, problem: Problem) -> NormalMotion:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from viscofric.motion.free.energy import Products
 from viscofric.motion.free.resting import rested, untouched
 from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
-from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.mover import SHARE, Field, Observation, Scales
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -42,6 +42,7 @@ _TICK = 1.0  # distance between times at which steps may end, in cells
 class FreeMover(Cells):
     """Steps of a free contact; see `viscofric.motion.mover.Mover`."""
 
+    share: ClassVar[float] = SHARE
     reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
     longest: float = field(default=0.0, init=False)  # the longest of them
     first_depth: float | None = field(default=None, init=False)  # at the first contact
