@@ -156,12 +156,6 @@ def friction_master_curve():
     return vf.shift_friction(shifting(), shift=wlf())
 
 
-@functools.cache
-def identified():
-    anchor = vf.ModulusAnchor(abs(rubber().complex_modulus(1e3)), "1000 rad/s", temperature=300.0)
-    return vf.identify_material(curves(), indenter=CYLINDER, anchor=anchor, accuracy=3e-2, samples=20, levels=(1.0,))
-
-
 def record(**settings):
     time = np.geomspace(0.01, 10.0, 12)
     depth = 1e-4 * (1.0 + 0.1 * np.log10(time / 0.01))
@@ -422,10 +416,8 @@ CALLS: dict[str, Any] = {
     "identify_from_indentation": lambda: {"records": record(), "indenter": vf.Ball(1e-2), "shift": None, "reference":
         300.0, "poisson_ratio": 0.5, "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "modes": 8, "limit": 0.05,
         "samples": 20, "seed": 0, "name": ""},
-    "MaterialFromIndentation.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
-    "IdentifiedMaterial.standard_error": lambda: (identified(), {"angular_frequency": np.array([60.0]), "relative":
-        None}),
-    "IdentifiedMaterial.to_dataset": lambda: (identified(), {"angular_frequency": np.array([60.0])}),
+    "Identified.standard_error": lambda: (from_indentation(), {"angular_frequency": np.array([1.0]), "relative": None}),
+    "Identified.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
     "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":
         [300.0], "load": 1e3, "samples": None, "accuracy": 3e-2, "workers": 1, "progress": None, "finest": 2048},
     "shift_friction": lambda: {"curves": shifting(), "shift": None, "reference": 300.0, "vertical_shift": None,
@@ -609,8 +601,6 @@ WITHOUT_CALL = {
 }
 #: What takes seconds, for what its good call needs.
 SLOW = {
-    "IdentifiedMaterial.standard_error",
-    "IdentifiedMaterial.to_dataset",
     "StudyResults.export",
     "StudyResults.to_csv",
     "open_results",

@@ -83,6 +83,7 @@ RETURNED = {
     "FrictionDerivatives",
     "FittedRecord",
     "FrictionMasterCurve",
+    "Identified",
     "IdentifiedMaterial",
     "MaterialFromIndentation",
     "JointSuperposition",

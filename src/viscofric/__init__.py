@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
     from viscofric.friction.identification.anchors import ContactAnchor as ContactAnchor
     from viscofric.friction.identification.anchors import ModulusAnchor as ModulusAnchor
+    from viscofric.friction.identification.identified import Identified as Identified
     from viscofric.friction.identification.identify import identify_material as identify_material
     from viscofric.friction.identification.indentation.identify import (
         identify_from_indentation as identify_from_indentation,
@@ -243,6 +244,7 @@ _HOME = {
     "ModulusAnchor": "viscofric.friction.identification.anchors",
     "Citations": "viscofric.literature.citations",
     "citations": "viscofric.literature.citations",
+    "Identified": "viscofric.friction.identification.identified",
     "identify_material": "viscofric.friction.identification.identify",
     "IdentifiedMaterial": "viscofric.friction.identification.result",
     "identify_from_indentation": "viscofric.friction.identification.indentation.identify",

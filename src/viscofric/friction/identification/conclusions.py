@@ -18,9 +18,10 @@ from viscofric.friction.identification.drawn_materials import (
     limits,
     prior_materials,
 )
+from viscofric.friction.identification.identified import IdentifiedBand
 from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation
-from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedBand, IdentifiedMaterial, LevelFit
+from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedMaterial, LevelFit
 from viscofric.notes import Note, codes
 from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum

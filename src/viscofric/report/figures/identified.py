@@ -63,7 +63,7 @@ def plot_identified_modulus(
         value, limits = value / _MEGAPASCAL, limits / _MEGAPASCAL
         shade: dict[str, Any] = {"color": colour, "alpha": 0.22, "linewidth": 0.0, "zorder": 1}
         axes.plot(frequency, value, color=colour, linewidth=0.7)
-        handles += axes.plot(frequency, np.where(inside, value, np.nan), color=colour, label=f"{symbol} from friction")
+        handles += axes.plot(frequency, np.where(inside, value, np.nan), color=colour, label=f"{symbol} identified")
         handles.append(axes.fill_between(frequency, *limits, **shade, label=f"{symbol}, 95 %"))
     if known is not None:
         handles += _plot_known(axes, known, frequency)

@@ -11,7 +11,8 @@ from viscofric.datasets import plain, record
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.identification.anchors import Anchor
-    from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
+    from viscofric.friction.identification.identified import IdentifiedBand
+    from viscofric.friction.identification.result import IdentifiedMaterial
     from viscofric.rheology.material import Material
     from viscofric.web.jobs.context import Context
 

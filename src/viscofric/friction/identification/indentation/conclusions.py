@@ -74,6 +74,7 @@ def conclude(
         identified=bands[0],
         identified_storage=bands[1],
         identified_loss=bands[2],
+        anchored=True,
         middle=middle,
         frequency_range=(low, high),
         records=fitted,

@@ -2,31 +2,21 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import numbers
 from viscofric.datasets import dataset
-from viscofric.units import shown_celsius
+from viscofric.friction.identification.identified import Identified
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
     from viscofric.friction.identification.indentation.record import IndentationRecord
-    from viscofric.friction.identification.result import IdentifiedBand
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
-#: Factor to which the modulus is given beyond the measured times, and number of frequencies.
-_BEYOND = 10.0
-_FREQUENCIES = 300
 #: Prescribed quantity -> unit and long name of what is fitted: X(δ), the load over E/(1−ν²), or the load.
 _FITTED = {"load": ("m2", "load over the plane-strain modulus, X(δ)"), "indentation": ("N", "normal load")}
 
@@ -96,123 +86,21 @@ class FittedRecord:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class MaterialFromIndentation:
-    """A material identified from indentation.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MaterialFromIndentation(Identified):
+    """A material identified from indentation; the attributes of `Identified`, and these.
 
-    Samples, bands and standard errors assume a smooth spectrum, which may end within half a decade of the first or the
-    last of the measured times.
+    `frequency_range` reaches from one over the longest time up to 0.1 over the shortest one of creep, and 0.01 over
+    that of relaxation; faster processes are part of E''(ω), but no longer of the response.  The spectrum may end
+    within half a decade of the first or the last of the measured times.
 
     Attributes
     ----------
-    material : Material
-        Material of the greatest posterior density, at the reference.
-    samples : MaterialSamples
-        Materials drawn from the posterior density: their spread is the uncertainty.
-    shift_factors : ShiftLaw or None
-        α(T), found with its covariance (ShiftFactors), or as given; None for one temperature.
-    shift_found : bool
-        Whether α(T) was found from the records.
-    identified : IdentifiedBand
-        Of |E(ω)|.
-    identified_storage, identified_loss : IdentifiedBand
-        Of E' and of E''.
-    middle : float
-        Middle of `frequency_range`, rad/s.
-    frequency_range : (float, float)
-        Reduced angular frequencies that the records determine, rad/s: from one over the longest time up to 0.1 over
-        the shortest one of creep, and 0.01 over that of relaxation; faster processes are part of E''(ω), but no longer
-        of the response.
     records : tuple of FittedRecord
         In the order of the records; without those at temperatures that were left out.
-    chi2, freedom : float
-        Sum of the squared residuals, and their degrees of freedom.
-    rms : float
-        Root mean square of the relative residuals of the responses.
-    error_scale : float
-        Factor by which given standard errors were multiplied because the residuals are larger.
-    roughness : float
-        Standard deviation of d ln C/d ln τ over an e-fold of τ, at the greatest evidence.
-    notes : tuple of str
-        One sentence each.
     """
 
-    material: Material
-    samples: MaterialSamples
-    shift_factors: ShiftLaw | None
-    shift_found: bool
-    identified: IdentifiedBand
-    identified_storage: IdentifiedBand
-    identified_loss: IdentifiedBand
-    middle: float
-    frequency_range: tuple[float, float]
     records: tuple[FittedRecord, ...]
-    chi2: float
-    freedom: float
-    rms: float
-    error_scale: float
-    roughness: float
-    notes: tuple[str, ...] = ()
-
-    @property
-    def frequencies(self) -> Array:
-        """Angular frequencies (300,) of `frequency_range`, and a decade beyond on both sides, rad/s."""
-        low, high = self.frequency_range
-        return np.geomspace(low / _BEYOND, high * _BEYOND, _FREQUENCIES)
-
-    def to_dataset(self, angular_frequency: ArrayLike | None = None) -> xarray.Dataset:
-        """Return the modulus at the reference with its 95 % limits as a labelled data set.
-
-        Parameters
-        ----------
-        angular_frequency : (n,) array_like, optional
-            rad/s; if not given, `frequencies`.
-
-        Returns
-        -------
-        xarray.Dataset
-            Along ``angular_frequency``: ``storage_modulus`` and ``loss_modulus`` with ``_lower`` and ``_upper`` (Pa);
-            the other results, in SI units, are its attributes.
-        """
-        wanted = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
-        omega = np.ravel(wanted)
-        modulus = np.asarray(self.material.complex_modulus(omega))
-        columns = {
-            f"{name}_modulus": (getattr(modulus, part), "Pa", f"{name} modulus")
-            for name, part in (("storage", "real"), ("loss", "imag"))
-        }
-        found = dataset(
-            "angular_frequency",
-            columns,
-            coordinates={"angular_frequency": (omega, "rad/s", "angular frequency")},
-            attributes={
-                "reference_temperature": self.material.reference,
-                "identified_low": self.identified.low,
-                "identified_high": self.identified.high,
-                "identified_limit": self.identified.limit,
-                "chi2": self.chi2,
-                "freedom": self.freedom,
-                "rms": self.rms,
-                "error_scale": self.error_scale,
-                "sentences": json.dumps(self.sentences, ensure_ascii=False),
-            },
-        )
-        return found.assign(self.samples.to_dataset(omega).data_vars)
-
-    @property
-    def known(self) -> tuple[str, ...]:
-        """The identified parts of the modulus, one sentence each; they are stored with the material."""
-        band = self.identified
-        if band.high <= band.low:
-            return (f"Nowhere is the standard error of |E(ω)| {100.0 * band.limit:g} % or less.",)
-        about = "" if self.shift_factors is None else f" at {shown_celsius(float(self.shift_factors.reference))} °C"
-        sentence = (
-            f"The standard error of |E(ω)| is {100.0 * band.limit:g} % or less from {band.low:.2g} to {band.high:.2g} "
-            f"rad/s{about}, {band.decades:.1f} decades, that of E'' over {self.identified_loss.decades:.1f} of them; "
-            "beyond, the material is extrapolated, with the band of a smooth spectrum. Errors of the radius and of the "
-            "depth's zero are not included."
-        )
-        return (sentence,)
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -222,11 +110,11 @@ class MaterialFromIndentation:
             f"{points} averaged rows of {len(self.records)} records are fitted to {100.0 * self.rms:.2g} % (root mean "
             f"square); χ² = {self.chi2:.3g} with {self.freedom:.3g} degrees of freedom."
         )
-        return (fit, *self.known, *self.notes)
+        return (fit, *super().sentences)
+
+    def _band_words(self) -> str:
+        return f"{super()._band_words()} Errors of the radius and of the depth's zero are not included."
 
     def __repr__(self) -> str:
         low, high = self.frequency_range
         return f"MaterialFromIndentation({len(self.records)} records, {low:.3g} to {high:.3g} rad/s)"
-
-    def __str__(self) -> str:
-        return "\n".join((repr(self.material.at()), *self.sentences))

@@ -1,0 +1,210 @@
+"""What all identifications find: the material, its samples, and the frequencies over which its moduli are known."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.arguments import flag, numbers
+from viscofric.datasets import dataset
+from viscofric.units import shown_celsius
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike
+
+    from viscofric.arrays import Array
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+
+
+#: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.
+_BEYOND = 10.0
+_FREQUENCIES = 300
+
+
+@dataclass(frozen=True)
+class IdentifiedBand:
+    """Angular frequencies at the reference over which a modulus is determined.
+
+    Attributes
+    ----------
+    low, high : float
+        rad/s; equal where there is none.
+    limit : float
+        Largest relative standard error of the modulus between them.
+    relative : bool
+        Whether it is the modulus over that at the middle frequency, as its magnitude is not known.
+    """
+
+    low: float
+    high: float
+    limit: float
+    relative: bool
+
+    @property
+    def decades(self) -> float:
+        """Its width."""
+        return float(np.log10(self.high / self.low))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Identified:
+    """A material identified from a measurement: what results from friction and from indentation have in common.
+
+    Samples, bands and standard errors assume a smooth spectrum; it may end, or rise to the glass transition, near the
+    first and the last of the measured frequencies.
+
+    Attributes
+    ----------
+    material : Material
+        Of the greatest posterior density, at the reference.
+    samples : MaterialSamples
+        Materials drawn from the posterior density: their spread is the uncertainty.
+    shift_factors : ShiftLaw or None
+        α(T), found with its covariance (ShiftFactors), or as given; None for one temperature.
+    shift_found : bool
+        Whether α(T) was found from the measurement.
+    identified : IdentifiedBand
+        Of |E(ω)|.
+    identified_storage, identified_loss : IdentifiedBand
+        Of E' and of E''.
+    anchored : bool
+        Whether the level of the modulus is known: from the measurement, an anchor or a prior.
+    middle : float
+        Middle of `frequency_range`, rad/s.
+    frequency_range : (float, float)
+        Lowest and highest angular frequency at the reference that the measurement covers, rad/s.
+    chi2, freedom : float
+        Sum of the squared residuals, and their degrees of freedom.
+    rms : float
+        Root mean square of the relative residuals.
+    error_scale : float
+        Factor by which given standard errors were multiplied because the residuals are larger.
+    roughness : float
+        Standard deviation of d ln C/d ln τ over an e-fold of τ for which there is most evidence.
+    notes : tuple of str
+        One sentence each.
+    """
+
+    material: Material
+    samples: MaterialSamples
+    shift_factors: ShiftLaw | None
+    shift_found: bool
+    identified: IdentifiedBand
+    identified_storage: IdentifiedBand
+    identified_loss: IdentifiedBand
+    anchored: bool
+    middle: float
+    frequency_range: tuple[float, float]
+    chi2: float
+    freedom: float
+    rms: float
+    error_scale: float
+    roughness: float
+    notes: tuple[str, ...] = ()
+
+    def standard_error(self, angular_frequency: ArrayLike, *, relative: bool | None = None) -> Array:
+        """Return the relative standard error of |E(ω)| at the reference.
+
+        Parameters
+        ----------
+        angular_frequency : array_like
+            rad/s.
+        relative : bool, optional
+            Whether of |E(ω)| over that at the middle frequency; if not given, without an anchor.
+        """
+        omega = numbers(angular_frequency, "angular_frequency")
+        rows = np.array([np.log(np.abs(one.complex_modulus(omega))) for one in self.samples.materials])
+        if not self.anchored if relative is None else flag(relative, "relative"):
+            level = self._levels
+            rows = rows - level.reshape((-1,) + (1,) * omega.ndim)
+        return np.asarray(rows.std(axis=0, ddof=1))
+
+    @property
+    def frequencies(self) -> Array:
+        """Angular frequencies (300,) of `frequency_range` and `identified`, a decade beyond on both sides, rad/s."""
+        (first, last), band = self.frequency_range, self.identified
+        return np.geomspace(min(first, band.low) / _BEYOND, max(last, band.high) * _BEYOND, _FREQUENCIES)
+
+    def to_dataset(self, angular_frequency: ArrayLike | None = None) -> xarray.Dataset:
+        """Return the modulus at the reference with its 95 % limits as a labelled data set.
+
+        Parameters
+        ----------
+        angular_frequency : (n,) array_like, optional
+            rad/s; if not given, `frequencies`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along ``angular_frequency``: ``storage_modulus`` and ``loss_modulus`` with ``_lower`` and ``_upper`` (Pa),
+            and ``modulus_error``, relative; the other results, in SI units, are its attributes.
+        """
+        wanted = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
+        omega = np.ravel(wanted)
+        modulus, band = np.asarray(self.material.complex_modulus(omega)), self.samples.modulus_band(omega)
+        columns = {"modulus_error": (self.standard_error(omega), "1", "relative standard error of |E|")}
+        if not self.anchored:
+            columns["modulus_error"] = (*columns["modulus_error"][:2], "relative standard error of |E| over its level")
+        for name, part in (("storage", "real"), ("loss", "imag")):
+            columns[f"{name}_modulus"] = (getattr(modulus, part), "Pa", f"{name} modulus")
+            for side in ("lower", "upper"):
+                limit, words = getattr(getattr(band, side), part), f"{side} end of the 95 % band of the {name} modulus"
+                columns[f"{name}_modulus_{side}"] = (limit, "Pa", words)
+        return dataset(
+            "angular_frequency",
+            columns,
+            coordinates={"angular_frequency": (omega, "rad/s", "angular frequency")},
+            attributes=self._attributes(),
+        )
+
+    def _attributes(self) -> dict[str, Any]:
+        """Return the attributes of the data set."""
+        return {
+            "reference_temperature": self.material.reference,
+            "identified_low": self.identified.low,
+            "identified_high": self.identified.high,
+            "identified_limit": self.identified.limit,
+            "middle": self.middle,
+            "anchored": int(self.anchored),
+            "chi2": self.chi2,
+            "freedom": self.freedom,
+            "rms": self.rms,
+            "error_scale": self.error_scale,
+            "sentences": json.dumps(self.sentences, ensure_ascii=False),
+        }
+
+    @cached_property
+    def _levels(self) -> Array:
+        return np.array([np.log(np.abs(one.complex_modulus(self.middle))) for one in self.samples.materials])
+
+    @property
+    def known(self) -> tuple[str, ...]:
+        """The identified parts of the modulus, one sentence each; they are stored with the material."""
+        return (self._band_words(),)
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """The result and its limits, one sentence each."""
+        return (*self.known, *self.notes)
+
+    def _band_words(self) -> str:
+        band = self.identified
+        about = "" if self.shift_factors is None else f" at {shown_celsius(float(self.shift_factors.reference))} °C"
+        of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
+        if band.high <= band.low:
+            return f"Nowhere is the standard error of {of} {100.0 * band.limit:g} % or less."
+        return (
+            f"The standard error of {of} is {100.0 * band.limit:g} % or less from {band.low:.2g} to {band.high:.2g} "
+            f"rad/s{about}, {band.decades:.1f} decades, that of E'' over {self.identified_loss.decades:.1f} of them; "
+            "beyond, the material is extrapolated, with the band of a smooth spectrum."
+        )
+
+    def __str__(self) -> str:
+        return "\n".join((repr(self.material.at()), *self.sentences))
