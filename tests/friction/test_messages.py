@@ -211,9 +211,9 @@ def test_assumptions_say() -> None:
     assert rubbed["uncoupled"] == (
         "Coulomb friction of 0.5 also displaces the surface of a bonded layer of 1 mm (ν = 0.5) in the normal "
         "direction, by about 0.54 to 0.8 of the displacement due to the pressure (at 30 °C, 20 mm/s and 25 N). "
-        "Contacts are solved without this effect, which is doubtful above 0.02: viscoelastic friction may change by a "
-        "fraction of that order, and with the direction of slip; reduce slip or Coulomb friction (PTFE, lubricant), "
-        "or use thicker rubber."
+        "The contacts were solved without this effect, which is doubtful above 0.02: viscoelastic friction may change "
+        "by a fraction of that order, and with the direction of slip; solve the contacts with it (coulomb=…), reduce "
+        "slip or Coulomb friction (PTFE, lubricant), or use thicker rubber."
     )
     assert rubbed["one temperature"].startswith("Coulomb heat warms the surface by 13 K and the viscoelastic loss the ")
     assert rubbed["one temperature"].endswith("friction by 100 % (good if ≤ 5 %); reduce the slip or the speed.")

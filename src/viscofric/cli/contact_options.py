@@ -161,6 +161,13 @@ _OPTIONS = (
     direction_option,
     *_ELASTIC,
     click.option(
+        "--coulomb",
+        type=float,
+        default=0.0,
+        metavar="μ",
+        help="Coulomb friction whose shear changes the pressure; negative for slip against the motion [default: none].",
+    ),
+    click.option(
         "--accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of the friction."
     ),
     click.option(
@@ -195,6 +202,7 @@ def contact_settings(parameters: dict[str, Any]) -> dict[str, Any]:
     return {
         "direction": chosen_direction(parameters["direction"]),
         **elastic_settings(parameters),
+        "coulomb": parameters["coulomb"],
         "accuracy": parameters["accuracy"],
         "backend": parameters["backend"],
     }

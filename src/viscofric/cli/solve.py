@@ -153,6 +153,7 @@ def _inputs(
         "indenter": shape.record | {"elastic": elastic_record(parameters)},
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
         "direction": list(solution.direction),
+        "coulomb": parameters["coulomb"],
         "held": "load" if parameters["load"] is not None else "indentation",
         "load": solution.load if parameters["load"] is not None else None,
         "indentation": solution.indentation if parameters["indentation"] is not None else None,

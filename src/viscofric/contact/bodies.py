@@ -21,12 +21,21 @@ layer must flow sideways instead, and u = q²H³ p/E.  By the correspondence pri
 
 The mean pressure (q = 0) compresses a layer without bound sideways, on either base, by (1+ν)(1−2ν)/(1−ν) H p/E.
 
+A shear stress τ sin qx on the top of a bonded layer instead (Σ = 0, T = τ) raises the surface by
+2(1−ν²)/(E q) X(qH) τ cos qx, with ::
+
+    X = [2κ(κ−1) (cosh 2Q − 1) − 8Q²] / {(κ+1) [2κ cosh 2Q + 1 + κ² + 4Q²]},      κ = 3−4ν
+
+X goes to (1−2ν)/(2(1−ν)) for Q → ∞; on thin layers it may be negative, and does not vanish with ν = ½ [4]_.  A layer
+that slides on its base cannot bear shear.
+
 References
 ----------
 .. [1] G. Carbone, L. Mangialardi, J. Mech. Phys. Solids 56 (2008) 684, doi:10.1016/j.jmps.2007.05.009
 .. [2] C. Putignano, G. Carbone, D. Dini, Int. J. Solids Struct. 69–70 (2015) 507,
    doi:10.1016/j.ijsolstr.2015.04.034
 .. [3] K. L. Johnson, Contact Mechanics (1985), chapter 5.
+.. [4] N. Menga, G. Carbone, D. Dini, J. Mech. Phys. Solids 148 (2021) 104273, doi:10.1016/j.jmps.2020.104273
 """
 
 from __future__ import annotations
@@ -37,8 +46,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import flag, numbers, real
-from viscofric.errors import InputError
+from viscofric.arguments import flag, number, numbers, real
+from viscofric.errors import InputError, brief
 from viscofric.notes import Note
 from viscofric.units import Quantity, checked_poisson_ratio, positive
 
@@ -50,6 +59,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
+MOST_COULOMB = 10.0  # largest friction coefficient that is accepted
 LARGE_COMPRESSION = 0.3  # indentation over thickness beyond which small strain is doubtful
 
 
@@ -101,6 +111,18 @@ class Layer:
         depth = numbers(wave_number, "wave_number") * float(self.thickness)
         return _bonded(depth, checked_poisson_ratio(poisson_ratio)) if self.bonded else _sliding(depth)
 
+    def coupling(self, wave_number: ArrayLike, poisson_ratio: float) -> Array:
+        """Return X(qH): normal displacement under a wave of shear over that of the half-space under one of pressure.
+
+        Of a bonded layer; parameters and shape as of `yielding`.
+        """
+        depth = numbers(wave_number, "wave_number") * float(self.thickness)
+        kappa, decay = 3.0 - 4.0 * checked_poisson_ratio(poisson_ratio), np.exp(-2.0 * depth)
+        squared = np.square(depth * np.exp(-depth))
+        above = kappa * (kappa - 1.0) * np.square(np.expm1(-2.0 * depth)) - 8.0 * squared
+        below = kappa * (1.0 + decay**2) + (1.0 + kappa**2) * decay + 4.0 * squared
+        return np.asarray(above / ((kappa + 1.0) * below))
+
     def mean_compression(self, poisson_ratio: float) -> float:
         """Return E u/p under a uniform pressure, m: (1+ν)(1−2ν)/(1−ν) H."""
         modulus_ratio = (1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio) / (1.0 - poisson_ratio)
@@ -137,6 +159,11 @@ def _sliding(depth: Array) -> Array:
     return np.asarray(above / below)
 
 
+def half_space_coupling(poisson_ratio: float) -> float:
+    """Return X of a half-space, (1−2ν)/(2(1−ν)): K. L. Johnson, Contact Mechanics (1985), Eqs. 3.19 and 3.75."""
+    return (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio))
+
+
 def _scaled_excess_of_sinh(x: Array) -> Array:
     """2 e^{−x} (sinh x − x), by its series where the difference would cancel."""
     square = np.square(np.minimum(x, 1.0))
@@ -159,6 +186,26 @@ def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float
         return 0.0
     ratio = checked_poisson_ratio(poisson_ratio, "indenter_poisson_ratio", above=-1.0)
     return (1.0 - ratio**2) / positive(modulus, "Pa", "indenter_modulus")
+
+
+def checked_coulomb(coulomb: float, layer: Layer | None) -> float:
+    """Return a signed coefficient of Coulomb friction.
+
+    InputError if it is not finite or implausible, or the layer cannot bear shear.
+    """
+    if not abs(number(coulomb, "coulomb")) <= MOST_COULOMB:
+        raise InputError(
+            f"coulomb = {brief(coulomb)}: must be a friction coefficient from {-MOST_COULOMB:g} to {MOST_COULOMB:g}, "
+            "negative where the indenter slips against its motion.",
+            code="out-of-range",
+        )
+    if coulomb != 0.0 and layer is not None and not layer.bonded:
+        raise InputError(
+            f"coulomb = {coulomb:g}: a layer that slides on its base without friction cannot bear shear; give a bonded "
+            "layer, or leave coulomb out.",
+            code="sliding-layer",
+        )
+    return coulomb
 
 
 def unit_direction(direction: Sequence[float]) -> tuple[float, float]:

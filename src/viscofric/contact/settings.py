@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypedDict
 
 from viscofric.arguments import number, whole_number
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.bodies import Layer, indenter_compliance, unit_direction
+from viscofric.contact.bodies import Layer, checked_coulomb, half_space_coupling, indenter_compliance, unit_direction
 from viscofric.errors import InputError, brief
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ class ContactOptions(TypedDict, total=False):
     window: Sequence[Quantity] | None
     grid: int | None
     backend: Backend | str
+    coulomb: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +52,7 @@ class ContactSettings:
     layer: Layer | None = None
     backend: Backend | str = "scipy"
     direction: Sequence[float] = (1.0, 0.0)
+    coulomb: float = 0.0
 
     def __post_init__(self) -> None:
         least, loosest = TIGHTEST / LOOSEST, LOOSEST * number(self.accuracy, "accuracy")
@@ -74,12 +76,18 @@ class ContactSettings:
             raise InputError(
                 f"layer = {brief(self.layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
             )
+        checked_coulomb(self.coulomb, self.layer)
         self._derived  # noqa: B018  raises where indenter, direction or backend cannot be used
 
     @property
     def counterface(self) -> float:
         """(1 − ν_i²)/E_i of the indenter, 1/Pa; zero where it is rigid."""
         return self._derived[0]
+
+    @property
+    def counterface_coupling(self) -> float:
+        """Normal displacement of the indenter by shear over that by pressure."""
+        return half_space_coupling(self.indenter_poisson_ratio)
 
     @property
     def toward(self) -> tuple[float, float]:

@@ -198,7 +198,8 @@ class ContactSolution:
     pressure_friction_coefficient : float
         From the asymmetry of the pressure on the indenter's slope, on the finest grid.
     energy_friction_coefficient : float
-        From the energy that the material dissipates, on the finest grid.
+        From the energy that the material dissipates, on the finest grid; with `coulomb` from the work of the pressure
+        on the material's displacement, part of which shear gives back.
     indentation : float
         δ, m: depth of the indenter's lowest point below the undeformed surface.  In a line contact, where the surface
         far away is infinitely high above it (but for that of a layer under a rigid indenter), below the surface at the
@@ -229,6 +230,8 @@ class ContactSolution:
         +y, as F_t is that towards +x.  Zero where the indenter is its own mirror image about the line of motion.
     derivatives : FrictionDerivatives or None
         Of the friction coefficient, where requested.
+    coulomb : float
+        Coulomb friction coefficient whose shear changed the pressure, as given; not part of `friction_coefficient`.
     """
 
     speed: float
@@ -253,6 +256,7 @@ class ContactSolution:
     direction: tuple[float, float] = (1.0, 0.0)
     lateral_friction_coefficient: float = 0.0
     derivatives: FrictionDerivatives | None = None
+    coulomb: float = 0.0
 
     @property
     def centre_of_pressure(self) -> float:
@@ -273,7 +277,8 @@ class ContactSolution:
     def numbers(self) -> xarray.Dataset:
         """All numbers and errors with units and long names; ``ancillary_variables`` names the error of each."""
         found = self.diagnostics
-        line, moves = self.geometry == "line", math.isfinite(self.speed)
+        # With shear, the pressure's work alone is not what the material dissipates.
+        line, moves = self.geometry == "line", math.isfinite(self.speed) and self.coulomb == 0.0
         values = {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
             "energy_balance": found.energy,
             "cells": max(found.shape),
@@ -301,6 +306,7 @@ class ContactSolution:
                 "load": self.load,
                 "friction_coefficient": self.friction_coefficient,
                 "indentation": self.indentation,
+                "coulomb": self.coulomb,
             },
         )
         return fields.assign(self.numbers.data_vars)

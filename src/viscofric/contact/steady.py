@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.arguments import flag
+from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.estimates import friction_estimate
@@ -68,6 +69,7 @@ def solve_steady(
     layer: Layer | None = None,
     backend: Backend | str = "scipy",
     direction: Sequence[float] = (1.0, 0.0),
+    coulomb: float = 0.0,
     derivatives: bool = False,
 ) -> ContactSolution:
     """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space or layer.
@@ -115,9 +117,12 @@ def solve_steady(
     direction : (float, float)
         Of the motion over the indenter's own axes x and y; its length does not matter.  A line contact moves along
         its x only.
+    coulomb : float
+        Coulomb friction coefficient of a contact that slips everywhere, whose shear changes the pressure; negative
+        where the indenter slips over the material against its motion, as in rolling with slip.  Neglected by default.
     derivatives : bool
         Whether to differentiate the friction coefficient by every mode, the glassy modulus, the speed and the load or
-        indentation, which doubles the time.
+        indentation, which doubles the time; not with `coulomb`.
 
     Returns
     -------
@@ -137,9 +142,18 @@ def solve_steady(
 
     An elastic indenter is a second half-space, which adds (1 − ν_i²)/E_i to the compliance without memory.
 
+    Coulomb friction μ adds −i μ (1−2ν)/(2(1−ν)) q_x/|q| times its response to each wave of pressure [1]_; on layers the
+    factor is another (see `viscofric.contact.bodies`), and does not vanish with ν = ½.  The friction coefficient is
+    that of the pressure on the slope of the indenter, without μ itself.  The part of it that changes its sign with the
+    slip does not dissipate: it exists on an elastic solid as well.
+
     A layer yields by the factor Θ(qH) less than a half-space to each wave of pressure (see `Layer`); its influence
     coefficients are as exact.  One hundreds of times thinner than the contact is wide, which no grid resolves, is
     refused (ConvergenceError): it is a foundation.
+
+    References
+    ----------
+    .. [1] K. L. Johnson, Contact Mechanics (1985), sections 3.7 and 7.2.
 
     Examples
     --------
@@ -152,11 +166,11 @@ def solve_steady(
     settings = ContactSettings(
         accuracy=accuracy, tolerance=tolerance, finest=finest, window=window, grid=grid,
         indenter_modulus=indenter_modulus, indenter_poisson_ratio=indenter_poisson_ratio, layer=layer,
-        backend=backend, direction=direction,
+        backend=backend, direction=direction, coulomb=coulomb,
     )  # fmt: skip
     differentiated = flag(derivatives, "derivatives")
     if differentiated:
-        _check_derivatives(velocity(speed))
+        _check_derivatives(velocity(speed), settings)
     solved = _solve(material, indenter, speed, load, indentation, temperature, settings)
     solution = solved.solution()
     return replace(solution, derivatives=solved.derivatives()) if differentiated else solution
@@ -177,8 +191,9 @@ def solve_and_differentiate(
     That estimate takes an adjoint solve on each of the last grids; without it, the error is infinite, and one solve
     enough.  The speed is neither zero nor infinite; settings and errors as of `solve_steady`.
     """
-    _check_derivatives(velocity(speed))
-    solved = _solve(material, indenter, speed, load, None, temperature, ContactSettings(**settings))
+    chosen = ContactSettings(**settings)
+    _check_derivatives(velocity(speed), chosen)
+    solved = _solve(material, indenter, speed, load, None, temperature, chosen)
     return replace(solved.solution(), derivatives=solved.derivatives(with_error=False))
 
 
@@ -193,9 +208,9 @@ def friction_and_derivatives(
     which a contact takes half the time that it does with 128.  The derivatives have no error estimate, which takes
     adjoint solves on three grids: it is infinite.
     """
-    _check_derivatives(velocity(speed))
-    coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
     chosen = ContactSettings(accuracy=accuracy, **settings)
+    _check_derivatives(velocity(speed), chosen)
+    coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
     solved = _solve(material, indenter, speed, load, None, None, chosen, coarsest)
     estimate, slope = friction_estimate(solved.stages), solved.scale.slope
     value, error = math.copysign(slope, solved.velocity) * estimate.value, slope * estimate.error
@@ -220,7 +235,7 @@ class _Solved(NamedTuple):
         """Return the solution in SI units, with its warnings."""
         found = assemble(self.stages, self.scale, self.velocity, self.settings.toward, self.temperature)
         # What was given comes back as it was given, free of the rounding of sums and units.
-        found = replace(found, **self.given)
+        found = replace(found, **self.given, coulomb=float(self.settings.coulomb))
         notes = [self.indenter.strain_warning(self.contact, found.indentation)]
         if self.settings.layer is not None:
             notes.append(self.settings.layer.strain_warning(found.indentation))
@@ -256,6 +271,11 @@ def _solve(
     levelled = geometry.has_far_field or (layer is not None and counterface == 0.0)
     scale, control, given, held = _held(indenter, 1.0 / compliance, load, indentation, levelled)
     solid = _steady_material(spectrum, abs(sliding) / scale.length, plane_strain / compliance, counterface / compliance)
+    if settings.coulomb:
+        coupling = half_space_coupling(material.poisson_ratio)
+        solid = replace(
+            solid, drag=settings.coulomb, coupling=coupling, counterface_coupling=settings.counterface_coupling
+        )
     if len(solid.compliances):
         insist_on_round_edges(indenter)
     ahead = math.copysign(1.0, sliding)
@@ -284,7 +304,13 @@ def _toward(settings: ContactSettings, indenter: Indenter) -> tuple[float, float
     return settings.toward
 
 
-def _check_derivatives(velocity: float) -> None:
+def _check_derivatives(velocity: float, settings: ContactSettings) -> None:
+    if settings.coulomb != 0.0:
+        raise InputError(
+            f"coulomb = {settings.coulomb:g}: derivatives of the friction are found without shear only; leave coulomb "
+            "out, or derivatives and samples of the material.",
+            code="no-derivatives",
+        )
     if velocity == 0.0 or math.isinf(velocity):
         raise InputError(
             f"derivatives = True: an elastic limit, speed = {velocity:g}, has no friction to differentiate; "

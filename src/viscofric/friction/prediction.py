@@ -65,7 +65,8 @@ def predict_friction(
         Called as ``progress(done, total)`` before the first and after every contact.
     **settings
         Of `solve_steady`, the same for all contacts: `layer`, `direction`, `indenter_modulus`,
-        `indenter_poisson_ratio`, `tolerance`, `finest`, `window`, `grid` and `backend`.
+        `indenter_poisson_ratio`, `tolerance`, `finest`, `window`, `grid`, `backend` and `coulomb` (not
+        with samples).
 
     Returns
     -------

@@ -40,6 +40,7 @@ class PeriodicSettings(TypedDict, total=False):
     """Settings of `viscofric.contact.periodic.solve.solve_periodic` that may be passed on, by the same names."""
 
     direction: Sequence[float]
+    coulomb: float
     layer: Layer | None
     indenter_modulus: Quantity | None
     indenter_poisson_ratio: float
@@ -184,8 +185,8 @@ def predict_rough_friction(
     progress : callable, optional
         Called as ``progress(done, total)`` before the first and after every contact.
     **settings
-        Of `solve_periodic`: `direction`, `layer`, `indenter_modulus`, `indenter_poisson_ratio`, `tolerance` (1e-6 if
-        left out), `most_products` and `backend`.
+        Of `solve_periodic`: `direction`, `coulomb`, `layer`, `indenter_modulus`, `indenter_poisson_ratio`, `tolerance`
+        (1e-6 if left out), `most_products` and `backend`.
 
     Returns
     -------

@@ -66,7 +66,7 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     last = stages[-1]
     if len(stages) < FEWEST_GRIDS:
         return Estimate(last.balanced_friction, math.inf)
-    if len(last.operator.material.compliances) == 0:
+    if len(last.operator.material.compliances) == 0 and last.operator.material.drag == 0.0:
         return Estimate(
             0.0, 0.0
         )  # an elastic contact dissipates nothing, even if its pressure is asymmetric on the grid

@@ -6,7 +6,12 @@ load that at the distance x by 2(1−ν²)/(πE) g(x), with Θ from `viscofric.c
     point    g = ∫_0^∞ Θ(qH) J0(qr) dq          = 1/r + ∫_0^∞ (Θ − 1) J0(qr) dq
     line     g = ∫_0^∞ Θ(qH) cos(qx)/q dq       = −ln(x/H) + ∫_0^∞ [(Θ(Q) − 1) cos(Qx/H) + e^(−Q)]/Q dQ
 
-The last integrals are smooth functions of r/H, whose nearest singularities lie at ±2i, since Θ − 1 fades like
+and a shear stress of μ times the pressure along x adds μ times, with X from the same place and its limit β::
+
+    point    x/r ∫_0^∞ X(qH) J1(qr) dq           = β x/r² + x/r ∫_0^∞ (X − β) J1(qr) dq
+    line     ∫_0^∞ X(qH) sin(qx)/q dq            = β (π/2) sgn x + ∫_0^∞ (X − β) sin(qx)/q dq
+
+The last integrals are smooth functions of r/H, whose nearest singularities lie at ±2i, since Θ − 1 and X − β fade like
 e^(−2Q): they are tabulated once, and integrated over a cell by Gauss points, while the half-space's part is known in
 closed form.  g fades exponentially over a few H, so that the potential has a finite reach; of a layer even a line
 contact has a far field.
@@ -21,9 +26,14 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from viscofric.contact.bodies import Layer
-from viscofric.contact.influence.line import strip_potential
-from viscofric.contact.influence.potentials import cell_potential, cell_potential_xx
+from viscofric.contact.bodies import Layer, half_space_coupling
+from viscofric.contact.influence.line import strip_potential, strip_shear
+from viscofric.contact.influence.potentials import (
+    cell_potential,
+    cell_potential_xx,
+    shear_potential,
+    shear_potential_slope,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -80,28 +90,55 @@ def _taken_by_base(poisson_ratio: float, bonded: bool, line: bool) -> _Table:
     """Tabulate g(r/H) in units of H, less 1/r or −ln r."""
     from scipy.special import j0
 
-    points, weights = np.polynomial.legendre.leggauss(_POINTS)
-    half = 0.5 * np.diff(_WAVE_PANELS)[:, None]
-    q, w = (_WAVE_PANELS[:-1, None] + half * (1.0 + points)).ravel(), (half * weights).ravel()
+    q, w = _waves()
     missing = w * (Layer(1.0, bonded).yielding(q, poisson_ratio) - 1.0)
 
-    def taken(distance: Array) -> Array:
-        waves = q * distance[:, None]
+    def taken(waves: Array) -> Array:
         if line:
             return np.asarray(np.cos(waves) @ (missing / q) + (w * np.exp(-q) / q).sum())
         return np.asarray(j0(waves) @ missing)
 
+    return _tabulated(taken, (lambda r, found: found - np.log(r)) if line else lambda r, found: found * r + 1.0)
+
+
+@lru_cache(maxsize=32)
+def _shear_taken_by_base(poisson_ratio: float, bonded: bool, line: bool) -> _Table:
+    """Tabulate the part of shear 1 in units of H, less β (π/2), or over r/H and less β/r²."""
+    from scipy.special import j1
+
+    q, w = _waves()
+    limit = half_space_coupling(poisson_ratio)
+    missing = w * (Layer(1.0, bonded).coupling(q, poisson_ratio) - limit)
+
+    def taken(waves: Array) -> Array:
+        if line:
+            return np.asarray(np.sin(waves) @ (missing / q))
+        return np.asarray((j1(waves) / waves) @ (missing * q))
+
+    left = 0.5 * np.pi * limit
+    return _tabulated(taken, (lambda _, found: found + left) if line else lambda r, found: found * r**2 + limit)
+
+
+def _waves() -> tuple[Array, Array]:
+    """Return wave numbers times H, and weights of the integral over them."""
+    points, weights = np.polynomial.legendre.leggauss(_POINTS)
+    half = 0.5 * np.diff(_WAVE_PANELS)[:, None]
+    return (_WAVE_PANELS[:-1, None] + half * (1.0 + points)).ravel(), (half * weights).ravel()
+
+
+def _tabulated(taken: Callable[[Array], Array], left: Callable[[Array, Array], Array]) -> _Table:
+    """Tabulate a function of r/H, given for the waves times r/H, until so little is left of the whole potential."""
+    q = _waves()[0]
     nodes = np.polynomial.chebyshev.chebpts1(_COEFFICIENTS)
     to_powers = np.linalg.inv(np.vander(nodes, increasing=True))
     pieces = []
     start = 0.0
     while start < _LONGEST:
         distance = start + 0.5 * _PIECE * (1.0 + nodes)
-        values = taken(distance)
+        values = taken(q * distance[:, None])
         pieces.append(to_powers @ values)
         start += _PIECE
-        left = values - np.log(distance) if line else values * distance + 1.0
-        if np.abs(left).max() < _FADED:
+        if np.abs(left(distance, values)).max() < _FADED:
             break
     return _Table(np.array(pieces).T, start)
 
@@ -121,16 +158,32 @@ def _cell_rule(length: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class LayerCell:
-    """Potential of a rectangular cell of a layer, in units of the cell's length."""
+    """Potential of a rectangular cell of a layer, in units of the cell's length.
+
+    `drag` is the shear stress along x over the pressure.
+    """
 
     thickness: float  # H
     bonded: bool
     poisson_ratio: float
     aspect: float = 1.0  # width of the cell over its length
+    drag: float = 0.0
 
     @cached_property
     def _table(self) -> _Table:
         return _taken_by_base(self.poisson_ratio, self.bonded, False)
+
+    @cached_property
+    def _shear_table(self) -> _Table:
+        return _shear_taken_by_base(self.poisson_ratio, self.bonded, False)
+
+    @property
+    def _limit(self) -> float:
+        return half_space_coupling(self.poisson_ratio)
+
+    @property
+    def _reach(self) -> float:
+        return max(self._table.reach, self._shear_table.reach) if self.drag else self._table.reach
 
     @cached_property
     def _points(self) -> Array:
@@ -141,8 +194,13 @@ class LayerCell:
         return np.stack([x.ravel(), y.ravel(), np.outer(weights_across, weights_along).ravel()], axis=1)
 
     def __call__(self, x: Array, y: Array) -> Array:
-        """∫∫_cell g, seen from (x, y)."""
-        return self._within_reach(x, y, self._near)
+        """∫∫_cell g, with its part by shear, seen from (x, y)."""
+        found = self._within_reach(x, y, self._near)
+        return found + self.drag * self._within_reach(x, y, self._near_shear) if self.drag else found
+
+    def drag_slope(self, x: Array, y: Array) -> Array:
+        """Return the derivative along x of the part by shear (not on the lines x = ±1/2 through the cell's edges)."""
+        return self.drag * self._within_reach(x, y, self._near_shear_slope)
 
     def xx(self, x: Array, y: Array) -> Array:
         """Second derivative along x (not on the lines x = ±1/2 through the cell's edges)."""
@@ -153,6 +211,26 @@ class LayerCell:
         for dx, dy, weight in self._points:
             taken += weight * self._taken(np.hypot(x - dx, y - dy))
         return cell_potential(x, y, self.aspect) + self.aspect * taken
+
+    def _near_shear(self, x: Array, y: Array) -> Array:
+        taken = np.zeros_like(x)
+        for dx, dy, weight in self._points:
+            taken += weight * self._shear_taken(x - dx, y - dy)
+        return self._limit * shear_potential(x, y, self.aspect) + self.aspect * taken
+
+    def _near_shear_slope(self, x: Array, y: Array) -> Array:
+        taken = np.zeros_like(x)
+        for dy, weight in zip(*_cell_rule(self.aspect / self.thickness), strict=True):
+            for end, sign in ((0.5, 1.0), (-0.5, -1.0)):
+                taken += sign * weight * self._shear_taken(x + end, y - self.aspect * dy)
+        return self._limit * shear_potential_slope(x, y, self.aspect) + self.aspect * taken
+
+    def _shear_taken(self, x: Array, y: Array) -> Array:
+        distance = np.hypot(x, y) / self.thickness
+        beyond = distance >= self._shear_table.reach
+        found = self._shear_table(distance)
+        found[beyond] = -self._limit / distance[beyond] ** 2
+        return np.asarray(found * (x / self.thickness**2))
 
     def _taken(self, r: Array) -> Array:
         distance = r / self.thickness
@@ -180,7 +258,7 @@ class LayerCell:
 
     def _within_reach(self, x: Array, y: Array, function: Callable[[Array, Array], Array]) -> Array:
         x, y = np.broadcast_arrays(x, y)
-        inside = np.hypot(x, y) < self._table.reach * self.thickness + 1.0 + self.aspect
+        inside = np.hypot(x, y) < self._reach * self.thickness + 1.0 + self.aspect
         result = np.zeros(x.shape)
         result[inside] = function(x[inside], y[inside])
         return result
@@ -188,20 +266,55 @@ class LayerCell:
 
 @dataclass(frozen=True)
 class LayerStrip:
-    """Potential of a cell of a line contact on a layer, in units of the cell's length; the same for all y."""
+    """Potential of a cell of a line contact on a layer, in units of the cell's length; the same for all y.
+
+    `drag` is the shear stress along x over the pressure.
+    """
 
     aspect: ClassVar[float] = 1.0  # there is one row
     thickness: float  # H
     bonded: bool
     poisson_ratio: float
+    drag: float = 0.0
 
     @cached_property
     def _table(self) -> _Table:
         return _taken_by_base(self.poisson_ratio, self.bonded, True)
 
+    @cached_property
+    def _shear_table(self) -> _Table:
+        return _shear_taken_by_base(self.poisson_ratio, self.bonded, True)
+
+    @property
+    def _limit(self) -> float:
+        return half_space_coupling(self.poisson_ratio)
+
     def __call__(self, x: Array, y: Array) -> Array:
-        """∫_cell g, seen from x."""
+        """∫_cell g, with its part by shear, seen from x."""
         x, _ = np.broadcast_arrays(x, y)
+        return self._pressed(x) + self.drag * self._sheared(x) if self.drag else self._pressed(x)
+
+    def drag_slope(self, x: Array, y: Array) -> Array:
+        """Return the derivative along x of the part by shear (not for x = ±1/2)."""
+        x, _ = np.broadcast_arrays(x, y)
+        slope = np.where(np.abs(x) < 0.5, np.pi * self._limit, 0.0)
+        return self.drag * np.asarray(slope + self._shear_taken(x + 0.5) - self._shear_taken(x - 0.5))
+
+    def _sheared(self, x: Array) -> Array:
+        result = self._limit * strip_shear(x)
+        for dx, weight in zip(*_cell_rule(1.0 / self.thickness), strict=True):
+            result += weight * self._shear_taken(x - dx)
+        result[np.abs(x) >= self._shear_table.reach * self.thickness + 1.0] = 0.0
+        return np.asarray(result)
+
+    def _shear_taken(self, x: Array) -> Array:
+        distance = np.abs(x) / self.thickness
+        beyond = distance >= self._shear_table.reach
+        found = self._shear_table(distance)
+        found[beyond] = -0.5 * np.pi * self._limit
+        return np.asarray(np.sign(x) * found)
+
+    def _pressed(self, x: Array) -> Array:
         result = strip_potential(x) + math.log(self.thickness)
         for dx, weight in zip(*_cell_rule(1.0 / self.thickness), strict=True):
             distance = np.abs(x - dx) / self.thickness

@@ -7,6 +7,9 @@ The displacement under a pressure that is the same all along y is that of the lo
     G(b) = −ln|b| − F(b),      F(b) = e^b E₁(b) for b > 0,  −e^b Ei(−b) for b < 0
 
 (by parts; DLMF 6.2).  G is finite and continuous at b = 0, where the logarithms of its two terms cancel.
+
+Under a shear stress of μ times the pressure along x, −ln|x| has μ β (π/2) sgn x added (see
+`viscofric.contact.influence.potentials`), the integral of x/r² across the line.
 """
 
 from __future__ import annotations
@@ -33,18 +36,44 @@ def strip_potential(x: Array) -> Array:
 
 @dataclass(frozen=True)
 class HalfSpaceStrip:
-    """Potential of a cell of a line contact on a half-space, in units of the cell's length; the same for all y."""
+    """Potential of a cell of a line contact on a half-space, in units of the cell's length; the same for all y.
+
+    `drag` is μ β, with μ the shear stress along x over the pressure.
+    """
 
     aspect: ClassVar[float] = 1.0  # there is one row
+    drag: float = 0.0
 
     def __call__(self, x: Array, y: Array) -> Array:
-        """Integral of −ln|x − x'| over the cell, seen from x."""
-        return strip_potential(np.broadcast_arrays(x, y)[0])
+        """Integral of −ln|x − x'|, with its part by shear, over the cell, seen from x."""
+        x = np.broadcast_arrays(x, y)[0]
+        return strip_potential(x) + self.drag * strip_shear(x)
+
+    def drag_slope(self, x: Array, y: Array) -> Array:
+        """Return the derivative along x of the part by shear (not for x = ±1/2)."""
+        x = np.broadcast_arrays(x, y)[0]
+        return np.where(np.abs(x) < 0.5, np.pi * self.drag, 0.0)
 
     def xx(self, x: Array, y: Array) -> Array:
         """Second derivative along x (not for x = ±1/2)."""
         x = np.broadcast_arrays(x, y)[0]
         return np.asarray(1.0 / (x - 0.5) - 1.0 / (x + 0.5))
+
+
+def strip_shear(x: Array) -> Array:
+    """Integral of (π/2) sgn(x − x') over the unit cell around the origin."""
+    return np.asarray(0.5 * np.pi * np.clip(2.0 * x, -1.0, 1.0))
+
+
+def shear_memory_influence(x: Array, memory_length: float) -> tuple[Array, Array]:
+    """Return ∫_0^∞ e^(−z) S(x + λ z) dz, S of `strip_shear`, and its derivative along x (not for x = ±1/2).
+
+    Arguments as of `line_memory_influence`.
+    """
+    # e^(−s/λ) of the distance s to the front and the rear end of the cell ahead, one behind them
+    front, rear = (np.exp(-np.maximum(end - x, 0.0) / memory_length) for end in (0.5, -0.5))
+    slope = np.pi * (np.where(x < -0.5, rear, 1.0) - np.where(x < 0.5, front, 1.0))
+    return strip_shear(x) + memory_length * slope, slope
 
 
 def _antiderivative(a: Array) -> Array:

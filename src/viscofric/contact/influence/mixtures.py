@@ -54,6 +54,7 @@ def memory_influence(
     instant: Array | None = None,
     potential: Potential = _HALF_SPACE,
     aspect: float = 1.0,
+    even: bool = True,
 ) -> Array:
     """Return delayed displacements (k, 2 nx − 1, ny) around one loaded cell, for k mixtures of m modes.
 
@@ -63,15 +64,15 @@ def memory_influence(
     `shape` (nx, ny) is the number of cells of the window, x the direction of motion.  Each row of `mixtures` (k, m) has
     the coefficients c_m; `memory_lengths` (m,) are λ_m = v τ_m / h > 0, in cells, for motion towards +x.  Displacements
     are taken `shift` cells (0 to 0.5) behind the cell centres.  `instant` (k,), zero by default, is each mixture's
-    factor of the displacement without memory, L; `potential` is L(x, y), even in x, of a cell as long as the unit of
-    length, by default of the half-space under a square cell; `aspect` is the width of the cells across the motion over
-    their length.
+    factor of the displacement without memory, L; `potential` is L(x, y) of a cell as long as the unit of length, by
+    default of the half-space under a square cell, and `even` says whether it is even in x; `aspect` is the width of the
+    cells across the motion over their length.
 
     The cost hardly depends on the number of modes: for each row of cells and each two mixtures, three FFTs along x,
     twice as long as the rows of the result.
     """
     nx, ny = shape
-    around = Around(potential, nx, shift)
+    around = Around(potential, nx, shift, even)
     result = np.zeros((len(mixtures), 2 * nx - 1, ny))
     modes, mixtures = Modes(1.0 / np.asarray(memory_lengths, dtype=float)), np.asarray(mixtures, dtype=float)
     weights = _lattice_weights(modes, mixtures, 2 * nx + 10)

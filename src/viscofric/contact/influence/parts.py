@@ -65,6 +65,7 @@ class Around:
     potential: Potential
     nx: int
     shift: float
+    even: bool = True  # whether the potential is even in x
 
     def at(self, x: Array, y: Array) -> Array:
         """Values at places x, in cells from the loaded one, and rows y: (len(x), len(y))."""
@@ -73,7 +74,7 @@ class Around:
     def lattice(self, y: Array) -> Array:
         """Values at x = −(nx−1) + first … nx−1 + last node, for each row: (rows, 2 nx + 10)."""
         end = self.nx + _LAST
-        if self.shift != 0.0:
+        if self.shift != 0.0 or not self.even:
             return self.potential(np.arange(-(self.nx - 1.0) + FIRST, end) - self.shift, y[:, None])
         half = self.potential(np.arange(float(end)), y[:, None])
         return np.concatenate([half[:, end - 2 : 0 : -1], half], axis=1)

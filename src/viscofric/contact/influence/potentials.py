@@ -1,4 +1,8 @@
-"""Potential of a uniformly loaded cell of a half-space: 1/r integrated over a rectangle."""
+"""Potential of a uniformly loaded cell of a half-space: 1/r integrated over a rectangle.
+
+A shear stress of μ times the pressure along x adds μ β x/r² to 1/r, with β = (1−2ν)/(2(1−ν)): the surface sinks in
+front of it and rises behind it (K. L. Johnson, Contact Mechanics (1985), Eqs. 3.19 and 3.75).
+"""
 
 from __future__ import annotations
 
@@ -21,10 +25,17 @@ class CellPotential(Protocol):
         """Width of the cell across the motion over its length."""
 
     def __call__(self, x: Array, y: Array) -> Array:
-        """Value at (x, y) from the cell's centre; even in both."""
+        """Value at (x, y) from the cell's centre; even in y, and in x but for `drag`."""
 
     def xx(self, x: Array, y: Array) -> Array:
-        """Second derivative along x (not on the lines x = ±1/2 through the cell's edges)."""
+        """Second derivative along x of the even part (not on the lines x = ±1/2 through the cell's edges)."""
+
+    @property
+    def drag(self) -> float:
+        """Factor of the part that is odd in x, by shear; zero without."""
+
+    def drag_slope(self, x: Array, y: Array) -> Array:
+        """Return the derivative along x of the odd part (not on the lines through the cell's edges)."""
 
 
 # Beyond this distance (in the cell's longer side) the multipole series of Love's form is right to 1e-10 and cheaper.
@@ -102,15 +113,46 @@ def cell_potential_xx(x: Array, y: Array, aspect: float = 1.0) -> Array:
     return result
 
 
+def shear_potential(x: Array, y: Array, aspect: float = 1.0) -> Array:
+    """Integral of x/r² over the rectangle |x'| < 1/2, |y'| < aspect/2, seen from (x, y) in its plane."""
+
+    def corner(a: Array, b: Array) -> Array:
+        square = a * a + b * b
+        logarithm = np.log(np.where(square == 0.0, 1.0, square))
+        return np.asarray(0.5 * b * logarithm + a * _angle(a, b))
+
+    x, y = np.broadcast_arrays(x, y)
+    return _corner_sum(corner, x, y, aspect)
+
+
+def shear_potential_slope(x: Array, y: Array, aspect: float = 1.0) -> Array:
+    """Return the derivative along x of `shear_potential` (not on the lines x = ±1/2 through the cell's edges)."""
+    x, y = np.broadcast_arrays(x, y)
+    return _corner_sum(_angle, x, y, aspect)
+
+
+def _angle(a: Array, b: Array) -> Array:
+    return np.asarray(np.arctan(b / np.where(a == 0.0, np.inf, a)))
+
+
 @dataclass(frozen=True)
 class HalfSpaceCell:
-    """Potential of a rectangular cell of the half-space; `aspect` is its width over its length."""
+    """Potential of a rectangular cell of the half-space; `aspect` is its width over its length.
+
+    `drag` is μ β, with μ the shear stress along x over the pressure.
+    """
 
     aspect: float = 1.0
+    drag: float = 0.0
 
     def __call__(self, x: Array, y: Array) -> Array:
-        """Integral of 1/r over the cell, seen from (x, y)."""
-        return cell_potential(x, y, self.aspect)
+        """Integral of 1/r, with its part by shear, over the cell, seen from (x, y)."""
+        found = cell_potential(x, y, self.aspect)
+        return found + self.drag * shear_potential(x, y, self.aspect) if self.drag else found
+
+    def drag_slope(self, x: Array, y: Array) -> Array:
+        """Return the derivative along x of the part by shear."""
+        return self.drag * shear_potential_slope(x, y, self.aspect)
 
     def xx(self, x: Array, y: Array) -> Array:
         """Second derivative along x."""

@@ -49,6 +49,15 @@ class SteadyMaterial:
     compliances: Array  # (m,), (1−ν²) C_k
     memory_lengths: Array  # (m,), v τ_k > 0: distance behind the indenter over which a mode relaxes
     counterface: float = 0.0  # (1−ν_i²)/E_i of an elastic indenter, a half-space even where the material is a layer
+    # Shear stress along the motion over the pressure, and (1−2ν)/(2(1−ν)) of the material and of the indenter.
+    drag: float = 0.0
+    coupling: float = 0.0
+    counterface_coupling: float = 0.0
+
+    @property
+    def counterface_drag(self) -> float:
+        """`drag` of the indenter's potential: the shear on it is the opposite one."""
+        return -self.drag * self.counterface_coupling
 
     def symbol(self, qx: Array, yielding: ArrayLike = 1.0) -> ComplexArray:
         """Return the compliance for a sinusoidal load of wavenumber q_x, (1−ν²) S(−q_x v) + (1−ν_i²)/E_i.
@@ -63,7 +72,7 @@ class SteadyMaterial:
 
 
 class Influence(NamedTuple):
-    """Influence coefficients, each (2 nx − 1, ny), even in y.
+    """Influence coefficients, each (2 nx − 1, ny), even in y.  "Dissipates": does work on some pressure.
 
     At x = −(nx−1) … nx−1 and y = 0 … ny−1 cells from the loaded one.
     """
@@ -260,8 +269,9 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
     straight = (1.0 - bent) * compliances / lengths
     mixtures = np.stack([compliances, rates, bent * compliances * lengths, straight])
     without_memory = np.array([instant, -rates.sum(), 0.0, -straight.sum()])
+    even = cell.drag == 0.0
     displacement, slope, bend, straight_slope = memory_influence(
-        (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell, aspect=cell.aspect
+        (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell, aspect=cell.aspect, even=even
     )
     displacement, slope = displacement[1:-1], slope[1:-1]
     if operator.shift > 0.0:
@@ -273,6 +283,7 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
             instant=without_memory[:1],
             potential=cell,
             aspect=cell.aspect,
+            even=even,
         )
     short = float((compliances[~long] * lengths[~long]).sum())
     if short > 0.0:
@@ -282,7 +293,35 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
             curvature = short * cell.xx(i[:, None].astype(float), cell.aspect * np.arange(float(ny)))
             slope[nx - 1 + i] += curvature
             slope[nx - 1 - i[i > 0]] += curvature[i > 0]
-    return Influence(displacement, slope, second_difference(bend) + straight_slope[1:-1])
+    bent_slope = second_difference(bend) + straight_slope[1:-1]
+    if not even:
+        # ∂L/∂x has an even part, which works; it is in the differences of potentials of long memories only.
+        instant_slope = cell.drag_slope(np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny)))
+        slope += (instant + float(compliances[~long].sum())) * instant_slope
+        bent_slope += (instant + float((bent * compliances).sum())) * instant_slope
+    return Influence(displacement, slope, bent_slope)
+
+
+def add_counterface(
+    found: Influence, operator: ConvolutionOperator, cell: CellPotential, *, levelled: bool = False
+) -> None:
+    """Add the influence of an elastic indenter, a half-space, in place; `levelled`: its displacement has no level."""
+    compliance = operator.material.counterface
+    if compliance == 0.0:
+        return
+    nx, ny = operator.window.shape
+    x, y = np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny))
+    displacement = cell(x - operator.shift, y)
+    found.displacement[...] += compliance * (displacement - below(displacement) if levelled else displacement)
+    if cell.drag:
+        slope = compliance * cell.drag_slope(x, y)
+        found.dissipation[...] += slope
+        found.bent_dissipation[...] += slope
+
+
+def below(values: Array) -> float:
+    """Return a level a little below the least of values."""
+    return float(values.min() - 0.1 * np.ptp(values))
 
 
 def bent_share(memory_lengths: Array) -> Array:

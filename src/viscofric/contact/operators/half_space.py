@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence, strip_potential
+from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence, shear_memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
 from viscofric.contact.operators.convolution import (
     ConvolutionOperator,
     Influence,
+    add_counterface,
+    below,
     bent_share,
     cell_influence,
     second_difference,
@@ -33,11 +35,12 @@ class HalfSpaceOperator(ConvolutionOperator):
     @property
     def cell(self) -> HalfSpaceCell:
         """Potential of a cell, in units of the cell's length."""
-        return HalfSpaceCell(self.window.width / self.window.spacing)
+        return HalfSpaceCell(self.window.width / self.window.spacing, self.material.drag * self.material.coupling)
 
     def _influence(self) -> Influence:
-        instant = self.material.glassy + self.material.counterface
-        return cell_influence(self, self.cell, instant).times(self.unit, self.window.spacing)
+        found = cell_influence(self, self.cell, self.material.glassy)
+        add_counterface(found, self, HalfSpaceCell(self.cell.aspect, self.material.counterface_drag))
+        return found.times(self.unit, self.window.spacing)
 
 
 @dataclass
@@ -50,32 +53,42 @@ class LineOperator(ConvolutionOperator):
     """
 
     unit = 2.0 / np.pi
-    cell = HalfSpaceStrip()
+
+    @property
+    def cell(self) -> HalfSpaceStrip:
+        """Potential of a cell, in units of the cell's length."""
+        return HalfSpaceStrip(self.material.drag * self.material.coupling)
 
     def _influence(self) -> Influence:
         (cells, _), h = self.window.shape, self.window.spacing
         x = np.arange(-(cells - 1.0), cells)
         wider = np.arange(-float(cells), cells + 1.0)
-        lengths = self.material.memory_lengths / h
-        centred = self._instant(x)
-        dissipation, bent_dissipation = np.zeros_like(x), np.zeros_like(x)
-        for compliance, length, bent in zip(self.material.compliances, lengths, bent_share(lengths), strict=True):
+        material, cell = self.material, self.cell
+        lengths, none = material.memory_lengths / h, np.zeros(1)
+        centred = material.glassy * cell(x, none)
+        dissipation = material.glassy * cell.drag_slope(x, none)
+        bent_dissipation = dissipation.copy()
+        for compliance, length, bent in zip(material.compliances, lengths, bent_share(lengths), strict=True):
             delayed, lost = line_memory_influence(wider, length)
+            straight = lost[1:-1]
+            if cell.drag:
+                sheared, slope = shear_memory_influence(wider, length)
+                delayed, straight = delayed + cell.drag * sheared, straight + cell.drag * slope[1:-1]
+                bent_dissipation += compliance * bent * cell.drag_slope(x, none)
             centred += compliance * delayed[1:-1]
-            dissipation += compliance * lost[1:-1]
-            bent_dissipation += compliance * (bent * length * second_difference(delayed) + (1.0 - bent) * lost[1:-1])
-        displacement = centred if self.shift == 0.0 else self._delayed(x - self.shift)
-        level = centred.min() - 0.1 * np.ptp(centred)
-        found = Influence((displacement - level)[:, None], dissipation[:, None], bent_dissipation[:, None])
+            dissipation += compliance * straight
+            bent_dissipation += compliance * (bent * length * second_difference(delayed) + (1.0 - bent) * straight)
+        displacement = (centred if self.shift == 0.0 else self._delayed(x - self.shift)) - below(centred)
+        found = Influence(displacement[:, None], dissipation[:, None], bent_dissipation[:, None])
+        add_counterface(found, self, HalfSpaceStrip(self.material.counterface_drag), levelled=True)
         return found.times(self.unit, h)
 
     def _delayed(self, x: Array) -> Array:
         """Influence at places x, in cells."""
-        displacement = self._instant(x)
-        lengths = self.material.memory_lengths / self.window.spacing
+        cell, lengths = self.cell, self.material.memory_lengths / self.window.spacing
+        displacement = self.material.glassy * cell(x, np.zeros(1))
         for compliance, length in zip(self.material.compliances, lengths, strict=True):
             displacement += compliance * line_memory_influence(x, length)[0]
+            if cell.drag:
+                displacement += compliance * cell.drag * shear_memory_influence(x, length)[0]
         return displacement
-
-    def _instant(self, x: Array) -> Array:
-        return (self.material.glassy + self.material.counterface) * strip_potential(x)

@@ -11,9 +11,9 @@ import numpy as np
 from viscofric.contact.bodies import Layer
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
-from viscofric.contact.influence.line import strip_potential
-from viscofric.contact.influence.potentials import cell_potential
-from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, cell_influence
+from viscofric.contact.influence.line import HalfSpaceStrip
+from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, add_counterface, cell_influence
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
@@ -72,15 +72,12 @@ class LayerOperator(ConvolutionOperator):
         """Potential of a cell, in units of the cell's length."""
         aspect = self.window.width / self.window.spacing
         thickness = self.layer.in_cells(max(self.window.spacing, self.window.width)) * max(1.0, aspect)
-        return LayerCell(thickness, self.layer.bonded, self.layer.poisson_ratio, aspect)
+        return LayerCell(thickness, self.layer.bonded, self.layer.poisson_ratio, aspect, self.material.drag)
 
     def _influence(self) -> Influence:
-        (nx, ny), h, aspect = self.window.shape, self.window.spacing, self.cell.aspect
-        found = cell_influence(self, self.cell, self.material.glassy).times(self.unit, h)
-        if self.material.counterface > 0.0:
-            x, y = np.arange(-(nx - 1.0), nx)[:, None] - self.shift, aspect * np.arange(float(ny))
-            found.displacement[:] += self.unit * h * self.material.counterface * cell_potential(x, y, aspect)
-        return found
+        found = cell_influence(self, self.cell, self.material.glassy)
+        add_counterface(found, self, HalfSpaceCell(self.cell.aspect, self.material.counterface_drag))
+        return found.times(self.unit, self.window.spacing)
 
 
 @dataclass
@@ -98,16 +95,13 @@ class LineLayerOperator(ConvolutionOperator):
     @property
     def cell(self) -> LayerStrip:
         """Potential of a cell, in units of the cell's length."""
-        return LayerStrip(self.layer.in_cells(self.window.spacing), self.layer.bonded, self.layer.poisson_ratio)
+        thickness = self.layer.in_cells(self.window.spacing)
+        return LayerStrip(thickness, self.layer.bonded, self.layer.poisson_ratio, self.material.drag)
 
     def _influence(self) -> Influence:
-        (nx, _), h = self.window.shape, self.window.spacing
-        found = cell_influence(self, self.cell, self.material.glassy).times(self.unit, h)
-        if self.material.counterface > 0.0:
-            facing = strip_potential(np.arange(-(nx - 1.0), nx) - self.shift)
-            level = facing.min() - 0.1 * np.ptp(facing)
-            found.displacement[:] += self.unit * h * self.material.counterface * (facing - level)[:, None]
-        return found
+        found = cell_influence(self, self.cell, self.material.glassy)
+        add_counterface(found, self, HalfSpaceStrip(self.material.counterface_drag), levelled=True)
+        return found.times(self.unit, self.window.spacing)
 
 
 _OPERATORS = {LINE.name: LineLayerOperator, "point": LayerOperator}

@@ -116,6 +116,8 @@ class PeriodicSolution:
     diagnostics : PeriodicDiagnostics
     warnings : tuple of str
         One note for each assumption that is doubtful.
+    coulomb : float
+        Coulomb friction coefficient whose shear changed the pressure, as given; not part of `friction_coefficient`.
     """
 
     speed: float
@@ -136,15 +138,18 @@ class PeriodicSolution:
     gap: Array = field(repr=False)
     diagnostics: PeriodicDiagnostics
     warnings: tuple[str, ...] = ()
+    coulomb: float = 0.0
 
     @property
     def numbers(self) -> xarray.Dataset:
         """All numbers with units and long names; ``ancillary_variables`` names the error of the friction."""
         found = self.diagnostics
         touching = self.contact_area_fraction
+        # With shear, the pressure's work alone is not what the material dissipates.
+        dissipates = math.isfinite(self.speed) and self.coulomb == 0.0
         values = {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
             "mean_contact_pressure": self.mean_pressure / touching if touching > 0.0 else None,
-            "power": self.friction_coefficient * self.mean_pressure * self.speed if math.isfinite(self.speed) else None,
+            "power": self.friction_coefficient * self.mean_pressure * self.speed if dissipates else None,
             "energy_balance": found.energy,
             "cells": max(self.pressure.shape),
         }
@@ -168,6 +173,7 @@ class PeriodicSolution:
                 "friction_coefficient": self.friction_coefficient,
                 "lateral_friction_coefficient": self.lateral_friction_coefficient,
                 "contact_area_fraction": self.contact_area_fraction,
+                "coulomb": self.coulomb,
             },
         )
         return fields.assign(self.numbers.data_vars)

@@ -12,7 +12,13 @@ import scipy.fft
 
 from viscofric.arguments import number, whole_number
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.bodies import Layer, indenter_compliance, unit_direction
+from viscofric.contact.bodies import (
+    Layer,
+    checked_coulomb,
+    half_space_coupling,
+    indenter_compliance,
+    unit_direction,
+)
 from viscofric.contact.indenters.indenter import too_steep
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
@@ -58,6 +64,7 @@ def solve_periodic(
     gap: Quantity | None = None,
     temperature: Quantity | None = None,
     direction: Sequence[float] = (1.0, 0.0),
+    coulomb: float = 0.0,
     layer: Layer | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
@@ -83,6 +90,8 @@ def solve_periodic(
         K if a plain number.  May be left out for a material without a shift law.
     direction : (float, float)
         Of the motion in the plane; its length does not matter.
+    coulomb : float
+        Coulomb friction coefficient, whose shear changes the pressure, as of `solve_steady`.
     layer : Layer, optional
         Thickness and base of the material; a half-space without.
     indenter_modulus : float, str or pint.Quantity, optional
@@ -156,6 +165,8 @@ def solve_periodic(
         layer,
         indenter_compliance(indenter_modulus, indenter_poisson_ratio),
         toward,
+        math.copysign(1.0, sliding) * checked_coulomb(coulomb, layer),
+        half_space_coupling(indenter_poisson_ratio),
     )
     given = _Given.of(surface, pressure, gap)
     depth = surface.rms_height
@@ -176,7 +187,7 @@ def solve_periodic(
     same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
     motion = sliding, toward, kelvin
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
-    return replace(solution, warnings=_large_strains(solution, steepness, layer))
+    return replace(solution, coulomb=float(coulomb), warnings=_large_strains(solution, steepness, layer))
 
 
 def _large_strains(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[Note, ...]:

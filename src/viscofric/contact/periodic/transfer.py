@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 
 if TYPE_CHECKING:
@@ -38,7 +39,9 @@ class SlidingSolid:
     velocity: tuple[float, float]
     layer: Layer | None = None  # None for a half-space
     indenter_compliance: float = 0.0  # (1−ν²)/E of an elastic indenter, 1/Pa
-    toward: tuple[float, float] = (1.0, 0.0)  # unit vector of the velocity, for infinite ones only
+    toward: tuple[float, float] = (1.0, 0.0)  # unit vector of the velocity, for infinite ones and for shear only
+    drag: float = 0.0  # shear stress along `toward` over the pressure
+    indenter_coupling: float = 0.0  # (1−2ν)/(2(1−ν)) of the indenter
 
     @property
     def _is_infinite(self) -> bool:
@@ -49,23 +52,43 @@ class SlidingSolid:
         """Whether nothing depends on the velocity, as at rest."""
         return self.velocity == (0.0, 0.0)
 
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether the transfer function is real: that of an elastic solid without shear."""
+        return self.is_elastic and self.drag == 0.0
+
     def transfer(self, shape: tuple[int, int], spacing: tuple[float, float]) -> ComplexArray | Array:
         """Return û/p̂ for each wave of a grid, m/Pa, in the order of `scipy.fft.rfft2`; zero for the mean.
 
         û = 2 [(1−ν²) S(−q·v) Θ(qH) + (1−ν_i²)/E_i] p̂/|q|.  A Nyquist wave stands for two that run opposite ways, and
         gets the mean of their responses, so that the displacement of a real pressure is real.  At rest the array
-        is real, since the contact is elastic.
+        is real, since the contact is elastic.  A shear of μ times the pressure along n adds −i μ X q·n/|q| p̂, with X in
+        place of Θ and (1−2ν_i)/(2(1−ν_i)) in place of the indenter's one.
         """
         qx, qy = wave_number(shape, spacing)
         magnitude = np.hypot(qx, qy)
         magnitude[0, 0] = 1.0
         ratio = self.poisson_ratio
         relaxed = (1.0 - ratio**2) * self._compliance(qx, qy, shape)
-        if self.layer is not None:
-            relaxed = relaxed * self.layer.yielding(magnitude, ratio)
-        found = np.asarray(2.0 * (relaxed + self.indenter_compliance) / magnitude)
+        factor: Array | float = 1.0 if self.layer is None else self.layer.yielding(magnitude, ratio)
+        response = relaxed * factor + self.indenter_compliance
+        if self.drag:
+            sheared = relaxed * self._coupling(magnitude) - self.indenter_compliance * self.indenter_coupling
+            response = response - 1j * self.drag * self._obliquity(shape, spacing, magnitude) * sheared
+        found = np.asarray(2.0 * response / magnitude)
         found[0, 0] = 0.0
-        return found.real.copy() if self.is_elastic else found
+        return found.real.copy() if self.is_symmetric else found
+
+    def _coupling(self, magnitude: Array) -> Array | float:
+        """X of the waves."""
+        if self.layer is None:
+            return half_space_coupling(self.poisson_ratio)
+        return self.layer.coupling(magnitude, self.poisson_ratio)
+
+    def _obliquity(self, shape: tuple[int, int], spacing: tuple[float, float], magnitude: Array) -> Array:
+        """q·n/|q| of the waves; zero for those that stand for two of opposite ways."""
+        qx, qy = (without_nyquist(one, size) for one, size in zip(wave_number(shape, spacing), shape, strict=True))
+        return np.asarray((self.toward[0] * qx + self.toward[1] * qy) / magnitude)
 
     def relaxed_shape(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
         """Return Θ(qH)/|q| over its largest value for each wave of a grid, as of an elastic solid; mean zero."""
@@ -137,7 +160,7 @@ def dissipation(
     F_t/A = Σ_q 2(1−ν²)/|q| (q·n) (−Im S(q·v)) |p̂_q|², over the waves of both signs; p̂_q are Fourier coefficients.
     """
     if not np.iscomplexobj(transfer):
-        return 0.0  # elastic
+        return 0.0  # elastic, without shear
     qx, qy = (without_nyquist(one, size) for one, size in zip(wave_number(shape, spacing), shape, strict=True))
     along = direction[0] * qx + direction[1] * qy
     work = along * np.imag(transfer) * np.square(np.abs(pressure_waves))
