@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from contextlib import contextmanager
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -83,7 +84,7 @@ def test_the_history_is_said_in_one_line() -> None:
     assert words.splitlines()[1].startswith("110 ms, load 0 N to 1 N, ")
 
 
-def test_points_are_evenly_spaced_and_the_temperature_is_the_reference() -> None:
+def test_points_are_counted_and_the_temperature_is_the_reference() -> None:
     found = record(
         "transient", "--material", "synthetic fluoroelastomer", *BALL, "--load", "1 N", "--dwell", "1 ms", "--points", 3
     )
@@ -142,18 +143,63 @@ def test_strokes_go_forth_and_back(tmp_path: Path) -> None:
     assert back == pytest.approx(-forth, rel=0.1)  # the sliding forgets the dwell after some contact widths
 
 
-def test_an_interruption_keeps_what_was_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_rough_surface_slides_under_a_pressure_and_goes_on_from_its_state(tmp_path: Path) -> None:
+    heights = 1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16)[:, None] * np.ones(4)
+    np.save(tmp_path / "wave.npy", heights)
+    surface = ("--surface", tmp_path / "wave.npy", "--spacing", "10 um", "--prepare", "periodic")
+    words = (
+        "transient", *RUBBER, *surface, "--pressure", "20 kPa", "--dwell", "1 ms", "--speed", "10 mm/s", "--accuracy",
+        0.1,
+    )  # fmt: skip
+    begun = record(*words, "--slide", "10 um", "--save-state", tmp_path / "begun.npz")
+    history = vf.History([0.0, 1e-3, 1e-3, 2e-3], pressure="20 kPa", speed=[0.0, 0.0, 0.01, 0.01])
+    run = vf.solve_transient(SOLID, vf.PeriodicSurface(heights, "10 um"), history, accuracy=0.1)
+    assert begun["results"]["friction_coefficient"] == pytest.approx(run.friction_coefficient.tolist(), abs=1e-12)
+    assert begun["inputs"]["indenter"]["points"] == [16, 4]
+    again = record(*words, "--slide", "20 um", "--resume", tmp_path / "begun.npz")
+    assert again["results"]["time"][: len(run.time)] == begun["results"]["time"]
+    assert again["results"]["time"][-1] == pytest.approx(3e-3)
+    assert "mean pressure" in lines(call(*words, "--slide", "10 um"))
+    assert refusal(*words[:-2], "--load", "1 N").status == 2
+    assert refusal(*words[:-2], *BALL).status == 2
+    assert refusal("transient", *PRESS, "--prepare", "window").status == 2
+    assert refusal("transient", *PRESS, "--layer", "1 mm", "--save-state", "a.npz").status == 2
+    assert refusal("transient", *RUBBER, *surface, "--load", "1 N", "--dwell", "1 s")[:2] == (1, "wrong-control")
+
+
+def test_a_repeated_history_has_its_periodic_state(tmp_path: Path) -> None:
+    phase = np.linspace(0.0, 2.0 * np.pi, 13)
+    table = "".join(f"{t},{d}\n" for t, d in zip(phase / 100.0, 100.0 + 3.0 * np.sin(phase), strict=True))
+    (tmp_path / "period.csv").write_text("t (s),depth (um)\n" + table, encoding="utf-8")
+    words = ("transient", *RUBBER, *BALL, "--history", tmp_path / "period.csv", "--cycle", "--accuracy", 0.1)
+    history = vf.read_history(tmp_path / "period.csv")
+    cycle = vf.solve_cycle(SOLID, vf.Ball("10 mm"), history, accuracy=0.1)
+    found = record(*words)["results"]
+    assert (found["loss_stiffness"], found["periods"]) == (cycle.loss_stiffness, cycle.periods)
+    said = lines(call(*words, "--picture", tmp_path / "cycle.svg"))
+    assert float(said["loss tangent"]) == pytest.approx(cycle.loss_tangent, rel=1e-3)
+    assert float(said["energy per cycle"].split()[0]) > 0.0
+    assert (tmp_path / "cycle.svg").stat().st_size > 0
+    for option in (("--times", "1 ms"), ("--resume", "a.npz"), ("--pressures", "a.png")):
+        assert refusal(*words, *option).status == 2, option
+    assert refusal("transient", *PRESS, "--load-time", "1 ms", "--cycle")[:2] == (1, "not-a-period")
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interruption_keeps_what_was_found(
+    number: signal.Signals, status: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     @contextmanager
     def impatient(words: str, *, quiet: bool) -> Iterator[Callable[[float, float], None]]:
         def show(reached: float, last: float) -> None:
             if reached > 0.5 * last:
-                raise KeyboardInterrupt
+                signal.raise_signal(number)
 
         yield show
 
     monkeypatch.setattr(progress, "time_bar", impatient)
     done = CliRunner().invoke(main, ["transient", *PRESS, "--out", str(tmp_path / "run.csv")])
-    assert done.exit_code == 130
+    assert done.exit_code == status
     reached = np.loadtxt(tmp_path / "run.csv", delimiter=",", skiprows=1)[-1, 0]
     assert 0.05 < reached < 0.1
     assert f"{reached:.4g} s" in done.stderr

@@ -8,6 +8,7 @@ from scipy.integrate import quad
 
 import viscofric as vf
 from refusals import refused
+from viscofric.motion.history import dense_times
 
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
 LAW = vf.WLF(C1=8.0, C2=100.0, reference="30 degC")
@@ -77,6 +78,20 @@ def test_jumps_at_both_ends_keep_both_values():
     schedule = vf.History([0.0, 0.0, 1.0, 1.0], indentation=[-1e-4, 0.0, 1e-4, 2e-4]).schedule(RUBBER, "point")
     ends = [schedule.at(time, after=after).depth for time in (0.0, 1.0) for after in (False, True)]
     assert ends == [-1e-4, 0.0, 1e-4, 2e-4]
+
+
+def test_times_are_dense_after_each_kink():
+    history = vf.History([0.0, 1.0, 1.0, 3.0], load=1.0, speed=[0.0, 0.0, 0.1, 0.1])
+    times = np.array(dense_times(history, 45))
+    assert len(times) == 45
+    assert np.flatnonzero(times == 1.0).tolist() == [22, 23]  # before and after the jump
+    for start, end, part in ((0.0, 1.0, times[1:22]), (1.0, 3.0, times[24:44])):
+        steps = np.diff(np.concatenate([[start], part, [end]]))
+        assert steps[0] == pytest.approx(1e-4 * (end - start))
+        assert np.all(np.diff(steps[1:10]) > 0.0)
+        np.testing.assert_allclose(steps[11:], steps[-1], rtol=1e-9)  # even in the second half
+    assert dense_times(history, 4) == history.time.tolist()
+    assert dense_times(history, 3) == [0.0, 1.5, 3.0]
 
 
 def test_a_linear_speed_integrates_to_a_parabola():

@@ -192,6 +192,12 @@ def test_rebounds_under_gravity_go_on_until_the_ball_rests():
         # It falls from where it left at v g t: the speed at the touch is that of the parabola.
         assert following.speed == pytest.approx(9.81 * pause - leaving, rel=1e-4)
         assert following.speed < leaving
+        flight = (hit.run.time > one.start + one.contact_time) & (hit.run.time < following.start)
+        # It rises to v²/2g above where it left, and nothing acts on the material, which relaxes.
+        top = one.separation_indentation - leaving**2 / (2.0 * 9.81)
+        assert hit.run.indentation[flight].min() == pytest.approx(top, rel=0.02)
+        np.testing.assert_allclose(np.ptp(hit.run.work[flight]), 0.0, atol=1e-12)
+        assert np.all(np.diff(hit.run.stored[flight]) <= 0.0)
 
 
 @pytest.mark.slow

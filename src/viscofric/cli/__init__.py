@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 class Terminated(KeyboardInterrupt):
     """The system asked the program to end (SIGTERM); it ends as it does at Ctrl-C, with another status."""
 
+    #: Whether it has, also where a solver took the interruption and returned what it had.
+    received = False
+
 
 class _Program(LazyGroup):
     """The whole program: what its commands leave behind becomes an exit status."""
@@ -77,8 +80,10 @@ def _signals() -> Iterator[None]:
     """Let SIGTERM end the program as Ctrl-C does, for as long as the command line runs."""
 
     def terminate(number: int, frame: FrameType | None) -> Never:
+        Terminated.received = True
         raise Terminated
 
+    Terminated.received = False
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
+from viscofric.cli.files import FILE
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from viscofric.contact.indenters.indenter import Indenter
 
-
-_FILE = click.Path(path_type=Path, dir_okay=False)
-
+_MOST_POINTS = 10_000
 _INDENTER = (
     click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
     click.option(
@@ -35,11 +34,11 @@ _INDENTER = (
     ),
     click.option(
         "--height-map",
-        type=_FILE,
+        type=FILE,
         help="Table of heights (text or .npy); one line per position along the motion. Needs --spacing.",
     ),
     click.option(
-        "--profile", type=_FILE, help="One column of heights along the motion (line contact). Needs --spacing."
+        "--profile", type=FILE, help="One column of heights along the motion (line contact). Needs --spacing."
     ),
     click.option(
         "--spacing", metavar="LENGTH", help="Spacing of the heights: '5 um', or '5 um,10 um' along and across."
@@ -57,6 +56,30 @@ def indenter_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+#: Options of a rough surface, besides --spacing and --height-unit.
+_SURFACE = (
+    click.option(
+        "--surface",
+        type=FILE,
+        help="Measured rough surface instead of an indenter, one period of it; --spacing and --height-unit if the file "
+        "does not state them.",
+    ),
+    click.option(
+        "--prepare",
+        multiple=True,
+        metavar="STEP",
+        help="With --surface: preparation step, such as 'remove tilt', 'window' or 'shortest 40 um'; repeatable.",
+    ),
+)
+
+
+def surface_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a rough surface instead of an indenter."""
+    for option in reversed(_SURFACE):
+        function = option(function)
+    return function
+
+
 def option(name: str) -> str:
     """Return an option as it is typed."""
     typed = {"rubber_modulus": "E0", "glass_modulus": "E-inf", "columns": "column"}
@@ -64,9 +87,9 @@ def option(name: str) -> str:
 
 
 class NamedIndenter(NamedTuple):
-    """An indenter, and what it is in words and in plain types."""
+    """An indenter or a rough surface, and what it is in words and in plain types."""
 
-    indenter: Indenter
+    indenter: Any
     words: str
     record: dict[str, Any]
 
@@ -83,8 +106,41 @@ def chosen_indenter(parameters: dict[str, Any]) -> NamedIndenter:
         return _mapped(shape, parameters)
     for name in ("spacing", "height_unit"):
         if parameters[name] is not None:
-            raise click.UsageError(f"{option(name)} is for --height-map and --profile only.")
+            of = "--height-map, --profile and --surface" if "surface" in parameters else "--height-map and --profile"
+            raise click.UsageError(f"{option(name)} is for {of} only.")
     return _simple(shape, parameters[shape])
+
+
+def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
+    """Return the indenter or the rough surface that the options name."""
+    path: Path | None = parameters["surface"]
+    if path is None:
+        if parameters["prepare"]:
+            raise click.UsageError("--prepare is for --surface only.")
+        return chosen_indenter(parameters)
+    given = [option(name) for name in SHAPES if parameters[name] is not None]
+    if given:
+        raise click.UsageError(f"--surface and {given[0]} are both given; the contact has one of them.")
+    from viscofric.roughness.reading import read_topography
+    from viscofric.study.cases.surfaces import step_of
+
+    steps = None if parameters["spacing"] is None else _spacing(parameters)
+    topography = read_topography(path, unit=parameters["height_unit"] or "", spacing=steps)
+    for words in parameters["prepare"]:
+        topography = step_of(words)(topography)
+    surface = topography.to_surface()
+    record = {
+        "shape": "surface", "file": str(path), "prepare": list(parameters["prepare"]), "points": list(surface.shape),
+        "spacing": list(surface.spacing),
+    }  # fmt: skip
+    words = f"Rough surface of {path.name}, {' × '.join(map(str, surface.shape))} points"
+    return NamedIndenter(surface, words, record)
+
+
+def _spacing(parameters: dict[str, Any]) -> Any:
+    """Return one spacing, or two of x and y."""
+    steps = tuple(part.strip() for part in parameters["spacing"].split(","))
+    return steps if len(steps) > 1 else steps[0]
 
 
 def _simple(shape: str, text: str) -> NamedIndenter:
@@ -123,12 +179,11 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     if parameters["spacing"] is None:
         raise click.UsageError(f"{option(shape)} needs --spacing, the distance of its heights, such as '5 um'.")
     heights = read_heights(path, parameters["height_unit"] or "m")
-    steps = tuple(part.strip() for part in parameters["spacing"].split(","))
-    if shape == "profile" and (min(heights.shape) > 1 or len(steps) > 1):
+    steps = _spacing(parameters)
+    if shape == "profile" and (min(heights.shape) > 1 or not isinstance(steps, str)):
         raise click.UsageError(f"--profile is one column of heights with one spacing; {path} holds a map.")
     try:
-        one = steps if len(steps) > 1 else steps[0]
-        made = Profile(heights.ravel(), steps[0]) if shape == "profile" else HeightMap(heights, one)
+        made = Profile(heights.ravel(), steps) if shape == "profile" else HeightMap(heights, steps)
     except InputError as error:
         raise error.at(str(path)) from None
     points = [heights.size] if shape == "profile" else list(heights.shape)
@@ -136,6 +191,41 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     noun = "Profile" if shape == "profile" else "Height map"
     words = f"{noun} of {path.name}, {' × '.join(map(str, points))} points"
     return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})
+
+
+def speed_options(speed: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return a decorator that adds the options of several speeds, named by `speed`, and temperatures."""
+    options = (
+        click.option(
+            "--speed",
+            "speeds",
+            required=True,
+            multiple=True,
+            metavar="V",
+            help=f"{speed}, list ('20 mm/s, 50 mm/s') or range ('1 mm/s to 1 m/s').",
+        ),
+        click.option(
+            "--points",
+            type=click.IntRange(2, _MOST_POINTS),
+            default=13,
+            show_default=True,
+            help="Number of speeds of a range, evenly spaced in log v.",
+        ),
+        click.option(
+            "--temperature",
+            "temperatures",
+            multiple=True,
+            metavar="T",
+            help="Temperature or list, e.g. '30 degC, 60 degC' [default: the material's reference].",
+        ),
+    )
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        for one in reversed(options):
+            function = one(function)
+        return function
+
+    return add
 
 
 #: The direction of the motion.
@@ -193,7 +283,7 @@ def elastic_options(function: Callable[..., Any]) -> Callable[..., Any]:
 def inputs_of(parameters: dict[str, Any]) -> list[Path]:
     """Return the files that rubber and indenter are read from."""
     rubber = [] if parameters["material"] is None else [Path(parameters["material"])]
-    shapes = [path for path in (parameters["height_map"], parameters["profile"]) if path is not None]
+    shapes = [parameters[name] for name in ("height_map", "profile", "surface") if parameters.get(name) is not None]
     return [path for path in (*rubber, *parameters["dma"], *shapes) if path.is_file()]
 
 
@@ -232,8 +322,22 @@ def elastic_record(parameters: dict[str, Any]) -> dict[str, Any] | None:
     }
 
 
-def chosen_speeds(text: str, points: int) -> list[float]:
-    """Return the speeds (m/s) that a list or a range names."""
+def chosen_speeds(parameters: dict[str, Any]) -> list[float]:
+    """Return the speeds (m/s) of the options."""
+    return [speed for text in parameters["speeds"] for speed in _speeds(text, parameters["points"])]
+
+
+def chosen_temperatures(parameters: dict[str, Any]) -> list[float]:
+    """Return the temperatures (K) of the options."""
+    from viscofric.units import positive
+
+    return [
+        positive(one.strip(), "K", "--temperature") for text in parameters["temperatures"] for one in text.split(",")
+    ]
+
+
+def _speeds(text: str, points: int) -> list[float]:
+    """Return the speeds that a list or a range names."""
     from viscofric.units import positive
 
     ends = [end.strip() for end in text.split(" to ")]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -12,22 +11,25 @@ import click
 from viscofric.cli.contact_options import (
     chosen_indenter,
     chosen_speeds,
+    chosen_temperatures,
     contact_options,
     contact_settings,
     indenter_options,
     inputs_of,
+    speed_options,
 )
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import CSV, DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, write_curves
+from viscofric.cli.files import CSV, DASH, FILE, OUT, PICTURES, check_ending, refuse_to_overwrite, write_curves
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.cli.rubber_options import NamedRubber
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
-_MOST_POINTS = 10_000
 _ROOM = "20 degC"
 _EXAMPLE = """\b
 Example:
@@ -39,28 +41,7 @@ Example:
 @click.command(name="curve", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
-@click.option(
-    "--speed",
-    "speeds",
-    required=True,
-    multiple=True,
-    metavar="V",
-    help="Speed, list ('20 mm/s, 50 mm/s') or range ('1 mm/s to 1 m/s').",
-)
-@click.option(
-    "--points",
-    type=click.IntRange(2, _MOST_POINTS),
-    default=13,
-    show_default=True,
-    help="Number of speeds of a range, evenly spaced in log v.",
-)
-@click.option(
-    "--temperature",
-    "temperatures",
-    multiple=True,
-    metavar="T",
-    help="Temperature or list, e.g. '30 degC, 60 degC' [default: the material's reference].",
-)
+@speed_options("Speed")
 @click.option(
     "--load",
     required=True,
@@ -77,14 +58,9 @@ Example:
 )
 @click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
 @click.option("--out", type=OUT, help="Write the friction curves (CSV); `-` prints them instead of the table.")
-@click.option(
-    "--picture", type=click.Path(path_type=Path, dir_okay=False), help="Draw friction against speed (PNG, SVG or PDF)."
-)
+@click.option("--picture", type=FILE, help="Draw friction against speed (PNG, SVG or PDF).")
 @click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
 def command(
-    speeds: tuple[str, ...],
-    points: int,
-    temperatures: tuple[str, ...],
     out: Path | None,
     picture: Path | None,
     as_json: bool,
@@ -103,9 +79,9 @@ def command(
         from viscofric.cli.progress import contact_bar
         from viscofric.friction.prediction import predict_friction
 
-        velocities = [speed for text in speeds for speed in chosen_speeds(text, points)]
+        velocities = chosen_speeds(parameters)
         rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-        kelvins = _kelvins(rubber.material, temperatures)
+        kelvins = _kelvins(rubber.material, chosen_temperatures(parameters))
         settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
         samples = _samples(rubber, parameters["samples"])
         name = in_contact(shape.words, rubber, settings["layer"])
@@ -130,11 +106,10 @@ def command(
             click.echo(written, err=as_json or out == DASH)
 
 
-def _kelvins(material: Material, texts: tuple[str, ...]) -> list[float]:
+def _kelvins(material: Material, given: list[float]) -> list[float]:
     """Return the requested temperatures, K; of a rubber at one temperature only, the one it is said to have."""
     from viscofric.units import positive
 
-    given = [positive(one.strip(), "K", "--temperature") for text in texts for one in text.split(",")]
     if material.reference is None:
         if len(given) > 1:
             raise click.UsageError(

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.friction.curves import FrictionCurves
 
-PICTURES, CSV, JSON = (".png", ".svg", ".pdf"), (".csv",), (".json",)
+PICTURES, CSV, JSON, DATA = (".png", ".svg", ".pdf"), (".csv",), (".json",), (".nc", ".csv")
 #: What the command line calls standard input and standard output.
 DASH = Path("-")
 _INPUT = "standard input"
@@ -48,6 +48,8 @@ def refuse_to_overwrite(target: Path, inputs: Iterable[Path]) -> None:
         raise refusal("is-input", f"{target} is an input and would be overwritten; choose another name.")
 
 
+#: A file to be written, or to be read.
+FILE = click.Path(path_type=Path, dir_okay=False)
 #: A file to be written, or `-` for standard output.
 OUT = click.Path(path_type=Path, dir_okay=False, allow_dash=True)
 

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-import numpy as np
 
 from viscofric.cli.contact_options import chosen_direction, option
 from viscofric.cli.files import Source
@@ -18,8 +17,11 @@ if TYPE_CHECKING:
     from viscofric.motion.history import History
 
 _MOST_POINTS = 100_000
+#: Times of the curve beside an animation.
+_OF_CURVE = 120
 #: Options that a file of the history replaces.
 _STAGES = ("load_time", "dwell", "slide", "strokes")
+_CONTROLS = ("load", "indentation", "pressure")
 _OPTIONS = (
     click.option(
         "--history",
@@ -33,10 +35,11 @@ _OPTIONS = (
         "--load", metavar="F", help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m')."
     ),
     click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load."),
+    click.option("--pressure", metavar="P", help="Mean pressure on a rough surface, instead of --load."),
     click.option(
         "--load-time",
         metavar="TIME",
-        help="Time in which load or indentation rise from zero [default: at once].",
+        help="Time in which load, indentation or pressure rise from zero [default: at once].",
     ),
     click.option("--dwell", metavar="TIME", help="Time at rest before the sliding, e.g. '0.1 s' [default: none]."),
     click.option("--slide", metavar="LENGTH", help="Length of the path, e.g. '20 mm' [default: no sliding]."),
@@ -58,7 +61,7 @@ _OPTIONS = (
     click.option(
         "--points",
         type=click.IntRange(2, _MOST_POINTS),
-        help="Number of evenly spaced times to report, instead of --times; corners of the history are added.",
+        help="Number of times to report, instead of --times; dense after each change of load or speed.",
     ),
 )
 
@@ -75,8 +78,8 @@ def history_inputs(parameters: dict[str, Any]) -> list[Path]:
     return [] if parameters["history"] is None else [Path(parameters["history"])]
 
 
-def chosen_history(parameters: dict[str, Any], dimension: int, reference: float | None) -> History:
-    """Return the history of the options, for a contact of one (line) or two dimensions.
+def chosen_history(parameters: dict[str, Any], line: bool, reference: float | None) -> History:
+    """Return the history of the options, for a line contact or another one.
 
     Without a temperature it is the material's reference, K.
     """
@@ -85,19 +88,32 @@ def chosen_history(parameters: dict[str, Any], dimension: int, reference: float 
     for name in ("history_columns", "history_sheet"):
         if parameters[name]:
             raise click.UsageError(f"{option(name).removesuffix('s')} is for --history only.")
-    return _from_stages(parameters, "N/m" if dimension == 1 else "N", reference)
+    return _from_stages(parameters, line, reference)
 
 
-def chosen_times(parameters: dict[str, Any], history: History) -> Any:
-    """Return the times to report, s; None: all steps."""
+def chosen_times(parameters: dict[str, Any], history: History, *, film: bool) -> Any:
+    """Return the times to report, s; None: all steps.  Of an animation by default also evenly spaced ones."""
+    from viscofric.motion.history import dense_times
+
     if parameters["times"] is not None and parameters["points"] is not None:
         raise click.UsageError("--times and --points are both given; give one of them.")
     if parameters["points"] is not None:
-        even = np.linspace(float(history.time[0]), float(history.time[-1]), parameters["points"])
-        return np.union1d(even, history.time)
+        return dense_times(history, parameters["points"])
     if parameters["times"] is None:
-        return None
+        return _film(history) if film else None
     return [time.strip() for time in parameters["times"].split(",")]
+
+
+def _film(history: History) -> list[float]:
+    """Return times of a curve and of the frames beside it."""
+    import numpy as np
+
+    from viscofric.motion.history import dense_times
+    from viscofric.report.figures.animation import FRAMES
+
+    curve = dense_times(history, len(history.time) + _OF_CURVE)
+    frames = np.linspace(curve[0], curve[-1], FRAMES + 1)
+    return sorted([*curve, *np.setdiff1d(frames, curve).tolist()])
 
 
 def _from_file(parameters: dict[str, Any], reference: float | None) -> History:
@@ -106,7 +122,7 @@ def _from_file(parameters: dict[str, Any], reference: float | None) -> History:
     for name in _STAGES:
         if parameters[name] is not None:
             raise click.UsageError(f"{option(name)} and --history are both given; the file has the whole history.")
-    names = ("load", "indentation", "speed", "temperature")
+    names = (*_CONTROLS, "speed", "temperature")
     settings = {name: parameters[name] for name in names if parameters[name] is not None}
     settings |= {"before": parameters["before"], "direction": chosen_direction(parameters["direction"])}
     settings |= {"columns": parameters["history_columns"], "sheet": parameters["history_sheet"]}
@@ -116,16 +132,17 @@ def _from_file(parameters: dict[str, Any], reference: float | None) -> History:
     return read_history(parameters["history"], **{**settings, "temperature": reference})
 
 
-def _from_stages(parameters: dict[str, Any], unit: str, reference: float | None) -> History:
+def _from_stages(parameters: dict[str, Any], line: bool, reference: float | None) -> History:
     """Return a load put on at once or in some time, a dwell, and a slide forth and back."""
+    from viscofric.motion.history import CONTROLS
     from viscofric.motion.stages import staged_history
     from viscofric.units import positive, to_si
 
-    given = {name: parameters[name] for name in ("load", "indentation") if parameters[name] is not None}
+    given = {name: parameters[name] for name in _CONTROLS if parameters[name] is not None}
     if len(given) != 1:
-        raise click.UsageError("give either --load or --indentation, one of them, or --history.")
+        raise click.UsageError("give one of --load, --indentation and --pressure, or --history.")
     ((control, text),) = given.items()
-    value = to_si(text, unit if control == "load" else "m", control)
+    value = to_si(text, "N/m" if control == "load" and line else CONTROLS[control], control)
     if (parameters["slide"] is None) != (parameters["speed"] is None):
         raise click.UsageError("--slide and --speed belong together: the length of the path, and how fast it is.")
     if parameters["strokes"] is not None and parameters["slide"] is None:

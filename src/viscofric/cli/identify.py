@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import json
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
+from viscofric.cli.files import FILE, JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
 from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from viscofric.friction.identification.anchors import Anchor
     from viscofric.friction.identification.result import IdentifiedMaterial
@@ -101,7 +101,6 @@ def _typed(name: str) -> str:
     return f"--anchor-{name.replace('_', '-')}"
 
 
-_FILE = click.Path(path_type=Path, dir_okay=False)
 #: Options that are settings of `identify_material` as they stand.
 _SETTINGS = ("load", "reference", "poisson_ratio", "modes", "samples", "seed", "accuracy", "name", "workers")
 _EXAMPLE = """\b
@@ -142,8 +141,8 @@ Example:
 @click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
 @click.option("--name", default="rubber identified from friction", show_default=True, help="Name of the material.")
 @separation_options
-@click.option("--out", type=_FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
-@click.option("--picture", type=_FILE, help="Draw the modulus with its limits (PNG, SVG or PDF).")
+@click.option("--out", type=FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
+@click.option("--picture", type=FILE, help="Draw the modulus with its limits (PNG, SVG or PDF).")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")

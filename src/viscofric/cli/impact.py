@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import time
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -13,22 +12,23 @@ import click
 from viscofric.cli.contact_options import (
     chosen_indenter,
     chosen_speeds,
+    chosen_temperatures,
     elastic_options,
     elastic_record,
     elastic_settings,
     indenter_options,
     inputs_of,
+    speed_options,
 )
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, write_dataset
+from viscofric.cli.files import DASH, DATA, FILE, OUT, PICTURES, check_ending, refuse_to_overwrite, write_dataset
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 
-_FILE = click.Path(path_type=Path, dir_okay=False)
-_TABLES = (".nc", ".csv")
-_MOST_POINTS = 1000
 
 _EXAMPLE = """\b
 Examples:
@@ -43,28 +43,7 @@ Examples:
 @rubber_options
 @indenter_options
 @click.option("--mass", required=True, metavar="M", help="Mass of the indenter, e.g. '4 g'.")
-@click.option(
-    "--speed",
-    "speeds",
-    required=True,
-    multiple=True,
-    metavar="V",
-    help="Speed at the first touch, list ('0.5 m/s, 1 m/s') or range ('0.1 m/s to 10 m/s').",
-)
-@click.option(
-    "--speed-points",
-    type=click.IntRange(2, _MOST_POINTS),
-    default=13,
-    show_default=True,
-    help="Number of speeds of a range, evenly spaced in log v.",
-)
-@click.option(
-    "--temperature",
-    "temperatures",
-    multiple=True,
-    metavar="T",
-    help="Temperature or list, e.g. '0 degC, 20 degC' [default: the material's reference].",
-)
+@speed_options("Speed at the first touch")
 @click.option("--gravity", metavar="G", help="Acceleration towards the material, e.g. '9.81 m/s^2' [default: none].")
 @click.option(
     "--rebounds",
@@ -82,14 +61,14 @@ Examples:
     "-o", "--out", type=OUT, help="Write the contact over time, or the curve of several (.csv or .nc); `-` prints it."
 )
 @click.option(
-    "--picture", type=_FILE, help="Draw the contact over time, or the restitution of several (PNG, SVG or PDF)."
+    "--picture", type=FILE, help="Draw the contact over time, or the restitution of several (PNG, SVG or PDF)."
 )
 def command(as_json: bool, out: Path | None, picture: Path | None, **parameters: Any) -> None:
     """Solve the impact of a body of revolution of given mass: restitution, contact time, largest force.
 
     Quantities carry their unit. Several speeds or temperatures give the restitution curve.
     """
-    check_ending(out, "--out", _TABLES)
+    check_ending(out, "--out", DATA)
     check_ending(picture, "--picture", PICTURES)
     for target in (out, picture):
         if target is not None:
@@ -98,8 +77,9 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
         raise click.UsageError("impacts are solved on a half-space only; leave out --layer and --sliding-base.")
     with reported_errors():
         rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-        speeds = [speed for text in parameters["speeds"] for speed in chosen_speeds(text, parameters["speed_points"])]
-        kelvins = _kelvins(parameters["temperatures"], rubber.material.reference)
+        speeds = chosen_speeds(parameters)
+        reference = rubber.material.reference
+        kelvins = chosen_temperatures(parameters) or (None if reference is None else [reference])
         several = len(speeds) > 1 or len(kelvins or []) > 1
         if several and parameters["rebounds"] > 1:
             raise click.UsageError("--rebounds is for one speed and one temperature.")
@@ -132,14 +112,6 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
             click.echo(written, err=as_json or out == DASH)
         for warning in result.warnings:
             click.echo(f"Warning: {warning}", err=True)
-
-
-def _kelvins(texts: tuple[str, ...], reference: float | None) -> list[float] | None:
-    """Return the temperatures, K; without any that of the material's reference, or None."""
-    from viscofric.units import positive
-
-    given = [positive(one.strip(), "K", "--temperature") for text in texts for one in text.split(",")]
-    return given or (None if reference is None else [reference])
 
 
 def _solved(

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import json
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import CSV, PICTURES, Source, check_ending, plainly, refusal, refuse_to_overwrite
+from viscofric.cli.files import CSV, FILE, PICTURES, Source, check_ending, plainly, refusal, refuse_to_overwrite
 from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
-_FILE = click.Path(path_type=Path, dir_okay=False)
 _LAWS = ("best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none")
 _EXAMPLE = """\b
 Example:
@@ -58,8 +58,8 @@ Example:
     help="Relative standard error shared by all points of a temperature, to include in the errors of α.",
 )
 @separation_options
-@click.option("--out", type=_FILE, help="Write the shift factors with their errors (CSV).")
-@click.option("--picture", type=_FILE, help="Draw master curve and shift factors (PNG, SVG or PDF).")
+@click.option("--out", type=FILE, help="Write the shift factors with their errors (CSV).")
+@click.option("--picture", type=FILE, help="Draw master curve and shift factors (PNG, SVG or PDF).")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 def command(

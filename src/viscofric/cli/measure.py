@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -12,6 +11,7 @@ from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import (
     CSV,
     DASH,
+    FILE,
     OUT,
     PICTURES,
     Source,
@@ -23,6 +23,8 @@ from viscofric.cli.files import (
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.friction.curves import FrictionCurves
 
 _EXAMPLE = """\b
@@ -37,7 +39,7 @@ Example:
 @click.option("--out", type=OUT, help="Write the friction curves (CSV); `-` prints them instead of the table.")
 @click.option(
     "--picture",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     help="Draw viscoelastic and Coulomb friction against speed (PNG, SVG or PDF).",
 )
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")

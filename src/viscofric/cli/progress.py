@@ -30,6 +30,8 @@ _WORDS = {
 }
 #: What is not watched gets a line so often.
 _BETWEEN_LINES = 60.0  # s
+#: Text beside the bar of a contact over time.
+_OF_TIME = "t = {:.4g} of {:.4g} s"
 
 
 class Silent(contextlib.AbstractContextManager["Silent"]):
@@ -144,8 +146,11 @@ class JsonProgress(Silent):
 
 
 @contextmanager
-def time_bar(words: str, *, quiet: bool) -> Iterator[Callable[[float, float], None]]:
-    """Show the time reached on standard error as long as the block runs, if that is a terminal."""
+def time_bar(words: str, *, quiet: bool, shown: str = _OF_TIME) -> Iterator[Callable[[float, float], None]]:
+    """Show the time reached on standard error as long as the block runs, if that is a terminal.
+
+    `shown` has two places for numbers; without the last time as the second one, the bar has no end.
+    """
     console = Console(stderr=True)
     columns = (
         TextColumn("{task.description}"),
@@ -157,7 +162,8 @@ def time_bar(words: str, *, quiet: bool) -> Iterator[Callable[[float, float], No
         task = bars.add_task(words, total=None, reached="")
 
         def show(reached: float, last: float) -> None:
-            bars.update(task, completed=reached, total=last, reached=f"t = {reached:.4g} of {last:.4g} s")
+            end = last if shown == _OF_TIME else None
+            bars.update(task, completed=reached, total=end, reached=shown.format(reached, last))
 
         yield show
 

@@ -7,7 +7,6 @@ import math
 import time
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -21,17 +20,17 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import PICTURES, check_ending, refuse_to_overwrite, write_fields
+from viscofric.cli.files import DATA, FILE, PICTURES, check_ending, refuse_to_overwrite, write_fields
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.cli.contact_options import NamedIndenter
     from viscofric.cli.rubber_options import NamedRubber
     from viscofric.contact.solution import ContactSolution
 
-_FILE = click.Path(path_type=Path, dir_okay=False)
-_FIELDS = (".nc", ".csv")
 _INFINITE = ("inf", "infinite", "infinity", "∞")
 #: Options that are settings of `solve_steady` as they stand.
 _SETTINGS = ("load", "indentation", "temperature", "tolerance", "finest", "grid", "derivatives")
@@ -77,15 +76,15 @@ Example:
     "--derivatives", is_flag=True, help="Also compute the derivatives of friction by speed, load and each mode."
 )
 @click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
-@click.option("--picture", type=_FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
-@click.option("-o", "--output", type=_FILE, help="Write pressure and displacement (.nc or .csv).")
+@click.option("--picture", type=FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
+@click.option("-o", "--output", type=FILE, help="Write pressure and displacement (.nc or .csv).")
 def command(as_json: bool, picture: Path | None, output: Path | None, **parameters: Any) -> None:
     """Solve one steady contact of an indenter that slides or rolls over rubber.
 
     Quantities carry their unit. Every result has its estimated discretisation error.
     """
     check_ending(picture, "--picture", PICTURES)
-    check_ending(output, "--output", _FIELDS)
+    check_ending(output, "--output", DATA)
     for target in (picture, output):
         if target is not None:
             refuse_to_overwrite(target, inputs_of(parameters))

@@ -5,36 +5,46 @@ from __future__ import annotations
 import json
 import time
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli import INTERRUPTED
+from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.contact_options import (
-    chosen_indenter,
+    chosen_body,
     direction_option,
     elastic_options,
     elastic_record,
     elastic_settings,
     indenter_options,
     inputs_of,
+    surface_options,
 )
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import DASH, OUT, PICTURES, check_ending, refuse_to_overwrite, write_dataset
+from viscofric.cli.files import (
+    DASH,
+    DATA,
+    FILE,
+    OUT,
+    PICTURES,
+    Source,
+    check_ending,
+    refuse_to_overwrite,
+    write_dataset,
+)
 from viscofric.cli.history_options import chosen_history, chosen_times, history_inputs, history_options
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.cli.contact_options import NamedIndenter
     from viscofric.cli.rubber_options import NamedRubber
+    from viscofric.contact.bodies import Layer
+    from viscofric.motion.cycle_solution import CycleSolution
     from viscofric.motion.history import History
     from viscofric.motion.solution import TransientSolution
-
-_FILE = click.Path(path_type=Path, dir_okay=False)
-_TABLES = (".nc", ".csv")
-#: Times of an animation, where none are given.
-_FILM = 120
+    from viscofric.rheology.material import Material
 
 _EXAMPLE = """\b
 Examples:
@@ -42,12 +52,15 @@ Examples:
       --load "25 N" --dwell "0.1 s" --slide "20 mm" --speed "100 mm/s" --temperature "60 degC"
   viscofric transient --material "synthetic fluoroelastomer" --ball "9.525 mm" \\
       --history test.csv --picture test.svg
+  viscofric transient --material "synthetic fluoroelastomer" --surface scan.x3p --pressure "0.2 MPa" \\
+      --dwell "10 ms" --slide "1 mm" --speed "10 mm/s" --save-state start.npz
 """
 
 
 @click.command(name="transient", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
+@surface_options
 @history_options
 @direction_option
 @elastic_options
@@ -58,14 +71,19 @@ Examples:
     show_default=True,
     help="Target relative error of load, indentation, friction and energy in time.",
 )
+@click.option("--cycle", is_flag=True, help="Solve the periodic state of the history as one repeated period.")
+@click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
+@click.option(
+    "--save-state", "state", type=FILE, help="Write the last state (.npz) for --resume; not for contacts on cells."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print inputs and results over time as JSON, in SI units.")
 @click.option("-o", "--out", type=OUT, help="Write the results over time (.csv or .nc); `-` prints the table.")
-@click.option("--picture", type=_FILE, help="Draw forces, indentation, contact and pressures (PNG, SVG or PDF).")
-@click.option("--pressures", type=_FILE, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
+@click.option("--picture", type=FILE, help="Draw forces, indentation, contact and pressures (PNG, SVG or PDF).")
+@click.option("--pressures", type=FILE, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
 @click.option(
     "--animation",
-    type=_FILE,
-    help=f"Draw the pressure over time beside the friction (GIF); sets --points {_FILM} without --times.",
+    type=FILE,
+    help="Draw the pressure over time beside the friction (GIF).",
 )
 def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """Solve one contact over time: loading, dwell, start, sliding, return.
@@ -75,54 +93,89 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """
     drawings = {name: parameters.pop(name) for name in ("picture", "pressures", "animation")}
     _check_targets(parameters, out, drawings)
+    _check_cycle(parameters, drawings)
     with reported_errors():
-        from viscofric.cli.progress import time_bar
-        from viscofric.motion.solve import solve_transient
+        from viscofric.motion.cycle_solution import CycleSolution
 
-        rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
+        rubber, shape = chosen_rubber(parameters), chosen_body(parameters)
         layer = chosen_layer(parameters)
-        history = chosen_history(parameters, shape.indenter.geometry.dimension, rubber.material.reference)
-        times = chosen_times(parameters, history)
-        if times is None and drawings["animation"] is not None:
-            times = chosen_times({**parameters, "points": _FILM}, history)
+        geometry = getattr(shape.indenter, "geometry", None)  # a rough surface has none
+        line = geometry is not None and geometry.dimension == 1
+        history = chosen_history(parameters, line, rubber.material.reference)
         began = time.perf_counter()
-        with time_bar("Contact over time", quiet=as_json) as bar:
-            run = solve_transient(
-                rubber.material,
-                shape.indenter,
-                history,
-                times=times,
-                accuracy=parameters["accuracy"],
-                layer=layer,
-                progress=bar,
-                **elastic_settings(parameters),
-            )
+        film = drawings["animation"] is not None
+        result = _solved(parameters, rubber.material, shape.indenter, history, layer, film=film, quiet=as_json)
         seconds = time.perf_counter() - began
+        run = result.run if isinstance(result, CycleSolution) else result
         if not len(run.time):  # nothing was reached
             raise KeyboardInterrupt
         name = in_contact(shape.words, rubber, layer)
         if as_json:
-            click.echo(json.dumps(_record(parameters, rubber, shape, history, run, seconds), ensure_ascii=False))
+            click.echo(json.dumps(_record(parameters, rubber, shape, history, result, seconds), ensure_ascii=False))
         elif out != DASH:
-            _print(name, rubber, history, run, seconds)
+            _print(name, rubber, history, result, seconds)
         if out is not None:
-            write_dataset(out, run.to_dataset())
+            write_dataset(out, result.to_dataset())
         said = [] if out in (None, DASH) else [f"data     {out}"]
-        for written in [*said, *_draw(name, rubber, run, parameters["times"] is not None, **drawings)]:
+        said += _draw(name, rubber, run, parameters["times"] is not None, **drawings)
+        if parameters["state"] is not None:
+            run.save_state(parameters["state"])
+            said.append(f"state    {parameters['state']}")
+        for written in said:
             click.echo(written, err=as_json or out == DASH)
         for warning in run.warnings:
             click.echo(f"Warning: {warning}", err=True)
     if run.interrupted:
-        click.echo(f"Interrupted after {run.time[-1]:.4g} s of the history; the results end there.", err=True)
-        click.get_current_context().exit(INTERRUPTED)
+        word, status = ("Terminated", TERMINATED) if Terminated.received else ("Interrupted", INTERRUPTED)
+        click.echo(f"{word} after {run.time[-1]:.4g} s of the history; the results end there.", err=True)
+        click.get_current_context().exit(status)
+
+
+def _solved(
+    parameters: dict[str, Any],
+    material: Material,
+    body: Any,
+    history: History,
+    layer: Layer | None,
+    *,
+    film: bool,
+    quiet: bool,
+) -> TransientSolution | CycleSolution:
+    """Solve the history, or its periodic state."""
+    from viscofric.cli.progress import time_bar
+    from viscofric.motion.cycle import solve_cycle
+    from viscofric.motion.solve import checked_problem, needs_grid, solve_transient
+
+    contact = {"accuracy": parameters["accuracy"], "layer": layer, **elastic_settings(parameters)}
+    if parameters["cycle"]:
+        shown = "{:.0f} periods, {:.2g} away from the periodic state"
+        with time_bar("Periodic state", quiet=quiet, shown=shown) as bar:
+            return solve_cycle(material, body, history, progress=bar, **contact)
+    if parameters["state"] is not None and needs_grid(checked_problem(material, body, history, **contact), history):
+        raise click.UsageError("--save-state is for rough surfaces, and bodies of revolution in normal motion.")
+    times = chosen_times(parameters, history, film=film)
+    with time_bar("Contact over time", quiet=quiet) as bar:
+        return solve_transient(
+            material, body, history, times=times, progress=bar, resume=parameters["resume"], **contact
+        )
+
+
+def _check_cycle(parameters: dict[str, Any], drawings: dict[str, Path | None]) -> None:
+    """Refuse what the periodic state does not have: other times than the steps, pressures, a state."""
+    if parameters["cycle"]:
+        for name, value in (parameters | drawings).items():
+            if name in ("times", "points", "resume", "state", "pressures", "animation") and value is not None:
+                typed = "--save-state" if name == "state" else f"--{name}"
+                raise click.UsageError(f"--cycle and {typed} are both given; leave out one of them.")
 
 
 def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[str, Path | None]) -> None:
-    check_ending(out, "--out", _TABLES)
+    check_ending(out, "--out", DATA)
     for name, target in drawings.items():
         check_ending(target, f"--{name}", (".gif",) if name == "animation" else PICTURES)
+    check_ending(parameters["state"], "--save-state", (".npz",))
     inputs = [*inputs_of(parameters), *history_inputs(parameters)]
-    for target in (out, *drawings.values()):
+    for target in (out, parameters["state"], *drawings.values()):
         if target is not None:
             refuse_to_overwrite(target, inputs)
 
@@ -132,7 +185,7 @@ def _record(
     rubber: NamedRubber,
     shape: NamedIndenter,
     history: History,
-    run: TransientSolution,
+    result: TransientSolution | CycleSolution,
     seconds: float,
 ) -> dict[str, Any]:
     """Return the request and the results in plain types, SI."""
@@ -146,16 +199,23 @@ def _record(
         "indenter": shape.record | {"elastic": elastic_record(parameters)},
         "accuracy": parameters["accuracy"],
     }
-    return transient_record(inputs, history, run, seconds)
+    return transient_record(inputs, history, result, seconds)
 
 
-def _print(name: str, rubber: NamedRubber, history: History, run: TransientSolution, seconds: float) -> None:
-    from viscofric.report.texts.motion import history_words, transient_lines
+def _print(
+    name: str, rubber: NamedRubber, history: History, result: TransientSolution | CycleSolution, seconds: float
+) -> None:
+    from viscofric.motion.cycle_solution import CycleSolution
+    from viscofric.report.texts.motion import cycle_lines, history_words, transient_lines
 
     synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
     click.echo(f"{name}{synthetic}")
-    click.echo(f"{history_words(history, run.geometry)}\n")
-    lines = transient_lines(run, seconds)
+    if isinstance(result, CycleSolution):
+        click.echo(f"{history_words(history, result.run.geometry)}, repeated\n")
+        lines = cycle_lines(result, seconds)
+    else:
+        click.echo(f"{history_words(history, result.geometry)}, {history.before} before\n")
+        lines = transient_lines(result, seconds)
     width = max(len(quantity) for quantity, _ in lines)
     for quantity, value in lines:
         click.echo(f"{quantity:<{width}}  {value}")

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.errors import ConvergenceError
+from viscofric.motion.history import dense_parts
 from viscofric.motion.steps import StepParts, step_parts
 
 if TYPE_CHECKING:
@@ -38,6 +39,8 @@ _RESTING, _SLOW = 500, 0.01
 _SECANTS = 60
 #: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
 _RISE = 0.02
+#: Times of a flight that are recorded.
+_IN_FLIGHT = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,10 +128,10 @@ class Bounce:
             self._insist_on_disc()
             if not contact.separates or number + 1 == rebounds:
                 break
-            flight = self._flight(depth, contact.speed_out)
+            flight = self._flight(contact.start + contact.duration, depth, contact.speed_out)
             if flight is None:
                 break
-            time, depth, speed = contact.start + contact.duration + flight[0], flight[1], flight[2]
+            time, depth, speed = flight
         return self
 
     def _contact(self, number: int, start: float, depth: float, speed: float) -> tuple[Contact, float]:
@@ -254,8 +257,8 @@ class Bounce:
 
         return _zero(gap, 0.0, step)
 
-    def _flight(self, depth: float, speed_out: float) -> tuple[float, float, float] | None:
-        """Fly until the indenter meets the surface; return duration, depth and speed, or None if it never does."""
+    def _flight(self, left: float, depth: float, speed_out: float) -> tuple[float, float, float] | None:
+        """Fly until the indenter meets the surface; return time, depth and speed, or None if it never does."""
         g, c, tau = self.gravity, self.springs.compliances, self.springs.tau
         if g == 0.0:
             return None
@@ -269,10 +272,16 @@ class Bounce:
         start = 1e-9 * end
         if overlap(start) >= 0.0:
             return None
-        time = _zero(overlap, start, end)
-        self._predict(time)
-        self._complete(np.zeros_like(self._force))
-        return time, depth - speed_out * time + 0.5 * g * time**2, g * time - speed_out
+        duration = _zero(overlap, start, end)
+        before = 0.0
+        for part in (*dense_parts(_IN_FLIGHT if self.recorded else 0).tolist(), 1.0):
+            time = part * duration
+            self._predict(time - before)
+            self._complete(np.zeros_like(self._force))
+            place, speed, before = depth - speed_out * time + 0.5 * g * time**2, g * time - speed_out, time
+            if part < 1.0:
+                self._record(left + time, place, speed, 0.0, 0.0)
+        return left + duration, place, speed
 
     def _edge(self, order: Indices, b: Array, depth: float, last: int) -> float:
         """Return the contact radius between the last spring that touches and the next one."""

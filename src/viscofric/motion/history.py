@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 #: What may be prescribed normal to the surface, with its unit.
 CONTROLS = {"load": "N", "indentation": "m", "pressure": "Pa", "gap": "m"}
 BEFORE = ("untouched", "at rest", "sliding")
+#: First time after a kink, over the time to the next one.
+_FIRST = 1e-4
 #: Kind of contact -> what may be prescribed in it.
 _CONTROLS_OF = {"point": ("load", "indentation"), "line": ("load", "indentation"), "periodic": ("pressure", "gap")}
 
@@ -197,6 +200,32 @@ class History:
             material, self.time, self.control, getattr(self, self.control), self.position, self.speed,
             self.temperature, self.before,
         )  # fmt: skip
+
+
+def dense_times(history: History, count: int) -> list[float]:
+    """Return so many times of a history, s: its own, twice at jumps, and others dense after each, where much happens.
+
+    Evenly spaced times if there are fewer than the history has.
+    """
+    own: list[float] = history.time.tolist()
+    lasting = sum(right > left for left, right in itertools.pairwise(own))
+    if count < len(own):
+        return [float(time) for time in np.linspace(own[0], own[-1], count)]
+    each, more = divmod(count - len(own), lasting)
+    times = own[:1]
+    for start, end in itertools.pairwise(own):
+        if end > start:
+            times += (start + (end - start) * dense_parts(each + (more > 0))).tolist()
+            more -= 1
+        times.append(end)
+    return times
+
+
+def dense_parts(count: int) -> Array:
+    """Return so many numbers between zero and one: half of them evenly spaced, the others by equal ratios below."""
+    evenly = count - count // 2
+    first = 1.0 / (evenly + 1)
+    return np.append(np.geomspace(_FIRST, first, count // 2, endpoint=False), first * np.arange(1, evenly + 1))
 
 
 def _wrong_at(index: int, code: str, sentence: str) -> InputError:

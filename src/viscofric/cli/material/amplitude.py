@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import PICTURES, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.files import FILE, PICTURES, Source, check_ending, refuse_to_overwrite
 from viscofric.cli.rubber_options import reading_options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from matplotlib.figure import Figure
 
     from viscofric.friction.contact_strain import ContactAtStrain
@@ -35,12 +36,12 @@ if TYPE_CHECKING:
 @click.option("--speed", metavar="V", help="Its speed, e.g. '20 mm/s'.")
 @click.option("--contact-temperature", metavar="T", help="Its temperature, e.g. '60 degC'.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
-@click.option("--picture", type=click.Path(path_type=Path, dir_okay=False), help="Draw the sweep (PNG, SVG or PDF).")
+@click.option("--picture", type=FILE, help="Draw the sweep (PNG, SVG or PDF).")
 @click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     help="Write the scaled material (JSON), for run files and the other commands.",
 )
 def command(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import refuse_to_overwrite
+from viscofric.cli.files import FILE, refuse_to_overwrite
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
@@ -19,7 +19,7 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
 
 @click.command(name="convert")
 @click.argument("rubber", metavar="MATERIAL")
-@click.argument("output", type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("output", type=FILE)
 @click.option("--format", "form", type=click.Choice(FORMATS), required=True, help="Format of the card.")
 @click.option(
     "--poisson-ratio",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.errors import print_doubtful_checks, print_notes, reported_errors
+from viscofric.cli.files import FILE
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
 from viscofric.cli.rubber_options import reading_options, shift_factor_options
 
@@ -80,7 +81,7 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 )
 @click.option(
     "--shift-factors",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     help="Use the shift factors of this file instead of fitting them.",
 )
 @shift_factor_options

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import CSV, JSON, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
 from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.friction.identification.indentation.record import Control
 
-_FILE = click.Path(path_type=Path, dir_okay=False)
 _EXAMPLE = """\b
 Example:
   viscofric material indentation creep.csv --control load --ball "10 mm" \\
@@ -50,8 +50,8 @@ Example:
 @click.option("--samples", type=int, default=200, show_default=True, help="Number of uncertainty samples.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Random seed of the samples.")
 @click.option("--name", default="identified from indentation", show_default=True, help="Name of the material.")
-@click.option("--out", type=_FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
-@click.option("--csv", "table", type=_FILE, help="Write the moduli with their 95 % limits (CSV).")
+@click.option("--out", type=FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
+@click.option("--csv", "table", type=FILE, help="Write the moduli with their 95 % limits (CSV).")
 @click.option("--json", "as_json", is_flag=True, help="Print the moduli and the notes as JSON, in SI units.")
 def command(
     files: tuple[Path, ...],

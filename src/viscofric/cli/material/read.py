@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import Source, plainly, refuse_to_overwrite
+from viscofric.cli.files import FILE, Source, plainly, refuse_to_overwrite
 from viscofric.cli.rubber_options import reading_options
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 @click.command(name="read")
@@ -19,7 +21,7 @@ from viscofric.cli.rubber_options import reading_options
 @click.option(
     "--csv",
     "table",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     help="Also write the points used of frequency sweeps to a table (CSV).",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print what was read as JSON, in SI units.")

@@ -62,13 +62,19 @@ _QUANTITIES: dict[str, tuple[str, tuple[_Line, ...]]] = {
         ),
     ),
 }
-_AREA = ("contact area", (_Line("contact_area", BLUE),))
+_AREA = (_Line("contact_area", BLUE),)
 #: Labels of a periodic contact, whose loads are mean pressures.
-_PER_AREA = {"load": r"mean pressure $\bar p$", "friction_force": r"mean traction $\bar\tau$"}
+_PER_AREA = {
+    "load": r"mean pressure $\bar p$",
+    "friction_force": r"mean traction $\bar\tau$",
+    "contact": "contact area fraction",
+}
 QUANTITIES = tuple(_QUANTITIES)
 AGAINST = ("time", "distance")
 #: Arrows along a friction loop.
 _ARROWS = 4
+#: Part of the range beside it.
+_BESIDE = 0.05
 
 
 def plot_transient(axes: Axes, data: xr.Dataset, quantity: str = "friction_coefficient", against: str = "time") -> None:
@@ -118,8 +124,13 @@ def plot_force_depth(axes: Axes, data: xr.Dataset) -> None:
     data : xarray.Dataset
         As `TransientSolution.to_dataset` returns it.
     """
-    depth, load = _unit_of(data, ["indentation"]), _unit_of(data, ["load"])
-    axes.plot(np.asarray(data["indentation"]) / depth.size, np.asarray(data["load"]) / load.size, color=INK)
+    inside = data.where(data["load"] > 0.0, 0.0)
+    depth, load = _unit_of(inside, ["indentation"]), _unit_of(data, ["load"])
+    x, y = np.asarray(data["indentation"]) / depth.size, np.asarray(data["load"]) / load.size
+    axes.plot(x, y, color=INK)
+    if np.any(y > 0.0):  # flights between contacts reach far above the surface
+        low, high = min(0.0, float(x[y > 0.0].min())), float(x[y > 0.0].max())
+        axes.set_xlim(low - _BESIDE * (high - low), high + _BESIDE * (high - low))
     axes.set_xlabel(f"{_title(data, 'indentation')} ({depth.name})")
     axes.set_ylabel(f"{_title(data, 'load')} ({load.name})")
 
@@ -221,7 +232,7 @@ def _drawn(data: xr.Dataset, quantity: str) -> tuple[str, tuple[_Line, ...]]:
     _, lines = _QUANTITIES[quantity]
     found = tuple(line for line in lines if line.column in data)
     if not found:
-        return _AREA
+        return _PER_AREA["contact"] if data.attrs.get("geometry") == "periodic" else "contact area", _AREA
     return _title(data, quantity), found
 
 

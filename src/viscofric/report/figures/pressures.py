@@ -39,6 +39,8 @@ _FRAMES = 5
 _MOST_CELLS = 256
 #: Share of the touched length that is shown beside it.
 _MARGIN = 0.15
+#: Relative change of a load that is constant up to rounding and the solver's tolerance.
+_CONSTANT = 1e-3
 
 
 class Frames(NamedTuple):
@@ -50,6 +52,7 @@ class Frames(NamedTuple):
     pressure: Unit
     highest: float  # in its unit
     reach: tuple[tuple[float, float], tuple[float, float]]  # along x and y, in the unit of length
+    has_axis: bool  # that of an indenter, which a periodic surface does not have
 
     @property
     def are_maps(self) -> bool:
@@ -62,23 +65,28 @@ def frames_of(run: TransientSolution, times: Quantities | None = None, count: in
     shown = spread_times(run, count) if times is None else [float(one) for one in to_si_array(times, "s", "times")]
     fields = [run.pressure_at(time) for time in shown]
     largest = max(float(field.max()) for field in fields)
-    reach = _reach(fields)
+    reach = _whole(fields[0]) if run.geometry == "periodic" else _reach(fields)
     size = unit_for(max(abs(end) for ends in reach for end in ends))
     unit = unit_for(largest, "Pa")
     (left, right), (low, high) = reach
     scaled = ((left / size.size, right / size.size), (low / size.size, high / size.size))
-    return Frames(shown, fields, size, unit, largest / unit.size or 1.0, scaled)
+    return Frames(shown, fields, size, unit, largest / unit.size or 1.0, scaled, run.geometry != "periodic")
 
 
 def spread_times(run: TransientSolution, count: int) -> list[float]:
-    """Return at most so many of a solution's times, those nearest to evenly spaced ones."""
-    wanted = np.linspace(float(run.time[0]), float(run.time[-1]), count)
-    near = {float(run.time[int(np.abs(run.time - time).argmin())]) for time in wanted}
-    return sorted(near)
+    """Return at most so many of a solution's times, those nearest to evenly spaced ones.
+
+    Without its first one: before a load that rises there is no contact, and under one put on at once the pressure is
+    many times that of all other times, whose differences would vanish on a common scale.
+    """
+    first, last = float(run.time[0]), float(run.time[-1])
+    later = run.time[run.time > first] if last > first else run.time
+    wanted = np.linspace(first, last, count + 1)[1:]
+    return sorted({float(later[int(np.abs(later - time).argmin())]) for time in wanted})
 
 
 def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities | None = None) -> None:
-    """Draw the pressure along the motion through the indenter's axis at several times, from dark (early) to light.
+    """Draw the pressure along x through the indenter's axis at several times, from dark (early) to light.
 
     Parameters
     ----------
@@ -99,7 +107,7 @@ def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities
         axes.plot(x / frames.length.size, pressure / frames.pressure.size, color=look.colour, label=words)
     axes.set_xlim(*frames.reach[0])
     axes.set_ylim(0.0, 1.05 * frames.highest)
-    axes.set_xlabel(f"along the motion $x$ ({frames.length.name})")
+    axes.set_xlabel(f"$x$ ({frames.length.name})")
     axes.set_ylabel(f"pressure $p$ ({frames.pressure.name})")
     axes.legend(loc="best", title="time")
 
@@ -130,7 +138,8 @@ def plot_pressure_frame(axes: Axes, frames: Frames, place: int) -> QuadMesh | No
     mesh: QuadMesh = axes.pcolormesh(
         x, y, shown, cmap=colours, vmin=0.0, vmax=frames.highest, shading="nearest", rasterized=True
     )
-    axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
+    if frames.has_axis:
+        axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
     axes.set_aspect("equal")
     axes.grid(visible=False)
     axes.set_ylim(*frames.reach[1])
@@ -162,8 +171,10 @@ def pressure_strip(run: TransientSolution, times: Quantities | None = None, titl
     for place, panel in enumerate(panels):
         mesh = plot_pressure_frame(panel, frames, place)
         panel.set_title(prefixed(frames.times[place], None, "s"), fontsize=9.5)
+        panel.set_xlabel("")
         if place:
             panel.set_ylabel("")
+    figure.supxlabel(f"$x$ ({frames.length.name})", fontsize=10.5)
     if mesh is not None:
         bar = figure.colorbar(mesh, ax=list(panels), shrink=0.85, pad=0.01)
         bar.set_label(f"pressure $p$ ({frames.pressure.name})")
@@ -190,17 +201,32 @@ def transient_figure(run: TransientSolution, title: str = "") -> Figure:
         plot_transient(panel, data, quantity)
         panel.set_xlabel(panel.get_xlabel() if quantity == rows[-1] else "")
     above, below = right.subplots(2, 1)
+    loop = slides and returns(data)
     if run.has_pressures:
-        plot_pressure_profiles(above, run)
+        _plot_pressures(above, run)
+    elif loop and np.ptp(run.load) <= _CONSTANT * float(run.load.max()):
+        plot_transient(above, data, "energy")
     else:
         plot_force_depth(above, data)
-    if slides and returns(data):
+    if loop:
         plot_friction_loop(below, data)
     else:
         plot_transient(below, data, "energy")
     if title:
         figure.suptitle(title, fontsize=10.5)
     return figure
+
+
+def _plot_pressures(axes: Axes, run: TransientSolution) -> None:
+    """Draw the pressures of an indenter along a line, or those of a rough surface at the last time."""
+    frames = frames_of(run, count=1)
+    if run.geometry != "periodic" or not frames.are_maps:
+        plot_pressure_profiles(axes, run)
+        return
+    mesh = plot_pressure_frame(axes, frames, 0)
+    assert mesh is not None  # of a map
+    axes.set_title(prefixed(frames.times[0], None, "s"), fontsize=9.5)
+    axes.figure.colorbar(mesh, ax=axes).set_label(f"pressure $p$ ({frames.pressure.name})")
 
 
 def restitution_figure(curve: RestitutionCurve, title: str = "") -> Figure:
@@ -237,6 +263,16 @@ def _reach(fields: Sequence[xr.DataArray]) -> tuple[tuple[float, float], tuple[f
         low, high = min(one[0] for one in loaded), max(one[1] for one in loaded)
         margin = _MARGIN * ((high - low) or 1.0)
         ends.append((low - margin, high + margin))
+    return ends[0], ends[1]
+
+
+def _whole(field: xr.DataArray) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ends along x and y of all cells of a periodic surface."""
+    ends = [(0.0, 0.0), (0.0, 0.0)]
+    for axis, name in enumerate(field.dims):
+        places = np.asarray(field[name])
+        half = 0.5 * float(places[1] - places[0]) if len(places) > 1 else 0.5
+        ends[axis] = (float(places[0]) - half, float(places[-1]) + half)
     return ends[0], ends[1]
 
 

@@ -14,6 +14,7 @@ from viscofric.report.texts.numbers import degrees, length, prefixed, short, sig
 from viscofric.report.texts.tables import aligned
 
 if TYPE_CHECKING:
+    from viscofric.motion.cycle_solution import CycleSolution
     from viscofric.motion.history import History
     from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
     from viscofric.motion.solution import TransientSolution
@@ -24,7 +25,7 @@ _FORCES = {"point": ("N", "J"), "line": ("N/m", "J/m"), "periodic": ("Pa", "J/mÂ
 
 
 def history_words(history: History, geometry: str) -> str:
-    """Return a history in one line: duration, load or depth, distance, temperature, and prior state."""
+    """Return a history in one line: duration, load or depth, distance and temperature."""
     duration = float(history.time[-1] - history.time[0])
     units = {"load": _FORCES[geometry][0], "indentation": "m", "pressure": "Pa", "gap": "m"}
     values = getattr(history, history.control)
@@ -37,7 +38,7 @@ def history_words(history: History, geometry: str) -> str:
     if history.temperature is not None:
         low, high = float(history.temperature.min()), float(history.temperature.max())
         parts.append(degrees(low) if low == high else f"{degrees(low)} to {degrees(high)}")
-    return ", ".join([*parts, f"{history.before} before"])
+    return ", ".join(parts)
 
 
 def _range(values: Any, unit: str) -> str:
@@ -60,7 +61,10 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
     slides = bool(np.any(run.position != run.position[0]))
     lines = [
         ("at the end", f"after {prefixed(float(run.time[-1] - run.time[0]), None, 's')}"),
-        ("  load", prefixed(float(run.load[-1]), float(run.errors.load[-1]), force)),
+        (
+            "  mean pressure" if run.geometry == "periodic" else "  load",
+            prefixed(float(run.load[-1]), float(run.errors.load[-1]), force),
+        ),
         ("  indentation", length(float(run.indentation[-1]), float(run.errors.indentation[-1]))),
         *_contact(run),
     ]
@@ -77,12 +81,42 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
     return lines
 
 
+def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
+    """Return the main results of a periodic state, as pairs of name and value.
+
+    Parameters
+    ----------
+    cycle : CycleSolution
+    seconds : float
+        Computing time, s.
+    """
+    force, energy = _FORCES[cycle.run.geometry]
+    stiffness = {"N": "N/m", "N/m": "Pa", "Pa": "Pa/m"}[force]
+    error = float(cycle.run.errors.energy[-1])
+    lines = [("energy per cycle", prefixed(cycle.energy_per_cycle, error, energy))]
+    if cycle.storage_stiffness is not None and cycle.loss_stiffness is not None:
+        lines += [
+            ("storage stiffness", prefixed(cycle.storage_stiffness, None, stiffness)),
+            ("loss stiffness", prefixed(cycle.loss_stiffness, None, stiffness)),
+            ("loss tangent", significant(cycle.loss_stiffness / cycle.storage_stiffness, 4)),
+        ]
+    if cycle.mean_friction_coefficient is not None:
+        lines.append(("mean friction coefficient", significant(cycle.mean_friction_coefficient, 4)))
+        lines.append(("largest friction", _largest(cycle.run)))
+    return [
+        *lines,
+        ("energy balance", f"{100.0 * cycle.run.energy_imbalance:.1g} % at most"),
+        ("periods", f"{cycle.periods}; the memory is {cycle.change:.1g} of its size away from the periodic state"),
+        ("time", f"{seconds:.2f} s"),
+    ]
+
+
 def _contact(run: TransientSolution) -> list[tuple[str, str]]:
     """Return the lines of the contact at the end."""
     if run.contact_radius is not None:
         return [("  contact radius", length(float(run.contact_radius[-1])))]
     if run.front is None or run.rear is None:
-        return [("  contact area", f"{short(100.0 * float(run.contact_area[-1]))} %")]
+        return [("  contact area fraction", f"{short(100.0 * float(run.contact_area[-1]))} %")]
     lines = [("  ahead of the axis", length(float(run.front[-1]))), ("  behind the axis", length(float(run.rear[-1])))]
     if run.half_width is not None:
         lines.append(("  half width across", length(float(run.half_width[-1]))))
@@ -165,7 +199,7 @@ def impact_record(inputs: dict[str, Any], result: ImpactSolution | RestitutionCu
 
 
 def transient_record(
-    inputs: dict[str, Any], history: History, run: TransientSolution, seconds: float
+    inputs: dict[str, Any], history: History, result: TransientSolution | CycleSolution, seconds: float
 ) -> dict[str, Any]:
     """Return a contact over time in plain types: inputs, results along time, and the units of their names.
 
@@ -174,17 +208,18 @@ def transient_record(
     inputs : dict
         What was requested, in SI units and plain types, without the history.
     history : History
-    run : TransientSolution
+    result : TransientSolution or CycleSolution
     seconds : float
         Computing time, s.
     """
+    run: Any = getattr(result, "run", result)
     columns = {name: getattr(history, name) for name in ("time", history.control, "position", "speed", "temperature")}
     said = {name: plain(values, None) for name, values in columns.items() if values is not None}
     return {
         "format": "viscofric transient 1",
         "viscofric_version": version("viscofric"),
         "inputs": inputs | {"history": said | {"before": history.before, "direction": list(history.direction)}},
-        "results": record(run.to_dataset()),
+        "results": record(result.to_dataset()),
         "interrupted": run.interrupted,
         "steps": run.steps,
         "rejected_steps": run.rejected_steps,

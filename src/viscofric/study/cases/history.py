@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from viscofric.motion.history import dense_times
 from viscofric.motion.solve import solve_transient
 from viscofric.rheology.material import Material
 from viscofric.study.cases.record import Column, HistoryRecord
@@ -31,15 +32,13 @@ def solve_history(
     history : History
         Without a temperature.
     points : int
-        Number of evenly spaced times.
+        Number of times, see `dense_times`.
     fields : bool
         Not used: there are none.
     **contact
         Further arguments of `solve_transient`, SI.
     """
-    import numpy as np
-
-    times = np.linspace(float(history.time[0]), float(history.time[-1]), points)
+    times = dense_times(history, points)
     run = solve_transient(Material(modes, poisson_ratio=poisson_ratio), history=history, times=times, **contact)
     if run.interrupted:  # a part of a history is no result
         raise KeyboardInterrupt

@@ -62,7 +62,9 @@ class HistoryTable(Table):
         "untouched",
         description="State before the start: untouched, under the first load for ever, or sliding steadily.",
     )
-    points: Count = Field(200, ge=2, le=MOST_POINTS, description="Number of stored times, evenly spaced.")
+    points: Count = Field(
+        200, ge=2, le=MOST_POINTS, description="Number of stored times, dense after each change of load or speed."
+    )
     file: FileName | None = Field(
         None, description="Instead: table of the history; without a load or indentation in it, the load of the case."
     )

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.datasets import plain, record
@@ -32,10 +30,8 @@ if TYPE_CHECKING:
 _DIGITS = 7
 #: Rows of a history on the page.
 MOST_ROWS = 200
-#: Times drawn of a whole history, and fewest and most of a part between two of its rows.
-_TIMES, _FEWEST, _MOST = 240, 12, 80
-#: The first of them after a row, over the duration of the part.
-_FIRST = 1e-4
+#: Times drawn of a history: of each part between two of its rows, and of all parts.
+_EACH, _ALL = 60, 240
 
 
 class Row(BaseModel):
@@ -162,6 +158,7 @@ def _transient(
     material: Material, case: Case, options: Options, accuracy: float, context: Context
 ) -> TransientSolution:
     """Solve the contact of a case through the history of the options."""
+    from viscofric.motion.history import dense_times
     from viscofric.motion.solve import solve_transient
 
     assert isinstance(case, (IndenterCase, SurfaceCase))
@@ -177,7 +174,7 @@ def _transient(
         material,
         case.indenter if isinstance(case, IndenterCase) else surface_of(case.surface),
         history,
-        times=_times(history),
+        times=dense_times(history, len(history.time) + min(_EACH * (len(history.time) - 1), _ALL)),
         accuracy=accuracy,
         layer=case.layer,
         indenter_modulus=case.modulus,
@@ -206,14 +203,3 @@ def _impact(material: Material, case: Case, impact: Impact) -> ImpactSolution:
         indenter_modulus=case.modulus,
         indenter_poisson_ratio=case.poisson_ratio,
     )
-
-
-def _times(history: History) -> list[float]:
-    """Return the times to draw: dense after each row, where much happens; those of jumps twice."""
-    edges: list[float] = history.time.tolist()
-    count = min(max(_TIMES // len(edges), _FEWEST), _MOST)
-    inside = np.union1d(np.geomspace(_FIRST, 1.0, count // 2), np.linspace(0.0, 1.0, count // 2))[1:-1]
-    times = edges[:1]
-    for start, end in itertools.pairwise(edges):
-        times += [*(start + (end - start) * inside).tolist(), end] if end > start else [end]
-    return times
