@@ -151,6 +151,17 @@ def test_a_curved_path_turns_with_the_plane_and_friction_follows_it():
     assert force(arc @ turn) == pytest.approx(bent @ turn, abs=5e-3 * straight.max())
 
 
+def test_fast_modes_dissipate_after_a_jump_of_the_load():
+    """Against springs, whose steps are short enough for every mode; the ball hardly moves along."""
+    rubber = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [4.5e-7, 4.5e-7], [1e-7, 1e-2]))
+    ball, times = vf.Ball("10 mm"), [0.0, 0.01]
+    springs = vf.solve_transient(rubber, ball, vf.History(times, load=1.0), times=times)
+    moved = vf.History(times, load=1.0, position=[0.0, 2e-5])
+    cells = vf.solve_transient(rubber, ball, moved, times=times, accuracy=0.1)
+    assert cells.method == "grid"
+    assert cells.dissipated == pytest.approx(springs.dissipated, rel=5e-3)  # of the sliding: 2e-3
+
+
 def test_speed_that_turns_within_an_interval_is_motion():
     history = vf.History([0.0, 0.02], load=1.0, speed=[0.1, -0.1], before="at rest")
     time = np.linspace(0.0, 0.02, 41)

@@ -19,6 +19,14 @@ if TYPE_CHECKING:
 
 # κ below which the integrals over a step are summed as series, and the number of terms.
 _SERIES_BELOW, _TERMS = 0.5, 20
+# Coefficients of (−κ)ⁿ in the three integrals.
+_SERIES = np.array(
+    [
+        [2.0**n / math.factorial(n + 1) for n in range(_TERMS)],
+        [(2.0 ** (n + 1) - 1.0) / (math.factorial(n + 1) * (n + 2.0)) for n in range(_TERMS)],
+        [(2.0 ** (n + 2) - 2.0) / (math.factorial(n + 2) * (n + 3.0)) for n in range(_TERMS)],
+    ]
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,11 +65,6 @@ def _relaxation(steps: Array) -> tuple[Array, Array, Array]:
     one, two = -np.expm1(-k) / k, -np.expm1(-2.0 * k) / (2.0 * k)
     exact = two, (one - two) / k, (1.0 - 2.0 * one + two) / k**2
     near = np.where(small, steps, 0.0)
-    series = np.zeros((3, *np.shape(near)))
-    for n in range(_TERMS):
-        power = (-near) ** n
-        series[0] += power * 2.0**n / math.factorial(n + 1)
-        series[1] += power * (2.0 ** (n + 1) - 1.0) / (math.factorial(n + 1) * (n + 2.0))
-        series[2] += power * (2.0 ** (n + 2) - 2.0) / (math.factorial(n + 2) * (n + 3.0))
+    series = _SERIES @ np.power.outer(-near, np.arange(_TERMS)).T
     first, second, third = (np.where(small, s, e) for s, e in zip(series, exact, strict=True))
     return first, second, third

@@ -22,7 +22,7 @@ from viscofric.motion.free.energy import Products
 from viscofric.motion.free.resting import rested, untouched
 from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
-from viscofric.motion.mover import SHARE, Field, Observation, Scales
+from viscofric.motion.mover import Field, Observation, Scales
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -36,13 +36,14 @@ _SPARE = 0.3
 MOST_WINDOWS = 30
 MOST_BYTES = 2**32  # of the memory of one state; a few states are held at a time
 _TICK = 1.0  # distance between times at which steps may end, in cells
+_SHARE = 0.3  # see `march`: while a contact slides, errors of steps come and go
 
 
 @dataclass(eq=False)
 class FreeMover(Cells):
     """Steps of a free contact; see `viscofric.motion.mover.Mover`."""
 
-    share: ClassVar[float] = SHARE
+    share: ClassVar[float] = _SHARE
     reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
     longest: float = field(default=0.0, init=False)  # the longest of them
     first_depth: float | None = field(default=None, init=False)  # at the first contact

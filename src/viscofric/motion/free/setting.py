@@ -179,6 +179,9 @@ class Setting:
     def shortest_time(self, spacing: float, times: Sequence[float] | None) -> float:
         """Return the least time, s of the clock, in which the pressure at a point changes noticeably on a grid."""
         least = self.schedule.duration
+        if any(self._begins_with_jump(self.schedule.at(float(time))) for time in self.schedule.kinks[:-1]):
+            # What a fast mode dissipates after a jump of the load does not depend on its time.
+            least = min(least, _FIRST_TICK * float(self.body.times.min(initial=least)))
         stops = np.unique(np.concatenate([self.schedule.kinks, np.asarray(times or [], dtype=float)]))
         for start, end in itertools.pairwise(stops):
             first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
@@ -235,9 +238,9 @@ class Setting:
         if self._begins_with_jump(start):
             found.append(self._after_jump(start, end))
         every = np.unique(np.concatenate([*found, [end.time]]))
-        # no two of them closer than a thousandth of a cell's time
-        least = 1e-3 * (end.time - start.time) * min(1.0, cell / length[-1])
         kept = every[(every > start.time) & (every <= end.time)]
+        # no two of them closer than a thousandth of a cell's time, or of the time since the start
+        least = 1e-3 * np.minimum((end.time - start.time) * cell / length[-1], kept[:-1] - start.time)
         return self._split(np.concatenate([[start.time], kept[np.concatenate([np.diff(kept) > least, [True]])]]))[1:]
 
     def _split(self, edges: Array) -> Array:
