@@ -51,6 +51,7 @@ ROOMS = {
         "checks",
         "arrays",
     ),
+    "heat": ("heat",),
     "readers": ("readers",),
     "rheology": ("rheology",),
     "contact": ("contact",),

@@ -64,6 +64,10 @@ def shifted():
     return vf.Material(rubber().spectrum, shift=wlf())
 
 
+def steel():
+    return vf.ThermalProperties(46.0, 7810.0, 475.0, "steel")
+
+
 @functools.cache
 def polynomial():
     return vf.InversePolynomial([5000.0, 1e6], 300.0, fitted_range=(280.0, 380.0))
@@ -400,6 +404,14 @@ CALLS: dict[str, Any] = {
     "FrictionCurves.at_temperature": lambda: (curves(), {"temperature": 300.0}),
     "FrictionCurves.at_load": lambda: (curves(), {"load": 1e3}),
     "ThermalProperties": lambda: {"conductivity": 0.3, "density": 1e3, "heat_capacity": 1e3, "name": "rubber"},
+    "MovingHeatSource": lambda: {"power": 1.0, "size": 1e-3, "speed": 0.1, "body": steel(), "shape": "disc",
+        "distribution": "uniform"},
+    "MovingHeatSource.temperature_at": lambda: (vf.MovingHeatSource(1.0, 1e-3, 0.1, steel()), {"x": [0.0, 1e-4], "y":
+        0.0}),
+    "surface_temperature": lambda: {"heat": np.eye(4), "spacing": 1e-4, "body": steel(), "speed": 0.1, "time": None,
+        "thickness": 1e-3, "base": "insulated", "periodic": False},
+    "track_temperature": lambda: {"power": 1.0, "body": steel(), "radius": 1e-3, "track_radius": 0.02, "speed": 10.0,
+        "passes": [0, 1, 10], "thickness": 0.01, "base": "isothermal", "distribution": "hertz"},
     "ContactAnchor": lambda: {"speed": 0.02, "temperature": 300.0, "load": 1e3, "indentation": None, "contact_area":
         None, "half_width": 1e-3, "error": 0.01},
     "ModulusAnchor": lambda: {"modulus": 8e6, "angular_frequency": 6.0, "temperature": 300.0, "part": "magnitude",

@@ -72,6 +72,9 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.shift import shift_friction as shift_friction
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement as ShiftAgreement
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
+    from viscofric.heat.maps import surface_temperature as surface_temperature
+    from viscofric.heat.sources import MovingHeatSource as MovingHeatSource
+    from viscofric.heat.track import track_temperature as track_temperature
     from viscofric.literature.citations import Citations as Citations
     from viscofric.literature.citations import citations as citations
     from viscofric.motion.cycle import solve_cycle as solve_cycle
@@ -240,6 +243,9 @@ _HOME = {
     "check_assumptions": "viscofric.friction.assumptions",
     "FrictionCurves": "viscofric.friction.curves",
     "ThermalProperties": "viscofric.thermal",
+    "MovingHeatSource": "viscofric.heat.sources",
+    "surface_temperature": "viscofric.heat.maps",
+    "track_temperature": "viscofric.heat.track",
     "ContactAnchor": "viscofric.friction.identification.anchors",
     "ModulusAnchor": "viscofric.friction.identification.anchors",
     "Citations": "viscofric.literature.citations",
