@@ -57,12 +57,13 @@ def stepped(one: PeriodicMover, times: list[float]) -> list[Observation]:
     return seen
 
 
+@pytest.mark.parametrize("shape", [(1, 4), (4, 1), (2, 2)])  # waves that turn along y, along x, and aslant
 @pytest.mark.parametrize("kappa", [1e-7, 1e-2, 2.0, 50.0])
-def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float) -> None:
+def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float, shape: tuple[int, int]) -> None:
     # The closed form of what a mode dissipates, against Simpson's rule on 400 exact parts of the step.
     generator = np.random.default_rng(3)
-    turn = np.array([[0.0, 1e-5, 0.3, -4.0]])
-    q0, p0, p1 = generator.normal(size=(3, 1, 4)) + 1j * generator.normal(size=(3, 1, 4))
+    turn = np.array([0.0, 1e-5, 0.3, -4.0]).reshape(shape)
+    q0, p0, p1 = generator.normal(size=(3, *shape)) + 1j * generator.normal(size=(3, *shape))
     modes = Modes(1.0, np.array([2.0]), np.array([1.0]))
     whole = advance(StepResponse.of(modes, kappa, turn), modes, q0[None], p0, p1)
     parts = 400
@@ -128,8 +129,8 @@ def test_what_was_there_before_goes_on(before: str) -> None:
         assert later.friction_force == pytest.approx(first.friction_force, rel=1e-5, abs=1e-4)
         assert later.depth == pytest.approx(first.depth, rel=1e-5)
         assert later.stored == pytest.approx(first.stored, rel=1e-5)
-    # Sliding dissipates friction times path, rest nothing.
-    assert others[-1].dissipated == pytest.approx(first.friction_force[0] * speed, rel=1e-4, abs=1e-12)
+    # Sliding dissipates friction times path, rest nothing but the rounding of a memory in single precision.
+    assert others[-1].dissipated == pytest.approx(first.friction_force[0] * speed, rel=1e-4, abs=1e-7 * first.stored)
 
 
 @pytest.mark.slow
@@ -259,6 +260,29 @@ def test_modes_are_merged_at_any_speed(speed: float) -> None:
     assert modes.error <= 1e-3
     assert modes.relaxed == pytest.approx(1e-6)
     assert modes.creep_compliance(0.05) == pytest.approx(creep(0.05), rel=1e-3)
+
+
+@pytest.mark.parametrize("direction", [(0.0, 1.0), (0.6, 0.8)])
+def test_memory_in_single_precision_only_rounds(direction: tuple[float, float]) -> None:
+    # The memory is rounded to 6e-8 of itself in each of 12 steps.
+    history = vf.History([0.0, 0.01], pressure=2e3, speed=0.1, direction=direction)
+    seen = []
+    for precision in (np.complex64, np.complex128):
+        one = mover(TWO_MODES, crossed(9), history)
+        one.precision = precision
+        last = stepped(one, np.linspace(0.0, 0.01, 13).tolist())[-1]
+        seen.append([last.depth, *last.friction_force, last.stored, last.dissipated])
+    assert seen[0] != seen[1]
+    assert seen[0] == pytest.approx(seen[1], rel=2e-6)
+
+
+@pytest.mark.parametrize("before", ["untouched", "at rest"])
+def test_contact_without_memory_is_elastic(before: str) -> None:
+    history = vf.History([0.0, 0.01], pressure=2e3, speed=0.1, before=before)
+    one = mover(TWO_MODES, profile(16), history, modes=Modes(1e-6, np.zeros(0), np.zeros(0)))
+    first, last = stepped(one, [0.0, 0.01])
+    assert last.depth == pytest.approx(first.depth)
+    assert last.dissipated == pytest.approx(0.0, abs=1e-9 * last.stored)
 
 
 def test_memory_is_finite_for_instant_steps() -> None:

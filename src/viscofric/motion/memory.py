@@ -35,22 +35,26 @@ _SERIES_BELOW, _TERMS = 0.3, 12
 _SAMPLES_PER_DECADE = 12
 
 
-def phi(z: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Return φ1(z) = (e^z − 1)/z and φ2(z) = (φ1(z) − 1)/z to rounding, for real or complex z with Re z ≤ 0."""
+def phi(z: ArrayLike, count: int = 2, exponential: NDArray[Any] | None = None) -> list[NDArray[Any]]:
+    """Return φ1(z) = (e^z − 1)/z, φ2(z) = (φ1(z) − 1)/z, φ3(z) = (φ2(z) − ½)/z, … to rounding, for Re z ≤ 0.
+
+    `exponential` is e^z, if that is known.
+    """
     z = np.asarray(z)
     small = np.abs(z) < _SERIES_BELOW
-    safe = np.where(small, 1.0, z)
-    first = (np.exp(safe) - 1.0) / safe
-    second = (first - 1.0) / safe
+    inverse = 1.0 / np.where(small, 1.0, z)
+    found = [np.asarray(np.exp(z) if exponential is None else exponential)]
+    for order in range(count):
+        found.append(np.asarray((found[-1] - 1.0 / math.factorial(order)) * inverse))
     if small.any():
-        near = np.where(small, z, 0.0)
-        # φ2 = Σ z^n/(n + 2)!, by Horner's rule; φ1 = 1 + z φ2.
-        series = np.full_like(near, 1.0 / math.factorial(_TERMS + 2))
-        for power in range(_TERMS - 1, -1, -1):
-            series = series * near + 1.0 / math.factorial(power + 2)
-        first = np.where(small, 1.0 + near * series, first)
-        second = np.where(small, series, second)
-    return first, second
+        near = z[small]
+        # φ_m = Σ z^n/(n + m)!, by Horner's rule; φ_m = 1/m! + z φ_{m+1}.
+        series = np.full_like(near, 1.0 / math.factorial(_TERMS + count))
+        for power in range(_TERMS + count - 1, 0, -1):
+            series = series * near + 1.0 / math.factorial(power)
+            if power <= count:
+                found[power][small] = series
+    return found[1:]
 
 
 class StepCoefficients(NamedTuple):

@@ -50,10 +50,10 @@ _KEPT = 2
 # Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
 # that part of it in which a point is passed from which on the passage is the shortest time.
 _MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
-# Points from which on residuals are extended, which saves products but costs time.
-_EXTENDED = 10_000
+_EXTENDED = 10_000  # points from which on residuals are extended, which saves products but costs time
 _SHARES = (0.05, 0.3)  # see `march`: for ridges, and for spots, where errors of steps that come and go nearly cancel
 _SAME = 1e-12  # relative difference up to which steps are the same
+_SINGLE = 1e-4  # accuracy from which on memory is in single precision: each step rounds it to 6e-8 of itself
 
 
 def merged_modes(problem: Problem) -> Modes:
@@ -111,19 +111,18 @@ class PeriodicMover:
         self.grid = Waves(surface.shape, surface.spacing, problem.material.poisson_ratio, problem.layer)
         self.backend = Backend()
         spectrum = merged_modes(problem) if modes is None else modes
-        # Units: m, m/Pa, Pa.
-        self.depth_unit = surface.rms_height
+        self.depth_unit = surface.rms_height  # m; the others: m/Pa, Pa
         self.response_unit = float(self.grid.response.max())
         self.compliance_unit = self.response_unit * spectrum.relaxed
         self.pressure_unit = self.depth_unit / self.compliance_unit
         self.modes = Modes(spectrum.instantaneous / spectrum.relaxed, spectrum.C / spectrum.relaxed, spectrum.tau)
         self._shape = self.grid.response / self.response_unit
-        # Memory is kept with the factor √(w G).
-        self._scale = np.sqrt(self.grid.weights * self._shape)
+        self._scale = np.sqrt(self.grid.weights * self._shape)  # √(w G), a factor of the memory
         self._unscaled = np.sqrt(self._shape / self.grid.weights)
         self._rigid = self.grid.rigid_factor * (problem.counterface / self.compliance_unit)
         self.height = (surface.z.max() - surface.z) / self.depth_unit
         self.mean_height = float(self.height.mean())
+        self.precision = np.complex64 if problem.accuracy >= _SINGLE else np.complex128
         self._tightness = _TIGHTNESS * problem.accuracy
         self.share = _SHARES[min(surface.shape) > 1]
         self.products = 0
@@ -144,22 +143,22 @@ class PeriodicMover:
         waves = self.grid.of(nothing)
         first = schedule.at(schedule.start, after=False)
         if schedule.before == "untouched":
-            memory = np.zeros((len(modes), *waves.shape), complex)
+            memory = np.zeros((len(modes), *waves.shape), self.precision)
             depth = 0.0 if first.gap is None else self.mean_height - first.gap / self.depth_unit
             return PeriodicState(nothing, waves, memory, depth, (0.0, 0.0), 0.0, 0.0)
         moving = schedule.velocity(schedule.start) if schedule.before == "sliding" else np.zeros(2)
         turn = self.grid.turn(moving)
         # A steady wave has q = p/(1 − iτ q·v).
         shares = [1.0 / (1.0 - 1j * time * turn) if moving.any() else np.ones((1, 1)) for time in modes.tau]
-        compliance = np.full(turn.shape, modes.instantaneous, complex if moving.any() else float)
-        for C, share in zip(modes.C, shares, strict=True):
-            compliance += C * share
-        problem = self._made(StepResponse(np.zeros(0), turn, None, np.zeros((1, 1)), compliance), moving)
+        compliance = modes.instantaneous + sum(C * share for C, share in zip(modes.C, shares, strict=True))
+        problem = self._made(StepResponse.steady(turn, compliance), moving)
         past = np.zeros(turn.shape, complex)
         pressure, depth = self._solved(problem, past, first, None)
         waves = self.grid.of(pressure)
         scaled = self._scale * waves
-        memory = np.array([share * scaled for share in shares]).reshape(len(modes), *waves.shape)
+        memory = np.empty((len(modes), *waves.shape), self.precision)
+        for each, share in zip(memory, shares, strict=True):
+            each[...] = share * scaled
         stored = 0.5 * float(np.linalg.norm(self._roots * memory)) ** 2
         return self._state(pressure, waves, memory, problem.response, past, depth, (stored, 0.0), None)
 

@@ -1,83 +1,104 @@
 """Memory of every wave of a periodic contact, with the energies that its modes store and dissipate.
 
-Within a step the pressure p0 + Δp θ of a wave is linear in its time θ, from 0 to 1.  The delayed pressure is, with
-z = −κ + ib, b = q·Δs and s = −κ/z, ::
+Within a step the pressure of a wave is linear in its time θ, from p0 to p1, and a delayed pressure obeys
+dq/dθ = z q + κ p with z = −κ + ib, b = q·Δs.  With φ_j = (φ_{j−1} − 1/(j−1)!)/z and φ_0 = e^z, it ends at ::
 
-    q(θ) = (q0 − A) e^{zθ} + A + B θ,      B = s Δp,   A = s (p0 − B/κ).
+    q1 = e^z q0 + α p0 + β p1,      α = κ (φ1 − φ2),   β = κ φ2.
 
-A mode dissipates C G |r|²/τ with r = p − q, which obeys dr/dθ = z r + f, f = Δp − ib (p0 + Δp θ).  So ::
+A mode dissipates C G |p − q|²/τ.  Since κ (p − q) is the rate of q at a point of the solid, ::
 
-    κ ∫|r|² dθ = ½ (|r0|² − |r1|²) + Re ∫ r* f dθ,
+    κ ∫ |p − q|² dθ = κ Re ∫ p* (p − q) dθ − ½ (|q1|² − |q0|²),
 
-and the integrals of r and r θ follow from that equation.  For |z| near zero, where A and B cancel, power series
-replace them.
+where κ ∫ p* q dθ is (β p0* + α p1*) q0 from what was there before, and the rest, with κ ∫ |p|² dθ, is ::
+
+    Re κ [φ2 − φ3 − ib (φ3 − φ4)] (|p0|² + |p1|²)
+        + Re κ [φ3 − ib φ4 + φ1* − 2 φ2* + φ3* + ib (φ2* − 2 φ3* + φ4*)] p0* p1.
 
 Waves of pressures and memory are multiplied by √(w G), w their weights in a mean over the grid: their squares are
-energies.
+energies.  Memory may be in single precision; sums over waves are in double precision.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.motion.memory import step_coefficients
+from viscofric.motion.memory import StepCoefficients, phi
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray, Mask
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.motion.memory import Modes
 
 
-# |z| below which series are used: the closed forms lose 1e-16/|z| of their digits there, the series 1e-12.
-_SERIES_BELOW = 1e-3
-# Waves processed at once; their arrays stay in the processor's cache.
-_BLOCK = 8192
+# Waves processed at once: those of all modes stay in the processor's cache.
+_BLOCK = 2048
 
 
 @dataclass(frozen=True, eq=False)
 class StepResponse:
-    """Response of all modes together to the pressures of one step."""
+    """Response of all modes together to the pressures of one step.
+
+    Arrays over waves are (rows, columns), or have one row or column where all are equal.
+    """
 
     steps: Array  # (n,) κ of each mode
-    turn: Array  # (rows, columns) q·Δs
-    phase: ComplexArray | None  # e^{iq·Δs}; None without motion
+    turn: Array  # q·Δs
     start: ComplexArray | Array  # Σ C α: compliance to the pressure at the beginning
     end: ComplexArray | Array  # 1/E_inf + Σ C β: compliance to the pressure at the end
+    loss: Array  # factor of |p0|² + |p1|² in the dissipated energy, and …
+    mixed: ComplexArray | Array  # … of p0* p1
+    few: StepCoefficients | None  # of each mode, (n, rows, columns), if these are few
 
     @classmethod
     def of(cls, modes: Modes, clock_step: float, turn: Array) -> StepResponse:
         """Return the response to a step, given its duration on the material's clock and the turn of each wave."""
         steps = clock_step / modes.tau
-        moves = bool(turn.any())
-        kind = complex if moves else float
-        start, end = np.zeros(turn.shape, kind), np.full(turn.shape, modes.instantaneous, kind)
-        phase = np.exp(1j * turn) if moves else None
-        for compliance, kappa in zip(modes.C, steps, strict=True):
-            if phase is None or kappa < _SERIES_BELOW:
-                found = step_coefficients(kappa, turn if moves else 0.0)
-                start += compliance * found.start
-                end += compliance * found.end
-                continue
-            share = _share(float(kappa), turn)
-            both = share * (1.0 - np.exp(-kappa) * phase)  # α + β
-            share *= 1.0 - both / kappa  # β
-            both -= share
-            start += compliance * both
-            end += compliance * share
-        return cls(steps, turn, phase, start, end)
+        if not turn.any():
+            turn = np.zeros((1, 1))
+        narrow = 1 in turn.shape
+        sums = np.empty((4, *turn.shape), complex if turn.any() else float)
+        few = None
+        for rows in [slice(None)] if narrow else _blocks(*turn.shape):
+            decay, found = _functions(steps, turn[rows], 4)
+            few = _coefficients(steps, decay, found) if narrow else None
+            for each, total in zip(found, sums, strict=True):
+                total[rows] = _weighted(modes.C * steps, each)
+        one, two, three, four = sums
+        bend = 1j * turn if turn.any() else 0.0
+        loss = (two - three - bend * (three - four)).real
+        mixed = three - bend * four + np.conj(one - 2.0 * two + three - bend * (two - 2.0 * three + four))
+        return cls(steps, turn, one - two, modes.instantaneous + two, loss, mixed, few)
+
+    @classmethod
+    def steady(cls, turn: Array, compliance: ComplexArray | Array) -> StepResponse:
+        """Return the response to a pressure that has always been there."""
+        none = np.zeros((1, 1))
+        return cls(np.zeros(0), turn, none, compliance, none, none, None)
 
     def known(self, modes: Modes, memory: ComplexArray, pressure: ComplexArray) -> ComplexArray:
         """Return waves of the displacement at the end of the step that the past causes, for a unit transfer function.
 
         They carry the same factor as memory (n, rows, columns) and pressure (rows, columns).
         """
-        found = np.tensordot(modes.C * np.exp(-self.steps), memory, 1)
-        if self.phase is not None:
-            found *= self.phase
+        found = _weighted(modes.C * np.exp(-self.steps), memory).astype(complex)
+        if self.turn.any():
+            found *= np.exp(1j * self.turn)
         found += self.start * pressure
         return np.asarray(found)
+
+    def coefficients(self, rows: slice) -> StepCoefficients:
+        """Return the coefficients of each mode for some rows of waves: (n, rows, columns), or 1 where all are equal."""
+        if self.few is None:
+            return _coefficients(self.steps, *_functions(self.steps, self.turn[rows], 2))
+        if len(self.turn) == 1:
+            return self.few
+        return StepCoefficients(*(each[:, rows] for each in self.few))
 
 
 class Advanced(NamedTuple):
@@ -86,22 +107,6 @@ class Advanced(NamedTuple):
     memory: ComplexArray  # (n, rows, columns)
     stored: float  # ½ Σ C |q|² at the end
     dissipated: float  # Σ C ∫ |p − q|²/τ dt in the step
-
-
-class _Pressures(NamedTuple):
-    """Quantities common to all modes in a block of waves."""
-
-    turn: Array
-    phase: ComplexArray | None
-    before: ComplexArray
-    change: ComplexArray
-    after: ComplexArray
-    squares: float  # |p|² at the beginning minus that at the end
-    # f = constant + linear θ; its integral and that of θ f, each without the part of p in r0 − r1 and −r1
-    constant: ComplexArray
-    linear: ComplexArray
-    rest: ComplexArray
-    moment: ComplexArray
 
 
 def advance(
@@ -118,111 +123,66 @@ def advance(
     The given memory is overwritten unless `keep` is set.
     """
     found = np.empty_like(memory) if keep else memory
-    stored = dissipated = 0.0
-    turns, befores, afters = response.turn.reshape(-1), before.reshape(-1), after.reshape(-1)
-    phases = None if response.phase is None else response.phase.reshape(-1)
-    old, new = memory.reshape(len(modes), -1), found.reshape(len(modes), -1)
-    for start in range(0, turns.size, _BLOCK):
-        part = slice(start, start + _BLOCK)
-        given = _pressures(turns[part], None if phases is None else phases[part], befores[part], afters[part])
-        for k, (compliance, kappa) in enumerate(zip(modes.C, response.steps, strict=True)):
-            loss = _one(float(kappa), given, old[k, part], new[k, part])
-            dissipated += compliance * loss
-            stored += 0.5 * compliance * _square(new[k, part])
-    return Advanced(found, float(stored), float(dissipated))
+    squares = np.square(np.abs(before)) + np.square(np.abs(after))
+    dissipated = float((response.loss * squares).sum()) + float((response.mixed * np.conj(before) * after).sum().real)
+    old_squares, new_squares = np.zeros((2, len(modes)))
+    for rows in _blocks(*before.shape):
+        decay, *pair = response.coefficients(rows)
+        pressures, old, new = np.stack([before[rows], after[rows]]), memory[:, rows], found[:, rows]
+        old_squares += _squares(old)
+        dissipated -= float(np.vdot(pressures, _summed(modes.C, pair[::-1], old)).real)
+        np.multiply(old, decay.astype(memory.dtype), out=new)
+        new += _spread(pair, pressures.astype(memory.dtype))
+        new_squares += _squares(new)
+    stored = 0.5 * float(modes.C @ new_squares)
+    return Advanced(found, stored, dissipated - stored + 0.5 * float(modes.C @ old_squares))
 
 
-def _pressures(turn: Array, phase: ComplexArray | None, before: ComplexArray, after: ComplexArray) -> _Pressures:
-    change, squares = after - before, _square(before) - _square(after)
-    if phase is None:
-        none = np.zeros_like(change)
-        return _Pressures(turn, phase, before, change, after, squares, change, none, none, none)
-    rate = -1j * turn
-    constant, linear = change + rate * before, rate * change
-    rest, moment = constant + 0.5 * linear - change, 0.5 * constant + linear / 3.0 - after
-    return _Pressures(turn, phase, before, change, after, squares, constant, linear, rest, moment)
+def _blocks(rows: int, columns: int) -> Iterator[slice]:
+    """Yield some rows at a time."""
+    count = max(1, _BLOCK // columns)
+    return (slice(start, start + count) for start in range(0, rows, count))
 
 
-def _square(values: ComplexArray) -> float:
-    return float(np.vdot(values, values).real)
+def _functions(steps: Array, turn: Array, count: int) -> tuple[NDArray[Any], list[NDArray[Any]]]:
+    """Return e^z of each mode for some waves, (n, rows, columns), and φ1, φ2, … of it."""
+    z = -steps[:, None, None]
+    decay = np.exp(z)
+    if turn.any():
+        decay, z = decay * np.exp(1j * turn), z + 1j * turn
+    return decay, phi(z, count, decay)
 
 
-def _product(one: ComplexArray, other: ComplexArray) -> float:
-    return float(np.vdot(one, other).real)
+def _coefficients(steps: Array, decay: NDArray[Any], functions: list[NDArray[Any]]) -> StepCoefficients:
+    kappa, (one, two) = steps[:, None, None], functions[:2]
+    return StepCoefficients(decay, kappa * (one - two), kappa * two)
 
 
-def _one(kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray) -> float:
-    """Write q after a step into q1, which may be q0; return κ ∫ |p − q|² dθ, summed over the waves."""
-    turn, phase, p0, change, p1 = given[:5]
-    if kappa == 0.0:
-        np.multiply(1.0 if phase is None else phase, q0, out=q1)
-        return 0.0
-    if kappa < _SERIES_BELOW:
-        small = np.hypot(kappa, turn) < _SERIES_BELOW
-        if small.any():
-            return _near(kappa, given, q0, q1, small)
-    if phase is None:
-        level = p0 - change / kappa
-        new = q0 - level
-        new *= np.exp(-kappa)
-        level += change
-        new += level
-        np.subtract(new, q0, out=level)
-        level += given.rest
-        work = _product(level, given.constant) / kappa
-    else:
-        share = _share(kappa, turn)
-        slope = share * change
-        level = slope * (-1.0 / kappa)
-        level += p0
-        level *= share
-        new = q0 - level
-        new *= phase
-        new *= np.exp(-kappa)
-        level += slope
-        new += level
-        share *= 1.0 / kappa
-        np.subtract(new, q0, out=level)
-        level += given.rest
-        level *= share  # ∫ r dθ
-        work = _product(level, given.constant)
-        level += new
-        level += given.moment
-        level *= share  # ∫ r θ dθ
-        work += _product(level, given.linear)
-    # |r|² at the ends, expanded, so that no array of r is needed.
-    ends = given.squares + _square(q0) - _square(new)
-    loss = 0.5 * ends - _product(p0, q0) + _product(p1, new) + work
-    q1[...] = new
-    return loss
+def _weighted(weights: Array, fields: NDArray[Any]) -> NDArray[Any]:
+    """Return the sum of fields (n, rows, columns) with real weights (n,)."""
+    real = fields.real.dtype
+    found = np.tensordot(weights.astype(real), np.ascontiguousarray(fields).view(real), 1)
+    return np.asarray(found.view(fields.dtype))
 
 
-def _share(kappa: float, turn: Array) -> ComplexArray:
-    """Return s = 1/(1 − ib/κ)."""
-    found = np.empty(turn.shape, complex)
-    slant = turn * (1.0 / kappa)
-    size = slant * slant
-    size += 1.0
-    np.reciprocal(size, out=size)
-    found.real = size
-    np.multiply(slant, size, out=found.imag)
-    return found
+def _spread(weights: list[NDArray[Any]], fields: ComplexArray) -> ComplexArray:
+    """Return the sum of two fields (2, rows, columns) with weights of each mode, two of (n, rows, columns)."""
+    if weights[0].shape[2] > 1:
+        first, second = (one.astype(fields.dtype) * field for one, field in zip(weights, fields, strict=True))
+        return np.asarray(first + second)
+    matrices = np.stack([one[:, :, 0].T for one in weights], axis=2).astype(fields.dtype)
+    return (matrices @ fields.transpose(1, 0, 2)).transpose(1, 0, 2)
 
 
-def _near(kappa: float, given: _Pressures, q0: ComplexArray, q1: ComplexArray, small: Mask) -> float:
-    """Do the same where some |z| are near zero: there r is nearly linear."""
-    moves, far = given.phase is not None, ~small
-    near = step_coefficients(kappa, given.turn[small] if moves else 0.0)
-    p0, p1, old = given.before[small], given.after[small], q0[small]
-    new = near.decay * old + near.start * p0 + near.end * p1
-    first, last = p0 - old, p1 - new
-    loss = kappa / 3.0 * (_square(first) + _square(last) + _product(first, last))
-    if far.any():
-        rest = _pressures(
-            given.turn[far], None if given.phase is None else given.phase[far], given.before[far], given.after[far]
-        )
-        others = q0[far]
-        loss += _one(kappa, rest, others, others)
-        q1[far] = others
-    q1[small] = new
-    return loss
+def _summed(compliances: Array, weights: list[NDArray[Any]], memory: ComplexArray) -> ComplexArray:
+    """Return Σ C w q over modes for a memory q and each of the weights w (n, rows, columns)."""
+    if weights[0].shape[2] > 1:
+        return np.array([_weighted(compliances, one.astype(memory.dtype) * memory) for one in weights])
+    matrices = np.stack([(compliances[:, None] * one[:, :, 0]).T for one in weights], axis=1).astype(memory.dtype)
+    return (matrices @ memory.transpose(1, 0, 2)).transpose(1, 0, 2)
+
+
+def _squares(memory: ComplexArray) -> Array:
+    """Return the sum of |q|² of each mode."""
+    parts = memory.view(memory.real.dtype)
+    return np.asarray(np.einsum("krx,krx->kr", parts, parts).sum(axis=1, dtype=float))

@@ -75,9 +75,11 @@ class Waves:
         return np.asarray(found / float(nx * ny) ** 2)
 
     def turn(self, path: Array) -> Array:
-        """Angle q·Δs by which each wave turns over a path (2,), m."""
+        """Angle q·Δs by which each wave turns over a path (2,), m; one column or row where it is along an axis."""
         qx, qy = self.numbers
-        return np.asarray(path[0] * qx + path[1] * qy)
+        if path[1] == 0.0:
+            return np.asarray(path[0] * qx)
+        return np.asarray(path[1] * qy + path[0] * qx if path[0] else path[1] * qy)
 
     def of(self, field: Array) -> ComplexArray:
         """Waves of a field (nx, ny)."""
