@@ -33,6 +33,11 @@ def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
     load.fill("20 mN")
     load.press("Tab")
     assert tab.value(f"{_HISTORY}.rows[2]") == [1.1, 0.02, 0]
+    page.get_by_role("button", name="Undo").click()
+    assert tab.value(f"{_HISTORY}.rows[2]") == [1.1, 10, 0]
+    assert load.input_value() == "10"
+    page.get_by_role("button", name="Redo").click()
+    assert tab.value(f"{_HISTORY}.rows[2]") == [1.1, 0.02, 0]
     load.fill("soon")
     load.press("Tab")
     assert load.get_attribute("aria-invalid") == "true"
@@ -85,6 +90,12 @@ def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
     time.fill("0.05")
     time.press("Tab")
     assert page.locator("#figure-motion-load.stale").count() == 1
+    for theme in ("dark", "light"):
+        page.get_by_role("button", name=f"change to {theme}").click()
+        page.mouse.move(0, 0)
+        tab.until("document.getAnimations().length === 0")
+        assert tab.findings() == [], theme
+        tab.screenshot(f"motion-stale-{theme}")
     solved(tab)
     page.locator(f"{_STEP} .notes.error:not([hidden])").first.wait_for()
     assert page.get_by_label("Time of point 4").get_attribute("aria-invalid") == "true"

@@ -60,7 +60,7 @@ export function studyHistory({ state, fields, units, api, explain, announce }, {
     form.hidden = show.hidden = remove.hidden = !has;
     words.textContent = has
       ? "Export and viscofric run also solve the study over time; stages use its loads and speeds."
-      : "To solve the study over time too, add a history; Export and viscofric run then include it.";
+      : "“Use in the study” adds this history to the run file; Export and viscofric run then also solve over time.";
   };
   state.subscribe("history", refresh);
   refresh();

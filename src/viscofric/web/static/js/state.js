@@ -13,6 +13,7 @@
 // state.undo(), state.redo(), state.canUndo, state.canRedo
 // state.setResult(key, value), state.result(key), state.onResult(key, callback)    what steps hand to each other
 // state.view(key, otherwise), state.setView(key, value)    what is chosen on the page but is no part of the study
+// state.edit(key, value)            the same as one step of undo; subscribe to "view.key"
 
 const KEY = "viscofric.study";
 const VIEW = "viscofric.view";
@@ -98,19 +99,23 @@ function createState() {
     }
   }
 
-  function become(next, changed) {
-    if (JSON.stringify(next) === JSON.stringify(study)) return;
-    past = [...past.slice(1 - MOST_UNDO), { study, changed }];
+  const setView = (key, value) => store(VIEW, (views = { ...views, [key]: value }));
+
+  function become(next, changed, edited = null) {
+    if (!edited && JSON.stringify(next) === JSON.stringify(study)) return;
+    past = [...past.slice(1 - MOST_UNDO), { study, changed, edited: edited && [edited[0], views[edited[0]]] }];
     future = [];
     study = frozen(next);
+    if (edited) setView(...edited);
     notify(changed);
   }
 
   function move(from, to) {
     const last = from.pop();
     if (!last) return false;
-    to.push({ study, changed: last.changed });
+    to.push({ ...last, study, edited: last.edited && [last.edited[0], views[last.edited[0]]] });
     study = frozen(last.study);
+    if (last.edited) setView(...last.edited);
     notify(last.changed);
     return true;
   }
@@ -168,10 +173,8 @@ function createState() {
       return () => resultListeners.delete(listener);
     },
     view: (key, otherwise) => (key in views ? views[key] : otherwise),
-    setView(key, value) {
-      views = { ...views, [key]: value };
-      store(VIEW, views);
-    },
+    setView,
+    edit: (key, value) => become(study, [`view.${key}`], [key, value]),
   };
 }
 

@@ -127,10 +127,10 @@ export function mount(section, app) {
   section.append(h("div", { class: "columns" }, h("div", {}, form), h("div", {}, drawing, found)));
 
   /** Begin with an example of the study's contact. */
-  function begin(name) {
+  function begin(name, keep) {
     const contact = contactOf(state.study);
     const values = Object.fromEntries(Object.entries(IMPACT).map(([key, [, value]]) => [key, value]));
-    change({
+    const begun = {
       preset: name,
       contact,
       control: Object.keys(CONTROLS[contact])[0],
@@ -138,12 +138,18 @@ export function mount(section, app) {
       before: "untouched",
       rows: presetRows(name, state.study),
       impact: history?.impact ?? values,
-    });
+    };
+    change(begun, keep);
   }
 
-  function change(values) {
-    history = { temperature: null, ...history, ...values };
-    state.setView("motion", history);
+  /** Change the history, as a step of undo unless it follows from the study. */
+  function change(values, keep = state.edit) {
+    keep("motion", { temperature: null, ...history, ...values });
+    if (keep !== state.edit) changed();
+  }
+
+  function changed() {
+    history = state.view("motion");
     outdated(result);
     failed.set([]);
     show();
@@ -234,10 +240,11 @@ export function mount(section, app) {
     pictures.show(result, app.isSynthetic(studyOf(result)));
   }
 
-  if (!history || history.contact !== contactOf(state.study)) begin("hold");
+  if (!history || history.contact !== contactOf(state.study)) begin("hold", state.setView);
   else show();
+  state.subscribe("view.motion", changed);
   state.subscribe(DEPENDS_ON.motion, () =>
-    history.contact === contactOf(state.study) ? show() : begin(history.preset),
+    history.contact === contactOf(state.study) ? show() : begin(history.preset, state.setView),
   );
   units.subscribe(() => {
     show();
