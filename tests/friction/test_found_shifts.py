@@ -108,11 +108,12 @@ def test_planted_shift_factors_are_found_without_noise() -> None:
 
 
 @pytest.mark.slow
-def test_95_per_cent_intervals_hold_95_per_cent() -> None:
-    """Over 100 seeds; 1000 hold 94.9 % of each α and 94.5 % of all together, and none raises a false alarm."""
+@pytest.mark.parametrize("seeds", [30, pytest.param(100, marks=pytest.mark.apart)])
+def test_95_per_cent_intervals_hold_95_per_cent(seeds: int) -> None:
+    """1000 seeds hold 94.9 % of each α and 94.5 % of all together, and none raises a false alarm."""
     law = planted_law()
     inside, slopes, together = [], [], []
-    for seed in range(100):
+    for seed in range(seeds):
         master = shift_friction(synthetic_curves(noise=NOISE, seed=seed))
         assert LEFT_OUT not in codes(master.notes)
         factors = master.shift_factors
@@ -121,10 +122,11 @@ def test_95_per_cent_intervals_hold_95_per_cent() -> None:
         agreement = compare_shift_factors(master, law)
         slopes.append(abs(agreement.slope - 1.0) < 1.96 * agreement.slope_error)
         together.append(agreement.p_value > 0.05)
-    # The asked 95 ± 5 %: of 800 correlated values and of 100 independent ones (whose standard deviation is 2.2 %).
-    assert 0.90 <= np.mean(inside) <= 1.0
-    assert np.mean(slopes) >= 0.89
-    assert np.mean(together) >= 0.89
+    # The standard deviation of 100 independent values is 2.2 %, that of 800 correlated ones less.
+    wider = np.sqrt(100 / seeds)
+    assert np.mean(inside) >= 0.95 - 0.05 * wider
+    assert np.mean(slopes) >= 0.95 - 0.06 * wider
+    assert np.mean(together) >= 0.95 - 0.06 * wider
 
 
 @pytest.mark.parametrize("true", [3.0, 4.0, 8.0])
@@ -233,7 +235,7 @@ def test_friction_that_does_not_depend_on_speed_shows_no_shift(noise: float) -> 
 @pytest.mark.slow
 def test_what_chance_makes_of_constant_friction_is_refused() -> None:
     """Of many pairs of curves without slope some seem to overlap: what they join must not be one constant."""
-    for seed in range(40):
+    for seed in range(20):
         curves = made(
             constant, *np.arange(30.0, 111.0, 10.0), speeds=np.geomspace(0.02, 0.2, 8), noise=NOISE, seed=seed
         )

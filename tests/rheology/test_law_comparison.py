@@ -39,7 +39,7 @@ def measured(law, temperatures, seed, step=0.01, scatter=0.0):
 
 @pytest.mark.parametrize("kind", PLANTED)
 @pytest.mark.parametrize(
-    ("scatter", "seeds"), [(0.0, 2), *(pytest.param(s, 10, marks=pytest.mark.slow) for s in (0.0, 0.03))]
+    ("scatter", "seeds"), [(0.0, 2), (0.03, 5), *(pytest.param(s, 10, marks=pytest.mark.apart) for s in (0.0, 0.03))]
 )
 def test_the_planted_law_is_chosen(kind, scatter, seeds):
     law, temperatures = PLANTED[kind]
@@ -47,7 +47,7 @@ def test_the_planted_law_is_chosen(kind, scatter, seeds):
         measured(law, temperatures, seed, scatter=scatter).compare_laws().chosen.kind for seed in range(seeds)
     )
     # Of a hundred seeds 99 or all for WLF with and without a glass, 95 and 90 for Arrhenius, which WLF comprises:
-    # errors feign a curvature.  Of ten, three wrong ones come once in fifteen at worst.
+    # errors feign a curvature.  Of ten, three wrong ones come once in fifteen at worst, of five two once in twelve.
     assert chosen[kind] >= 0.8 * seeds
 
 
@@ -56,8 +56,8 @@ def test_the_planted_law_is_chosen(kind, scatter, seeds):
 def test_few_temperatures_do_not_hide_a_curve_that_the_errors_show(kind):
     """Six of them; a straight line misses WLF by up to 0.13 decades, thirteen standard errors of 0.01."""
     law, temperatures = PLANTED[kind][0], np.arange(30.0, 71.0, 8.0) + 273.15
-    found = [measured(law, temperatures, seed).compare_laws() for seed in range(10)]
-    assert Counter(one.chosen.kind for one in found)[kind] >= 9  # nine in ten
+    found = [measured(law, temperatures, seed).compare_laws() for seed in range(5)]
+    assert Counter(one.chosen.kind for one in found)[kind] >= 4  # nine in ten
 
 
 @pytest.mark.slow
@@ -66,11 +66,11 @@ def test_a_fitted_law_is_as_uncertain_as_it_says():
     for kind, (law, temperatures) in PLANTED.items():
         asked = np.array([temperatures[1] + 4.0, temperatures[-2] + 3.0, temperatures[-1] + 20.0])
         inside = []
-        for seed in range(60):
+        for seed in range(30):
             fitted = measured(law, temperatures, seed).law(kind)
             inside.append(np.abs(fitted.log10(asked) - law.log10(asked)) < 1.96 * fitted.standard_error(asked))
-        # 60 seeds: 95 ± 2.8 % (one sigma); three sigma allowed.
-        assert np.all(np.mean(inside, axis=0) > 0.866), kind
+        # 30 seeds: 95 ± 4 % (one sigma); three sigma allowed.
+        assert np.all(np.mean(inside, axis=0) > 0.83), kind
 
 
 def test_wlf_and_vft_are_one_curve_and_one_candidate():
@@ -183,7 +183,7 @@ def test_two_temperatures_fix_an_arrhenius_law_that_nothing_tests():
     assert "law-exact" in codes(found.notes)
 
 
-@pytest.mark.parametrize("count", [3, *(pytest.param(count, marks=pytest.mark.slow) for count in (4, 5, 6))])
+@pytest.mark.parametrize("count", [3, 4, *(pytest.param(count, marks=pytest.mark.apart) for count in (5, 6))])
 def test_a_straight_line_stays_one_at_few_temperatures(count):
     """WLF takes one constant more than Arrhenius: four in χ² have to pay for it, which noise does in 5 % of tables."""
     found = [measured(PLANTED["arrhenius"][0], WARM[2 : 2 + count], seed).compare_laws() for seed in range(10)]

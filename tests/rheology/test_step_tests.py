@@ -16,7 +16,6 @@ from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import LogSweep, join
 
 TIMES = np.logspace(-1.0, 2.0, 31)
-SEEDS = 12
 
 
 def rubber() -> vf.RetardationSpectrum:
@@ -237,11 +236,12 @@ def test_arguments_for_two_moduli_are_refused():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seeds", [4, pytest.param(12, marks=pytest.mark.apart)])
 @pytest.mark.parametrize(("kind", "noise"), [("creep", 0.005), ("relaxation", 0.02)])
-def test_bands_contain_what_was_planted(kind, noise):
+def test_bands_contain_what_was_planted(kind, noise, seeds):
     """As for sweeps; benchmarks/rheology counts over more problems."""
     inside: dict[str, list[float]] = {"alpha": [], "response": [], "storage": []}
-    for seed in range(SEEDS):
+    for seed in range(seeds):
         tests, material, reference = planted_steps(seed, noise, kind=kind)
         fit = vf.superpose(tests, reference)
         factors, time = fit.shift_factors, np.geomspace(*fit.master_curve.time[[0, -1]], 40)
@@ -260,9 +260,9 @@ def test_bands_contain_what_was_planted(kind, noise):
         moduli = drawn.modulus_band(omega)
         storage = true.complex_modulus(omega).real
         inside["storage"].append(np.mean((storage >= moduli.lower.real) & (storage <= moduli.upper.real)))
-    # Errors within one fit move together: over 12 seeds the mean differs by 0.04.
+    # Errors within one fit move together: over 12 seeds the mean differs by 0.04, over 4 by 0.07.
     for shares in inside.values():
-        assert np.mean(shares) == pytest.approx(0.95, abs=0.09)
+        assert np.mean(shares) == pytest.approx(0.95, abs=0.09 * np.sqrt(12 / seeds))
 
 
 @pytest.mark.slow

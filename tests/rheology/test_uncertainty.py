@@ -182,11 +182,11 @@ def test_horizontal_and_vertical_shifts_are_drawn_together():
 def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
     fitted = fit.shift_factors.law(law)
-    samples = sample_materials(fit, law=law, samples=400)
+    samples = sample_materials(fit, law=law, samples=200)
     constants = np.array([material.shift.parameters for material in samples.materials])
-    # Standard deviations from 400 draws are known to 3.5 %; four of that, and the logarithm in which they are drawn.
-    assert np.std(constants, axis=0) == pytest.approx(np.array(fitted.standard_errors), rel=0.16)
-    assert np.mean(constants, axis=0) == pytest.approx(fitted.parameters, abs=4 * max(fitted.standard_errors) / 20)
+    # Standard deviations from 200 draws are known to 5 %; four of that, and the logarithm in which they are drawn.
+    assert np.std(constants, axis=0) == pytest.approx(np.array(fitted.standard_errors), rel=0.22)
+    assert np.mean(constants, axis=0) == pytest.approx(fitted.parameters, abs=4 * max(fitted.standard_errors) / np.sqrt(200))
     assert samples.materials[0].shift.extrapolation_limits[0] > 0.0
     with refused("outside-fitted"):
         samples.materials[0].at("600 degC")
@@ -347,11 +347,12 @@ def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
 
 
 @pytest.mark.slow
-def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent():
+@pytest.mark.parametrize("seeds", [3, pytest.param(12, marks=pytest.mark.apart)])
+def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent(seeds):
     rubbers = ((vf.synthetic_fluoroelastomer(), 303.15, 0.01), (synthetic_polymer(), 298.15, 0.03))
     shares = []
     for truth, reference, noise in rubbers:
-        for seed in range(12):
+        for seed in range(seeds):
             fit = vf.superpose(planted_sweeps(seed, noise, material=truth).sweeps, reference)
             samples = sample_materials(fit, samples=100, seed=seed)
             omega = np.geomspace(*samples.frequency_range, 60)
@@ -362,11 +363,12 @@ def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent():
     storage, loss = np.mean(shares, axis=0)
     # Points of one curve err together: the share of one seed scatters by 13 % in E', 6 % in E'' and 7 % in both,
     # that of 24 by 2.7, 1.2 and 1.4 %; three of these about 95 %, and 0.5 % for limits from 100 samples.
-    assert storage > 0.865
-    assert 0.91 < loss < 0.99
-    assert 0.905 < 0.5 * (storage + loss) < 0.99
+    wider = np.sqrt(12 / seeds)
+    assert storage > 0.95 - 0.085 * wider
+    assert abs(loss - 0.95) < 0.04 * wider
+    assert abs(0.5 * (storage + loss) - 0.95) < 0.045 * wider
     # Of the twelve of each rubber the scatter is 2.0 %.
-    assert np.all(np.mean(np.reshape(shares, (2, 24)), axis=1) > 0.885)
+    assert np.all(np.mean(np.reshape(shares, (2, 2 * seeds)), axis=1) > 0.95 - 0.065 * wider)
 
 
 def test_draws_change_by_rounding_only_where_the_covariance_does():
