@@ -11,7 +11,7 @@ import pytest
 
 import viscofric as vf
 from gallery import standard_linear_solid
-from marks import slow
+from marks import apart, slow
 from refusals import refused
 from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, settled
 from viscofric.contact.free.geometry import LINE, POINT
@@ -33,7 +33,7 @@ LINE_PROBLEM = Problem(LINE, SOLID, Cylinder(radius=1.0), Control(load=LINE.para
 
 
 @pytest.mark.parametrize("problem", [PROBLEM, LINE_PROBLEM], ids=["point", "line"])
-@pytest.mark.parametrize("size", [10.0, *slow(1.0, 0.3), 0.05])
+@pytest.mark.parametrize("size", [10.0, *apart(1.0, 0.3), 0.05])
 def test_window_finds_the_contact_from_a_poor_guess(problem: Problem, size: float) -> None:
     """A first window ten times too large or twenty times too small ends around the same contact."""
     good, found = (find_window(problem, guess) for guess in (0.7, size))

@@ -11,7 +11,7 @@ import pytest
 import viscofric as vf
 from contact.dense_reference import solve_dense_contact
 from contact.made_surfaces import refined, self_affine
-from marks import slow
+from marks import apart, slow
 from refusals import refused
 from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.operator import PeriodicOperator
@@ -420,7 +420,8 @@ def test_more_speed_opens_the_contact() -> None:
 
 @pytest.mark.parametrize("pressure", [1e-6, 0.02, 0.5, 5.0, 50.0])
 @pytest.mark.parametrize(
-    ("modulus_ratio", "tau"), [(1.1, 1.0), (10.0, 1e-6), (1e3, 0.1), *slow((1e3, 1.0), (1e4, 10.0), (1e4, 1e6))]
+    ("modulus_ratio", "tau"),
+    [(1.1, 1.0), (10.0, 1e-6), (1e3, 0.1), *apart((1e3, 1.0)), *slow((1e4, 10.0)), *apart((1e4, 1e6))],
 )
 def test_one_retardation_time_converges_everywhere(modulus_ratio: float, tau: float, pressure: float) -> None:
     """Also where the discrete operator is almost skew, and from a few points of contact to all of them."""
@@ -448,7 +449,7 @@ def test_layers_converge(layer: Layer) -> None:
     assert abs(solution.diagnostics.energy) < 0.05  # grid, see above
 
 
-@pytest.mark.parametrize("accelerated", [False, *slow(True)])
+@pytest.mark.parametrize("accelerated", [False, *apart(True)])
 @pytest.mark.parametrize("control", ["load", "indentation"])
 def test_splitting_converges_alone_and_from_anywhere(accelerated: bool, control: str) -> None:
     surface, material = rough(32, shortest=4.0), broad()
@@ -476,7 +477,7 @@ def test_few_points_and_all_but_few_touch(pressure: float) -> None:
     assert area < 1e-3 if pressure < 1.0 else area > 0.999
 
 
-@pytest.mark.parametrize("speed", [*slow(0.0), 1.0])
+@pytest.mark.parametrize("speed", [*apart(0.0), 1.0])
 @pytest.mark.parametrize("kind", ["the same surface", *slow("a rougher one")])
 @pytest.mark.slow
 def test_work_does_not_grow_with_the_grid(kind: str, speed: float) -> None:

@@ -186,7 +186,9 @@ def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
     constants = np.array([material.shift.parameters for material in samples.materials])
     # Standard deviations from 200 draws are known to 5 %; four of that, and the logarithm in which they are drawn.
     assert np.std(constants, axis=0) == pytest.approx(np.array(fitted.standard_errors), rel=0.22)
-    assert np.mean(constants, axis=0) == pytest.approx(fitted.parameters, abs=4 * max(fitted.standard_errors) / np.sqrt(200))
+    assert np.mean(constants, axis=0) == pytest.approx(
+        fitted.parameters, abs=4 * max(fitted.standard_errors) / np.sqrt(200)
+    )
     assert samples.materials[0].shift.extrapolation_limits[0] > 0.0
     with refused("outside-fitted"):
         samples.materials[0].at("600 degC")
