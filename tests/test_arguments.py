@@ -43,6 +43,7 @@ COLUMNS = {
 MORE_COLUMNS = (
     *("coulomb", "coulomb_error", "coulomb_scatter", "consistency", "consistency_error", "slip", "offset"),
     *("material_error", "viscoelastic_lower", "viscoelastic_upper", "viscoelastic_freedom", "coulomb_freedom"),
+    *("mean_pressure", "mean_pressure_error"),
 )
 READINGS = {
     "disc_speed": np.array([-0.1, -0.1, 0.1, 0.1]),
@@ -118,6 +119,22 @@ def ramps():
     kelvin = np.arange(270.0, 330.0, 2.0)
     moduli = {omega: rubber().spectrum.complex_modulus(omega * wlf()(kelvin)) for omega in (6.0, 60.0)}
     return vf.TemperatureRamps(tuple(vf.TemperatureRamp(omega, kelvin, E.real, E.imag) for omega, E in moduli.items()))
+
+
+def eyring():
+    arrhenius = vf.Arrhenius(9e4, 300.0)
+    return vf.EyringShearStress(2e-26, 1e-6, shift=arrhenius, covariance=np.diag([1e-54, 1e-14, 1e6]), **stress_fit())
+
+
+def stress_fit():
+    return {"fitted_speeds": (0.01, 1.0), "fitted_temperatures": (290.0, 310.0), "fitted_pressures": (1e5, 1e6)}
+
+
+@functools.cache
+def rubbed():
+    mean = {"mean_pressure": np.full(N, 3e5), "mean_pressure_error": np.zeros(N)}
+    coulomb = {"coulomb": 0.3 * SPEED**0.1, "coulomb_error": np.full(N, 3e-3), "slip": SPEED}
+    return vf.FrictionCurves(**COLUMNS, **coulomb, **mean)
 
 
 def kraus():
@@ -431,7 +448,22 @@ CALLS: dict[str, Any] = {
     "Identified.standard_error": lambda: (from_indentation(), {"angular_frequency": np.array([1.0]), "relative": None}),
     "Identified.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
     "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":
-        [300.0], "load": 1e3, "samples": None, "accuracy": 3e-2, "workers": 1, "progress": None, "finest": 2048},
+        [300.0], "load": 1e3, "samples": None, "interface": eyring(), "slip": 0.1, "accuracy": 3e-2, "workers": 1,
+        "progress": None, "finest": 2048},
+    "shear_stress": lambda: {"curves": rubbed(), "contacts": rubbed(), "shift": None, "reference": 300.0,
+        "level_error": 0.0, "area_error": 0.0},
+    "ShearStress.law": lambda: (vf.shear_stress(rubbed(), rubbed()), {"kind": "power"}),
+    "ConstantShearStress": lambda: {"stress": 3e5, "shift": None, "covariance": np.eye(1), **stress_fit()},
+    "PowerShearStress": lambda: {"stress": 3e5, "exponent": 0.2, "speed": 0.1, "shift": wlf(), "covariance": np.eye(2),
+        **stress_fit()},
+    "EyringShearStress": lambda: {"activation_volume": 2e-26, "speed": 1e-6, "shift": wlf(), "covariance": np.eye(2),
+        **stress_fit()},
+    "GaussianShearStress": lambda: {"peak": 3e5, "speed": 0.1, "width": 2.0, "shift": wlf(), "covariance": np.eye(3),
+        **stress_fit()},
+    "InterfaceLaw.standard_error": lambda: (eyring(), {"speed": np.array([0.1, 1.0]), "temperature": 300.0}),
+    "InterfaceLaw.interval": lambda: (eyring(), {"speed": 0.1, "temperature": [300.0], "level": 0.95}),
+    "InterfaceLaw.extrapolates": lambda: (eyring(), {"speed": [0.1], "temperature": 300.0}),
+    "InterfaceLaw.to_dataset": lambda: (eyring(), {"speeds": [0.1], "temperatures": [300.0]}),
     "shift_friction": lambda: {"curves": shifting(), "shift": None, "reference": 300.0, "vertical_shift": None,
         "indenter": None, "load": None, "level_error": 0.0},
     "FrictionMasterCurve.standard_error": lambda: (friction_master_curve(), {"speed": np.array([0.05]), "temperature":
@@ -541,7 +573,8 @@ CALLS: dict[str, Any] = {
         "poisson_ratio": 0.5, "name": ""},
     "RoughFriction.interval": lambda: (rough_friction(), {"probability": 0.9}),
     "predict_rough_friction": lambda: {"material": rubber(), "surfaces": road(), "speeds": [0.1], "pressure": 5e3,
-        "temperatures": None, "workers": 1, "progress": None, "tolerance": 1e-6},
+        "temperatures": None, "interface": vf.ConstantShearStress(3e5), "workers": 1, "progress": None,
+        "tolerance": 1e-6},
     "self_affine": lambda: {"hurst": 0.8, **MADE, "shortest": 4e-5, "longest": 1.6e-4, "rolloff": None, "rms_height":
         None, "rms_slope": 0.1},
     "surface_from_spectrum": lambda: {"spectrum": spectrum(), **MADE},
@@ -605,6 +638,7 @@ def call(function, arguments):
 WITHOUT_CALL = {
     "catalogue",
     "synthetic_fluoroelastomer",
+    "InterfaceLaw",
     "ShiftLaw",
     "ShiftLaw.at_reference",
     "VerticalShift",

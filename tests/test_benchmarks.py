@@ -311,6 +311,21 @@ def test_benchmark_of_repeated_runs_measures_coverage_and_width(
 
 
 @pytest.mark.slow
+def test_benchmark_of_the_interface_counts_planted_laws_within_bands(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS / "friction"))
+    import interface
+
+    monkeypatch.setattr(interface, "KINDS", ("constant", "power"))
+    interface.main(["--problems", "4", "--json", str(tmp_path / "interface.json")])
+    assert "right law chosen" in capsys.readouterr().out
+    for row in read(tmp_path / "interface.json")["rows"]:
+        assert row["refused"] == 0
+        assert row["points"] > 0.5  # below a half in 1 of 70 such sets of four bands, which move as one
+
+
+@pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_benchmark_of_sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(BENCHMARKS / "study"))

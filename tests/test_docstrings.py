@@ -95,6 +95,7 @@ RETURNED = {
     "PerssonTheory",
     "ResultsComparison",
     "RoughFriction",
+    "ShearStress",
     "ShiftAgreement",
     "SpectrumFit",
     "StepCheck",
@@ -112,7 +113,7 @@ RETURNED = {
     "TransientSolution",
 }
 #: What other names need that no example can have: a class to be derived from, a workbook of an instrument.
-WITHOUT_EXAMPLE = {"ShiftLaw", "VerticalShift", "read_vendor_law"}
+WITHOUT_EXAMPLE = {"InterfaceLaw", "ShiftLaw", "VerticalShift", "read_vendor_law"}
 
 
 def examples() -> list[doctest.DocTest]:

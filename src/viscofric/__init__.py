@@ -66,6 +66,8 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.indentation.result import FittedRecord as FittedRecord
     from viscofric.friction.identification.indentation.result import MaterialFromIndentation as MaterialFromIndentation
     from viscofric.friction.identification.result import IdentifiedMaterial as IdentifiedMaterial
+    from viscofric.friction.interface.shear_stress import ShearStress as ShearStress
+    from viscofric.friction.interface.shear_stress import shear_stress as shear_stress
     from viscofric.friction.measurement.tribometry import separate as separate
     from viscofric.friction.prediction import predict_friction as predict_friction
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve as FrictionMasterCurve
@@ -105,6 +107,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.catalogue import catalogue as catalogue
     from viscofric.rheology.catalogue import catalogue_material as catalogue_material
     from viscofric.rheology.catalogue import synthetic_fluoroelastomer as synthetic_fluoroelastomer
+    from viscofric.rheology.interface.law import InterfaceLaw as InterfaceLaw
+    from viscofric.rheology.interface.laws import ConstantShearStress as ConstantShearStress
+    from viscofric.rheology.interface.laws import EyringShearStress as EyringShearStress
+    from viscofric.rheology.interface.laws import GaussianShearStress as GaussianShearStress
+    from viscofric.rheology.interface.laws import PowerShearStress as PowerShearStress
     from viscofric.rheology.material import Material as Material
     from viscofric.rheology.payne.at_strain import contact_strain as contact_strain
     from viscofric.rheology.payne.at_strain import material_at_strain as material_at_strain
@@ -258,6 +265,8 @@ _HOME = {
     "read_indentation": "viscofric.friction.identification.indentation.record",
     "FittedRecord": "viscofric.friction.identification.indentation.result",
     "MaterialFromIndentation": "viscofric.friction.identification.indentation.result",
+    "ShearStress": "viscofric.friction.interface.shear_stress",
+    "shear_stress": "viscofric.friction.interface.shear_stress",
     "predict_friction": "viscofric.friction.prediction",
     "FrictionMasterCurve": "viscofric.friction.shifting.master_curve",
     "shift_friction": "viscofric.friction.shifting.shift",
@@ -278,6 +287,11 @@ _HOME = {
     "catalogue_material": "viscofric.rheology.catalogue",
     "CatalogueEntry": "viscofric.rheology.catalogue",
     "synthetic_fluoroelastomer": "viscofric.rheology.catalogue",
+    "ConstantShearStress": "viscofric.rheology.interface.laws",
+    "EyringShearStress": "viscofric.rheology.interface.laws",
+    "GaussianShearStress": "viscofric.rheology.interface.laws",
+    "InterfaceLaw": "viscofric.rheology.interface.law",
+    "PowerShearStress": "viscofric.rheology.interface.laws",
     "Material": "viscofric.rheology.material",
     "LawComparison": "viscofric.rheology.shifts.law_comparison",
     "Arrhenius": "viscofric.rheology.shifts.laws",

@@ -110,7 +110,12 @@ def test_an_ensemble_is_solved_surface_by_surface_and_says_how_they_scatter():
     roads = [road(32, seed, waves=6) for seed in range(4)]
     steps = []
     found = vf.predict_rough_friction(
-        RUBBER, roads, speeds=[0.01, "20 cm/s"], pressure="20 kPa", progress=lambda *one: steps.append(one)
+        RUBBER,
+        roads,
+        speeds=[0.01, "20 cm/s"],
+        pressure="20 kPa",
+        interface=vf.PowerShearStress("0.1 MPa", 0.5, "0.2 m/s"),
+        progress=lambda *one: steps.append(one),
     )
     assert found.friction_coefficient.shape == (1, 2, 4)
     assert steps == [(done, 8) for done in range(9)]
@@ -118,6 +123,11 @@ def test_an_ensemble_is_solved_surface_by_surface_and_says_how_they_scatter():
     alone = vf.solve_periodic(RUBBER, roads[2].to_surface(), speed=0.2, pressure="20 kPa", tolerance=1e-6)
     assert found.friction_coefficient[0, 1, 2] == alone.friction_coefficient
     assert found.contact_area_fraction[0, 1, 2] == alone.contact_area_fraction
+    # The interface slips at 0.01 m/s, and at 0.2 m/s, where its stress is that of the law.
+    factor = np.array([0.05**0.5, 1.0])[:, None]
+    np.testing.assert_allclose(found.interface_friction[0], 1e5 * factor * found.corrected_area_fraction[0] / 20e3)
+    np.testing.assert_array_equal(found.total, found.friction_coefficient + found.interface_friction)
+    assert [note.code for note in found.notes] == ["interface-law", "interface-without-error"]
     lower, upper = found.interval()
     one = found.friction_coefficient[0, 0]
     # Student's t for three degrees of freedom and 95 %: 3.182.

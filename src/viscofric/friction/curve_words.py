@@ -30,6 +30,8 @@ COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "consistency_error": ("", "consistency standard error", ("consistency error",)),
     "slip": ("m/s", "slip", ("sliding velocity",)),
     "offset": ("N", "offset", ("zero",)),
+    "mean_pressure": ("Pa", "mean contact pressure", ("contact pressure",)),
+    "mean_pressure_error": ("Pa", "mean contact pressure error", ()),
     "material_error": ("", "material standard error", ("material error", "friction material error")),
     "viscoelastic_lower": ("", "viscoelastic friction lower limit", ("viscoelastic lower", "friction lower")),
     "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper", "friction upper")),
@@ -53,3 +55,28 @@ CURVES = Vocabulary(
         ("coulomb friction", ""),
     ),
 )
+
+#: Column -> unit, long name; the load's are those of `FrictionCurves.to_dataset`.
+LABELS = {
+    "speed": ("m/s", "speed at which the rubber is deformed"),
+    "temperature": ("K", "temperature"),
+    "slip": ("m/s", "magnitude of the sliding velocity"),
+    "viscoelastic": ("1", "viscoelastic friction coefficient"),
+    "viscoelastic_error": ("1", "standard error of the viscoelastic friction coefficient"),
+    "viscoelastic_scatter": ("1", "standard deviation of the viscoelastic friction coefficient"),
+    "replicates": ("1", "repetitions"),
+    "coulomb": ("1", "Coulomb friction coefficient"),
+    "coulomb_error": ("1", "standard error of the Coulomb friction coefficient"),
+    "coulomb_scatter": ("1", "standard deviation of the Coulomb friction coefficient"),
+    "consistency": ("1", "residual of the sign configurations, relative to the load"),
+    "consistency_error": ("1", "standard error of the residual"),
+    "offset": ("N", "zero reading of the force cell"),
+    "material_error": ("1", "standard error of the friction coefficient due to material uncertainty"),
+    "viscoelastic_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
+    "viscoelastic_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
+    "mean_pressure": ("Pa", "mean contact pressure"),
+    "mean_pressure_error": ("Pa", "error estimate of the mean contact pressure"),
+    "viscoelastic_freedom": ("1", "degrees of freedom behind the standard error of viscoelastic friction"),
+    "coulomb_freedom": ("1", "degrees of freedom behind the standard error of Coulomb friction"),
+}
+LOADS = {"N": "normal load", "N/m": "normal load per length"}

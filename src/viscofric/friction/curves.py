@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.errors import InputError, check_choice
+from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
 from viscofric.friction.solved_columns import columns_of
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
@@ -39,31 +40,11 @@ _OPTIONAL = (
     "viscoelastic_upper",
     "viscoelastic_freedom",
     "coulomb_freedom",
+    "mean_pressure",
+    "mean_pressure_error",
 )
 
-#: Column -> unit, long name; the load's are those of `FrictionCurves.to_dataset`.
-_LABELS = {
-    "speed": ("m/s", "speed at which the rubber is deformed"),
-    "temperature": ("K", "temperature"),
-    "slip": ("m/s", "magnitude of the sliding velocity"),
-    "viscoelastic": ("1", "viscoelastic friction coefficient"),
-    "viscoelastic_error": ("1", "standard error of the viscoelastic friction coefficient"),
-    "viscoelastic_scatter": ("1", "standard deviation of the viscoelastic friction coefficient"),
-    "replicates": ("1", "repetitions"),
-    "coulomb": ("1", "Coulomb friction coefficient"),
-    "coulomb_error": ("1", "standard error of the Coulomb friction coefficient"),
-    "coulomb_scatter": ("1", "standard deviation of the Coulomb friction coefficient"),
-    "consistency": ("1", "residual of the sign configurations, relative to the load"),
-    "consistency_error": ("1", "standard error of the residual"),
-    "offset": ("N", "zero reading of the force cell"),
-    "material_error": ("1", "standard error of the friction coefficient due to material uncertainty"),
-    "viscoelastic_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
-    "viscoelastic_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
-    "viscoelastic_freedom": ("1", "degrees of freedom behind the standard error of viscoelastic friction"),
-    "coulomb_freedom": ("1", "degrees of freedom behind the standard error of Coulomb friction"),
-}
 _COORDINATES = ("speed", "temperature", "load", "slip")
-_LOADS = {"N": "normal load", "N/m": "normal load per length"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +70,8 @@ class FrictionCurves:
     replicates : (n,) array of int
         Repetitions behind each entry (1 where predicted).
     coulomb, coulomb_error, coulomb_scatter : (n,) array or None
-        The same for the Coulomb friction coefficient; None where predicted.
+        The same for the Coulomb friction coefficient, of a measurement or of a prediction with an interface; None
+        where it is not known.
     consistency, consistency_error : (n,) array or None
         Residual of the four sign configurations, which have three unknowns, (F_I − F_II + F_III − F_IV)/4 over the
         load, and its standard error: zero within that error in a sound measurement.  None where predicted or not
@@ -98,7 +80,7 @@ class FrictionCurves:
     notes : tuple of str
         One sentence each.
     slip : (n,) array or None
-        Magnitude of the sliding velocity, m/s; None where predicted.
+        Magnitude of the sliding velocity, m/s; None where predicted without an interface.
     offset : (n,) array or None
         Zero reading of the force cell, N; None where predicted.
     load_unit : {"N", "N/m"}
@@ -110,6 +92,8 @@ class FrictionCurves:
     viscoelastic_freedom, coulomb_freedom : (n,) array or None
         Degrees of freedom behind the standard errors of measured friction, infinite where these are known exactly;
         `interval` uses them.
+    mean_pressure, mean_pressure_error : (n,) array or None
+        Load over contact area of solved contacts, and its error estimate, Pa; None where measured.
     assumption : str
         The assumption behind the viscoelastic friction, in one sentence; empty where there is none.
 
@@ -160,6 +144,8 @@ class FrictionCurves:
     viscoelastic_freedom: Array | None = None
     coulomb_freedom: Array | None = None
     assumption: str = ""
+    mean_pressure: Array | None = None
+    mean_pressure_error: Array | None = None
 
     def __post_init__(self) -> None:
         shape = (read_only(self.speed, "speed of friction curves").size,)
@@ -190,6 +176,28 @@ class FrictionCurves:
     def speeds(self) -> Array:
         """The different speeds, m/s, ascending."""
         return np.unique(self.speed)
+
+    @property
+    def total(self) -> Array:
+        """Viscoelastic plus Coulomb friction, (n,): friction where the rubber is deformed in the direction of slip.
+
+        Raises `InputError` where no Coulomb friction is known.
+        """
+        if self.coulomb is None:
+            raise InputError(
+                "these friction curves have no Coulomb friction; give predict_friction() an interface.",
+                code="no-coulomb",
+            )
+        return self.viscoelastic + self.coulomb
+
+    @property
+    def total_error(self) -> Array | None:
+        """Standard error of `total`, (n,), from those of both parts and of the material; None where not known."""
+        if self.coulomb is None or self.coulomb_error is None:
+            return None
+        parts = [self.viscoelastic_error, self.coulomb_error]
+        parts += [] if self.material_error is None else [self.material_error]
+        return np.asarray(np.sqrt(sum(part**2 for part in parts)))
 
     @property
     def consistency_check(self) -> Check | None:
@@ -332,7 +340,7 @@ class FrictionCurves:
         """
         from viscofric.datasets import dataset
 
-        labels = _LABELS | {"load": (self.load_unit, _LOADS[self.load_unit])}
+        labels = LABELS | {"load": (self.load_unit, LOADS[self.load_unit])}
         columns = {
             name: (getattr(self, name), *label) for name, label in labels.items() if getattr(self, name) is not None
         }

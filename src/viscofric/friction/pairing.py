@@ -34,7 +34,7 @@ class Pairs(NamedTuple):
 
 def point_by_point(measured: FrictionCurves, predicted: FrictionCurves) -> Pairs:
     """Return the prediction for the speed, temperature and load of each measured point, or raise `InputError`."""
-    rows = np.array([_partner(measured, row, predicted) for row in range(len(measured))])
+    rows = np.array([partner(measured, row, predicted) for row in range(len(measured))])
     material = predicted.material_error
     return Pairs(
         measured,
@@ -103,7 +103,7 @@ def _material_error(predicted: FrictionMasterCurve, reduced: Array, friction: Ar
     return np.asarray(friction * np.interp(np.log(reduced), place[order], relative))
 
 
-def _partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> int:
+def partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> int:
     """Return the row of the prediction for a measured point."""
     speed, temperature, load = measured.speed[row], measured.temperature[row], measured.load[row]
     same = np.abs(predicted.speed - speed) <= _SAME_SPEED * speed

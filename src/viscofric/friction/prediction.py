@@ -13,14 +13,17 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.interface.prediction import with_interface
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.processes import Workers, call_all
+from viscofric.rheology.interface.friction import insist_on_interface
 from viscofric.rheology.material import insist_on_material
 from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
@@ -33,12 +36,14 @@ def predict_friction(
     temperatures: Quantities,
     load: Quantity,
     samples: MaterialSamples | None = None,
+    interface: InterfaceLaw | None = None,
+    slip: Quantities | None = None,
     accuracy: float = 1e-3,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[ContactOptions],
 ) -> FrictionCurves:
-    """Predict the viscoelastic friction at every one of the speeds and temperatures by solving the contact.
+    """Predict friction at every one of the speeds and temperatures by solving the contact.
 
     Parameters
     ----------
@@ -56,6 +61,12 @@ def predict_friction(
         The material as other measurements might have given it, from `sample_materials` or `identify_material`: the
         curves then hold the standard error that this leaves on friction and the limits of its 95 % band, found to
         first order by one adjoint solve for each contact (see `viscofric.friction.bands`).
+    interface : InterfaceLaw, optional
+        Shear stress of the dry interface, from `ShearStress.law` or given: the curves then also hold the interfacial
+        part τ_s A/F as their Coulomb friction, and `FrictionCurves.total`.  Its standard error has those of the law and
+        of the solved area, not that of the material.
+    slip : float, str, pint.Quantity, or one for each speed and temperature, optional
+        Slip speed of the interface, m/s; the speed at which the rubber is deformed if left out, as in pure sliding.
     accuracy : float
         Relative error of each friction coefficient that is aimed at; see `solve_steady`.
     workers : int or Workers
@@ -113,6 +124,10 @@ def predict_friction(
                 code="not-positive",
             )
     drawn = None if samples is None else DrawnMaterials(samples, material)
+    if interface is not None:
+        insist_on_interface(interface)
+    elif slip is not None:
+        raise InputError("slip has a meaning with an interface only; give interface too.", code="interface-needed")
     contacts = [
         {
             "material": material,
@@ -133,7 +148,9 @@ def predict_friction(
 
     report(0)
     if drawn is None:
-        return FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
-    pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
-    curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
-    return with_material_band(curves, [sensitivity for _, sensitivity in pairs], drawn)
+        curves = FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
+    else:
+        pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
+        curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
+        curves = with_material_band(curves, [sensitivity for _, sensitivity in pairs], drawn)
+    return curves if interface is None else with_interface(curves, interface, slip)

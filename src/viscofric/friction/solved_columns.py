@@ -47,6 +47,10 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
         "viscoelastic_error": np.array([solution.diagnostics.friction_error for solution in solved]),
         "viscoelastic_scatter": np.zeros(len(solved)),
         "replicates": np.ones(len(solved), dtype=np.int64),
+        "mean_pressure": np.array([solution.mean_pressure for solution in solved]),
+        "mean_pressure_error": np.array(
+            [s.mean_pressure * s.diagnostics.contact_area_error / s.contact_area for s in solved]
+        ),
         "notes": _warnings(solved),
         "load_unit": units.pop() if units else "N",
     }

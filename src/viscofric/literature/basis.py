@@ -15,10 +15,12 @@ from viscofric.files import parse_toml
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.indentation.result import MaterialFromIndentation
 from viscofric.friction.identification.result import IdentifiedMaterial
+from viscofric.friction.interface.shear_stress import ShearStress
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.literature.reference import Reference
 from viscofric.literature.references import PAPER, REFERENCES
 from viscofric.rheology.catalogue import catalogue_material
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material
 from viscofric.rheology.payne.kraus import KrausLaw
 from viscofric.rheology.payne.kraus_fit import PayneFit
@@ -114,8 +116,8 @@ def shifted_by(law: type[ShiftLaw]) -> Basis:
         yield from _for("law of the shift factors", "vogel1921", "fulcher1925", "tammann1926")
 
 
-@basis.register
-def _of_laws(laws: LawComparison) -> Basis:
+@basis.register(LawComparison)
+def _of_laws(laws: LawComparison[ParametricLaw]) -> Basis:
     yield from basis(laws.best)
     yield from compared_laws()
 
@@ -272,6 +274,20 @@ def banded_friction() -> Basis:
     """Yield the references of the uncertainty band of predicted friction."""
     yield from _for("uncertainty of the rubber", "efron1993")
     yield from _adjoint()
+
+
+@basis.register
+def _of_shear_stress(stress: ShearStress) -> Basis:
+    yield from separated_friction()
+    yield from solved_contact(line=stress.curves.load_unit == "N/m")
+
+
+@basis.register
+def _of_interface(law: InterfaceLaw) -> Basis:
+    if law.kind == "eyring":
+        yield from _for("law of the interface's shear stress", "eyring1936")
+    elif law.kind == "gaussian":
+        yield from _for("law of the interface's shear stress", "lorenz2015")
 
 
 @basis.register

@@ -99,6 +99,16 @@ _TABLE = (
         doi="10.1137/0720023",
     ),
     Reference(
+        "eyring1936",
+        ("H. Eyring",),
+        1936,
+        "Viscosity, plasticity, and diffusion as examples of absolute reaction rates",
+        "J. Chem. Phys.",
+        "4",
+        "283--291",
+        doi="10.1063/1.1749836",
+    ),
+    Reference(
         "fritsch1984",
         ("F. N. Fritsch", "J. Butland"),
         1984,

@@ -17,6 +17,7 @@ from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.datasets import dataset
 from viscofric.errors import ConvergenceError, InputError, brief
 from viscofric.processes import Workers, call_all
+from viscofric.rheology.interface.friction import friction_on_area, insist_on_interface
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.patches import contact_statistics
 from viscofric.roughness.topography import Topography
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.bodies import Layer
+    from viscofric.rheology.interface.law import InterfaceLaw
 
 
 #: Of the complementarity: what the grid does to friction is a thousand times more.
@@ -73,6 +75,10 @@ class RoughFriction:
         The same, corrected for the excess of counted points; see `ContactStatistics`.
     stretch : (m, n, k) array
         How many times longer the contact patches are along the motion than across; see `ContactStatistics`.
+    interface_friction, interface_error : (m, n, k) array or None
+        With an interface, its friction τ_s A/F on the corrected area, and the standard error due to the law.
+    notes : tuple of str
+        On the interface, one sentence each.
     """
 
     temperature: Array
@@ -84,6 +90,18 @@ class RoughFriction:
     contact_area_fraction: Array
     corrected_area_fraction: Array
     stretch: Array
+    interface_friction: Array | None = None
+    interface_error: Array | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def total(self) -> Array:
+        """Friction coefficient of hysteresis and interface, (m, n, k) array; InputError without an interface."""
+        if self.interface_friction is None:
+            raise InputError(
+                "there is no interfacial friction; give predict_rough_friction() an interface.", code="no-interface"
+            )
+        return self.friction_coefficient + self.interface_friction
 
     @property
     def mean_friction(self) -> Array:
@@ -124,16 +142,22 @@ class RoughFriction:
             "contact_area_fraction": "points under pressure over all",
             "corrected_area_fraction": "real over nominal contact area",
             "stretch": "length of contact patches along over across the motion",
+            "interface_friction": "friction coefficient of the interface",
+            "interface_error": "standard error of the friction coefficient of the interface",
         }
         return dataset(
             ("temperature", "speed", "surface"),
-            {name: (getattr(self, name), "1", long_name) for name, long_name in names.items()},
+            {
+                name: (getattr(self, name), "1", long_name)
+                for name, long_name in names.items()
+                if getattr(self, name) is not None
+            },
             coordinates={
                 "temperature": (self.temperature, "K", "temperature"),
                 "speed": (self.speed, "m/s", "sliding speed"),
                 "surface": (list(self.surfaces), "1", "name of the surface"),
             },
-            attributes={"pressure": self.pressure},
+            attributes={"pressure": self.pressure} | ({"notes": "\n".join(self.notes)} if self.notes else {}),
         )
 
 
@@ -163,6 +187,7 @@ def predict_rough_friction(
     speeds: Quantities,
     pressure: Quantity,
     temperatures: Quantities | None = None,
+    interface: InterfaceLaw | None = None,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[PeriodicSettings],
@@ -180,6 +205,9 @@ def predict_rough_friction(
         Nominal pressure, Pa.
     temperatures : float, str, pint.Quantity, or an array or list of them, optional
         K if plain numbers; may be left out for a material without a shift.
+    interface : InterfaceLaw, optional
+        Shear stress of the dry interface on the real contact area, such as from `ShearStress.law`: adds its friction.
+        That area depends on the shortest wavelength of the surface, and so does this friction.
     workers : int or Workers
         Processes among which the contacts are distributed; the result is the same to the last digit.
     progress : callable, optional
@@ -226,6 +254,8 @@ def predict_rough_friction(
             raise InputError("temperatures must hold at least one value.", code="empty-list")
     insist_on_function(progress, "progress")
     load = positive(pressure, "Pa", "pressure")
+    if interface is not None:
+        insist_on_interface(interface)
     calls: list[dict[str, Any]] = [
         {
             "name": name,
@@ -252,13 +282,19 @@ def predict_rough_friction(
             _put_on_disk(calls, Path(folder))
         found: list[_Numbers] = call_all(solve_one, calls, workers=workers, progress=report)
     shape = len(kelvins), len(velocities), len(named)
-    numbers = {name: np.array([getattr(one, name) for one in found]).reshape(shape) for name in _Numbers._fields}
+    numbers: dict[str, Any] = {
+        name: np.array([getattr(one, name) for one in found]).reshape(shape) for name in _Numbers._fields
+    }
+    kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
+    area = numbers["corrected_area_fraction"]
+    by_interface = {} if interface is None else friction_on_area(interface, velocities, kelvin_or_nan, load, area)
     return RoughFriction(
-        temperature=np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins]),
+        temperature=kelvin_or_nan,
         speed=velocities,
         pressure=load,
         surfaces=tuple(name for name, _ in named),
         **numbers,
+        **by_interface,
     )
 
 

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from viscofric.ramps import TemperatureRamps
     from viscofric.rheology.ramps.superpose import RampLaw
     from viscofric.rheology.shifts.law_comparison import LawComparison
-    from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -257,7 +257,7 @@ def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubbe
     return Rubber(material, master_curve=curve, laws=laws, shift_used=used, notes=notes)
 
 
-def _undecided(laws: LawComparison | None, choice: str) -> tuple[str, ...]:
+def _undecided(laws: LawComparison[ParametricLaw] | None, choice: str) -> tuple[str, ...]:
     """Return notes about an undecided choice among laws, if the best law is used."""
     if laws is None or choice != "best":
         return ()
@@ -320,7 +320,7 @@ def _given_factors(table: MaterialTable, path: Path, reference: float | None = N
     return read_shift_factors(path, reference, columns=table.shift_factor_columns, sheet=table.shift_factor_sheet)
 
 
-def _law_or_table(choice: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison | None, str]:
+def _law_or_table(choice: str, factors: ShiftFactors) -> tuple[ShiftLaw, LawComparison[ParametricLaw] | None, str]:
     """Return α(T) as requested, the comparison of laws, and the choice."""
     try:
         laws = factors.compare_laws()

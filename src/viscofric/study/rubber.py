@@ -70,7 +70,7 @@ class Rubber:
     joint: JointSuperposition | None = None
     master_curve: MasterCurve | None = None
     ramps: RampSuperposition | None = None
-    laws: LawComparison | None = None
+    laws: LawComparison[ParametricLaw] | None = None
     shift_used: str = ""
     shift_origin: str = "found"
     payne: PayneFit | None = None

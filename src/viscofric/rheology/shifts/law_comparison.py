@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
@@ -16,11 +16,15 @@ from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import xarray
 
     from viscofric.rheology.shifts.law_fitting import FactorTable
     from viscofric.rheology.shifts.laws import ParametricLaw
 
+#: A kind of law: of shift factors, or of shear stress.
+Law = TypeVar("Law")
 #: A law within this of the lowest AIC has substantial support; among such laws, that of fewest constants is chosen …
 SUPPORTED = 2.0
 #: … and from this on, considerably less (K. P. Burnham, D. R. Anderson, Model Selection and Multimodel Inference,
@@ -39,23 +43,24 @@ _COMPARED = ("arrhenius", "wlf", "wlf+arrhenius", "polynomial")
 
 
 @dataclass(frozen=True)
-class LawRow:
+class LawRow(Generic[Law]):
     """One law in a comparison.
 
     Parameters
     ----------
     kind : str
-        As `ShiftFactors.law` takes it.
+        As `ShiftFactors.law` or `ShearStress.law` takes it.
     title : str
         As it is called in a sentence.
-    law : ParametricLaw or None
+    law : ParametricLaw, InterfaceLaw or None
         As fitted; None where it was refused.
     constants : int
         Number of constants.
     chi2 : float
         χ² by the measured covariance alone, of `freedom` expected; NaN where the law was refused.
     freedom : int
-        Number of differences of neighbouring factors less `constants`; 0 where the law passes through all factors.
+        Number of differences of neighbouring factors, or of values of stress, less `constants`; 0 where the law passes
+        through all of them.
     scatter : float
         Independent scatter about the law, beyond the measured uncertainties, that makes the misfit plausible; decades.
     aic : float
@@ -71,7 +76,7 @@ class LawRow:
 
     kind: str
     title: str
-    law: ParametricLaw | None
+    law: Law | None
     constants: int
     chi2: float = float("nan")
     freedom: int = 0
@@ -88,8 +93,8 @@ class LawRow:
 
 
 @dataclass(frozen=True)
-class LawComparison:
-    """Shift laws fitted to one table, the best supported one, and why.
+class LawComparison(Generic[Law]):
+    """Laws fitted to one table of shift factors or of shear stress, the best supported one, and why.
 
     Parameters
     ----------
@@ -113,12 +118,12 @@ class LawComparison:
     Model Selection and Multimodel Inference, 2nd ed., Springer 2002.
     """
 
-    rows: tuple[LawRow, ...]
-    chosen: LawRow
+    rows: tuple[LawRow[Law], ...]
+    chosen: LawRow[Law]
     notes: tuple[Note, ...]
 
     @property
-    def best(self) -> ParametricLaw:
+    def best(self) -> Law:
         """The law that the table supports best, fitted."""
         assert self.chosen.law is not None
         return self.chosen.law
@@ -141,12 +146,12 @@ class LawComparison:
         fitted = [row for row in self.rows if row.law is not None]
         lowest = min(row.aic for row in fitted)
         weight = "Akaike weight among the laws of physics; zero for a polynomial that is not chosen"
-        scatter = "scatter of log10 of the shift factors about the law beyond their uncertainties"
+        scatter = "scatter of log10 of the values about the law beyond their uncertainties"
         refused = {row.title: row.refusal for row in self.rows if row.law is None}
         return dataset(
             "fitted_law",
             {
-                "law": ([row.title for row in fitted], "1", "shift law"),
+                "law": ([row.title for row in fitted], "1", "law"),
                 "constants": ([str(row.law) for row in fitted], "1", "constants of the law"),
                 "information_criterion": (
                     [row.aic - lowest for row in fitted],
@@ -164,22 +169,26 @@ class LawComparison:
         )
 
 
-def compare_laws(table: FactorTable) -> LawComparison:
+def compare_laws(table: FactorTable) -> LawComparison[ParametricLaw]:
     """Fit every law to a table and choose; see `LawComparison`."""
     rows = [_row(kind, table) for kind in _COMPARED]
     fitted = [row for row in rows if row.law is not None]
     if not fitted:
         raise InputError(f"no shift law describes these factors: {rows[0].refusal}", code="no-law")
-    kind = _chosen(fitted).kind
+    kind = chosen_row(fitted).kind
     physical = [row for row in fitted if row.kind != "polynomial" or row.kind == kind]
-    lowest = min(row.aic for row in physical)
-    total = sum(float(np.exp(0.5 * (lowest - row.aic))) for row in physical)
-    rows = [
-        replace(row, weight=float(np.exp(0.5 * (lowest - row.aic))) / total) if row in physical else row for row in rows
-    ]
+    rows = weighted(rows, physical)
     by_kind = {row.kind: row for row in rows}
     every = sorted([*rows, _vft(by_kind["wlf"])], key=lambda row: row.aic)
     return LawComparison(tuple(every), by_kind[kind], _notes(by_kind[kind], rows, table))
+
+
+def weighted(rows: Iterable[LawRow[Law]], compared: Iterable[LawRow[Law]]) -> list[LawRow[Law]]:
+    """Return rows with Akaike's weights among those compared."""
+    kinds = {row.kind: row.aic for row in compared}
+    likelihood = {kind: float(np.exp(0.5 * (min(kinds.values()) - aic))) for kind, aic in kinds.items()}
+    total = sum(likelihood.values())
+    return [replace(row, weight=likelihood[row.kind] / total) if row.kind in likelihood else row for row in rows]
 
 
 def polynomial(table: FactorTable) -> InversePolynomial:
@@ -193,7 +202,7 @@ def polynomial(table: FactorTable) -> InversePolynomial:
     return row.law
 
 
-def _row(kind: str, table: FactorTable, degree: int | None = None) -> LawRow:
+def _row(kind: str, table: FactorTable, degree: int | None = None) -> LawRow[ParametricLaw]:
     if kind == "polynomial" and degree is None:
         return _polynomial_row(table)
     try:
@@ -206,14 +215,16 @@ def _row(kind: str, table: FactorTable, degree: int | None = None) -> LawRow:
     return LawRow(kind, title, law, size, chi2, len(table) - size, scatter, aic)
 
 
-def _polynomial_row(table: FactorTable) -> LawRow:
+def _polynomial_row(table: FactorTable) -> LawRow[ParametricLaw]:
     degrees = [_row("polynomial", table, degree) for degree in range(2, LARGEST_DEGREE + 1)]
     return min(degrees, key=lambda row: row.aic)
 
 
-def _vft(wlf: LawRow) -> LawRow:
+def _vft(wlf: LawRow[ParametricLaw]) -> LawRow[ParametricLaw]:
     """Return the row of the VFT law, which is the same curve as the WLF law and no separate candidate."""
-    refused = LawRow("vft", TITLES["vft"], None, wlf.constants, refusal=wlf.refusal, same_as="wlf")
+    refused: LawRow[ParametricLaw] = LawRow(
+        "vft", TITLES["vft"], None, wlf.constants, refusal=wlf.refusal, same_as="wlf"
+    )
     if not isinstance(wlf.law, WLF):
         return refused
     try:
@@ -222,7 +233,7 @@ def _vft(wlf: LawRow) -> LawRow:
         return replace(refused, refusal=str(error))
 
 
-def _chosen(fitted: list[LawRow]) -> LawRow:
+def chosen_row(fitted: list[LawRow[Law]]) -> LawRow[Law]:
     """Choose the law of physics with the fewest constants that is supported, or a polynomial where all fail."""
     laws = [row for row in fitted if row.kind != "polynomial"]
     lowest = min((row.aic for row in laws), default=float("inf"))
@@ -234,7 +245,7 @@ def _chosen(fitted: list[LawRow]) -> LawRow:
     return chosen
 
 
-def _notes(chosen: LawRow, rows: list[LawRow], table: FactorTable) -> tuple[Note, ...]:
+def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], table: FactorTable) -> tuple[Note, ...]:
     """Return the reason for the chosen law, the certainty of the choice, and the remaining misfit, in sentences."""
     fitted = [row for row in rows if row.law is not None]
     others = sorted((row for row in fitted if row is not chosen), key=lambda row: row.aic)
@@ -273,7 +284,7 @@ def _notes(chosen: LawRow, rows: list[LawRow], table: FactorTable) -> tuple[Note
     return tuple(notes)
 
 
-def _rivalry(chosen: LawRow, rival: LawRow, table: FactorTable) -> Note:
+def _rivalry(chosen: LawRow[ParametricLaw], rival: LawRow[ParametricLaw], table: FactorTable) -> Note:
     """Return a sentence on the difference of a law that cannot be excluded from the chosen one."""
     low, high = float(table.temperatures[0]), float(table.temperatures[-1])
     kelvin = np.linspace(low - BEYOND, high + BEYOND, 81)
@@ -292,7 +303,7 @@ def _rivalry(chosen: LawRow, rival: LawRow, table: FactorTable) -> Note:
     )
 
 
-def _no_reason(row: LawRow, chosen: LawRow) -> str:
+def _no_reason(row: LawRow[Law], chosen: LawRow[Law]) -> str:
     """Return the reason for not choosing a law with a lower AIC, in a sentence."""
     gap = f"{chosen.aic - row.aic:.2g}"
     if row.kind == "polynomial":

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple, overload
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, overload
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.law_families import LAWS, TITLES, Family, family_of
+from viscofric.rheology.shifts.law_families import LAWS, TITLES, family_of
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -31,9 +31,48 @@ ITERATIONS = 50
 CONVERGED = 1e-7  # relative fall of the squared misfit
 
 
+class Model(Protocol):
+    """What is fitted to a table."""
+
+    @property
+    def positive(self) -> bool:
+        """Whether the constants are sought through their logarithms; those that are not enter linearly."""
+
+    @property
+    def size(self) -> int:
+        """Number of constants."""
+
+    @property
+    def surcharge(self) -> int:
+        """What Akaike's criterion adds to `size`."""
+
+    def values(self, parameters: Array, /) -> Array:
+        """Return the values (n,)."""
+
+    def gradient(self, parameters: Array, /) -> Array:
+        """Return their derivatives by the constants, (n, size)."""
+
+
 @dataclass(frozen=True, eq=False)
-class FactorTable:
-    """Shift factors and their independent differences.
+class Table:
+    """Values (n,) to be fitted, and m combinations of them that scatter independently."""
+
+    values: Array
+    turn: Array  # (m, n), from values to the combinations
+    variance: Array  # (m,), of the combinations, as measured
+    log_volume: float  # ln det of what `turn` divides the covariance by, needed in a likelihood
+
+    def __len__(self) -> int:
+        return len(self.variance)
+
+    def whitening(self, scatter: float) -> Array:
+        """Return the matrix from values to combinations of variance one, with independent scatter² in every value."""
+        return np.asarray(self.turn / np.sqrt(self.variance + scatter)[:, None])
+
+
+@dataclass(frozen=True, eq=False)
+class FactorTable(Table):
+    """Shift factors (values are log10 α) and their independent differences.
 
     Only differences of neighbouring factors enter: the error of the reference's own value, common to all, cancels.
     They are rotated so that their measured covariance becomes diagonal, and stays so when independent scatter of
@@ -41,11 +80,7 @@ class FactorTable:
     """
 
     temperatures: Array  # (n,), ascending, K
-    values: Array  # (n,), log10 α
     reference: float  # K, where a law is to be 1
-    turn: Array  # (n − 1, n), from values to independent differences
-    variance: Array  # (n − 1,), of the differences, as measured
-    log_volume: float  # ln det of what `turn` divides the covariance by, needed in a likelihood
 
     @classmethod
     def of(cls, temperatures: Array, values: Array, covariance: Array, reference: float) -> FactorTable:
@@ -56,14 +91,7 @@ class FactorTable:
         variance, axes = np.linalg.eigh(turn @ covariance @ turn.T)
         floor = np.maximum(variance, 0.0) + SMALLEST_ERROR**2
         log_volume = 2.0 * float(np.sum(np.log(np.diag(scatter))))
-        return cls(temperatures, values, reference, axes.T @ turn, floor, log_volume)
-
-    def __len__(self) -> int:
-        return len(self.variance)
-
-    def whitening(self, scatter: float) -> Array:
-        """Return the matrix from values to differences of variance one, with independent scatter² in every value."""
-        return np.asarray(self.turn / np.sqrt(self.variance + scatter)[:, None])
+        return cls(values, axes.T @ turn, floor, log_volume, temperatures, reference)
 
 
 class Solution(NamedTuple):
@@ -107,8 +135,8 @@ def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
             code="too-few-temperatures",
         )
     try:
-        bare = _least_squares(family, table, family.start(table.values), 0.0)
-        found, scatter = _with_misfit(family, table, bare)
+        bare = least_squares(family, table, family.start(table.values), 0.0)
+        found, scatter = with_misfit(family, table, bare)
     except np.linalg.LinAlgError:
         raise _not_described(table, kind) from None
     errors = np.diag(found.covariance)
@@ -120,6 +148,12 @@ def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
 
 
 def criterion(law: ParametricLaw, table: FactorTable) -> float:
+    """Return Akaike's criterion of a law fitted to a table; see `criterion_of`."""
+    degree = len(law.parameters) if law.kind == "polynomial" else None
+    return criterion_of(family_of(law.kind, table.temperatures, table.reference, degree), table, law.parameters)
+
+
+def criterion_of(family: Model, table: Table, parameters: Array) -> float:
     """Return Akaike's criterion, −2 ln L + 2k, of a fitted law, at constants of greatest likelihood.
 
     k is the number of constants, a glass transition between two laws counting for three.
@@ -128,19 +162,17 @@ def criterion(law: ParametricLaw, table: FactorTable) -> float:
     L is averaged over s, from `SMALLEST_MISFIT` on, with the density 1/(1 + (s/m)²) of m = `USUAL_MISFIT`.
     So L stays finite where a law passes through all factors.
     """
-    degree = len(law.parameters) if law.kind == "polynomial" else None
-    family = family_of(law.kind, table.temperatures, table.reference, degree)
     scatter = np.geomspace(SMALLEST_MISFIT, LARGEST_SCATTER, 25)
     weight = scatter / (1.0 + (scatter / USUAL_MISFIT) ** 2)  # of equal steps of ln s
-    logarithms = np.array([_log_density(family, table, law.parameters, float(one) ** 2) for one in scatter])
+    logarithms = np.array([_log_density(family, table, parameters, float(one) ** 2) for one in scatter])
     most = float(logarithms.max())
     mean = float(np.sum(weight * np.exp(logarithms - most)) / np.sum(weight))
     return -2.0 * (most + float(np.log(mean))) + 2.0 * (family.size + family.surcharge)
 
 
-def _log_density(family: Family, table: FactorTable, start: Array, scatter: float) -> float:
+def _log_density(family: Model, table: Table, start: Array, scatter: float) -> float:
     """Return the largest ln L over the constants, with a scatter of this variance in every value."""
-    chi2 = _least_squares(family, table, start, scatter).chi2
+    chi2 = least_squares(family, table, start, scatter).chi2
     return -0.5 * (chi2 + float(np.sum(np.log(2.0 * np.pi * (table.variance + scatter)))) + table.log_volume)
 
 
@@ -153,7 +185,7 @@ def _not_described(table: FactorTable, kind: str) -> InputError:
     )
 
 
-def _with_misfit(family: Family, table: FactorTable, bare: Solution) -> tuple[Solution, float]:
+def with_misfit(family: Model, table: Table, bare: Solution) -> tuple[Solution, float]:
     """Fit with the least independent scatter per temperature (decades) that makes the misfit plausible.
 
     The scatter σ² solves χ²(σ²) = degrees of freedom (R. C. Paule, J. Mandel, J. Res. Natl. Bur. Stand. 87 (1982)
@@ -167,14 +199,14 @@ def _with_misfit(family: Family, table: FactorTable, bare: Solution) -> tuple[So
     low, high = 2 * np.log(SMALLEST_ERROR), 2 * np.log(LARGEST_SCATTER)
     for _ in range(40):
         middle = 0.5 * (low + high)
-        found = _least_squares(family, table, found.parameters, float(np.exp(middle)))
+        found = least_squares(family, table, found.parameters, float(np.exp(middle)))
         low, high = (middle, high) if found.chi2 > freedom else (low, middle)
         if high - low < 1e-2:
             break
     return found, float(np.exp(0.25 * (low + high)))
 
 
-def _least_squares(family: Family, table: FactorTable, start: Array, scatter: float) -> Solution:
+def least_squares(family: Model, table: Table, start: Array, scatter: float) -> Solution:
     """Minimise the whitened misfit over the constants."""
     whiten = table.whitening(scatter)
     if not family.positive:
@@ -192,7 +224,7 @@ def _linear(matrix: Array, target: Array) -> Solution:
     return Solution(parameters, inverse @ inverse.T, float(misfit @ misfit))
 
 
-def _positive(family: Family, whiten: Array, target: Array, start: Array) -> Solution:
+def _positive(family: Model, whiten: Array, target: Array, start: Array) -> Solution:
     """Minimise by damped Gauss–Newton steps in the logarithms of the constants.
 
     That keeps them positive and free of units.

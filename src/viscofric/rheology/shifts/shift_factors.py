@@ -318,7 +318,7 @@ class ShiftFactors(ShiftLaw):
             return polynomial(table)
         return law_fitting.fit(kind, table, degree)
 
-    def compare_laws(self, *, above: Quantity | None = None) -> LawComparison:
+    def compare_laws(self, *, above: Quantity | None = None) -> LawComparison[ParametricLaw]:
         """Fit every law and choose the one that the table supports best; see `LawComparison`.
 
         Parameters

@@ -123,7 +123,7 @@ def places_held(temperatures: Array, held: Mapping[float, float]) -> list[bool]:
 _OF_A_LAW = ("kind", "title", "constants", "chi2", "freedom", "scatter", "aic", "weight", "exact", "refusal", "same_as")
 
 
-def _law(row: LawRow, rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
+def _law(row: LawRow[ParametricLaw], rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
     chosen = rubber.laws is not None and row is rubber.laws.chosen
     found: dict[str, Any] = plain({name: getattr(row, name) for name in _OF_A_LAW})
     found |= {"chosen": chosen, "used": rubber.shift_used == row.kind or (rubber.shift_used == "best" and chosen)}

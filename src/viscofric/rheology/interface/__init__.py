@@ -1,0 +1,1 @@
+"""The dry interface: laws of its shear stress over slip speed and temperature, and their fit."""

@@ -1,0 +1,292 @@
+"""Fit of laws of shear stress to measured values, and their comparison, by the fit of shift laws (`law_fitting`)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.errors import InputError, check_choice
+from viscofric.notes import Note
+from viscofric.rheology.interface.laws import (
+    ConstantShearStress,
+    EyringShearStress,
+    GaussianShearStress,
+    PowerShearStress,
+)
+from viscofric.rheology.shifts.law_comparison import EXCLUDED, LawComparison, LawRow, chosen_row, weighted
+from viscofric.rheology.shifts.law_fitting import (
+    LARGEST_RELATIVE_ERROR,
+    SMALLEST_ERROR,
+    Solution,
+    Table,
+    criterion_of,
+    least_squares,
+    with_misfit,
+)
+from viscofric.rheology.shifts.laws import Arrhenius
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+
+
+#: Kinds of law as `ShearStress.law` takes them, those of fewest constants first.
+KINDS = {law.kind: law for law in (ConstantShearStress, PowerShearStress, EyringShearStress, GaussianShearStress)}
+#: Starting values: activation energies, J/mol; decades of a law's speed about those measured; width, decades.
+_ENERGIES = np.geomspace(5e3, 5e5, 25)
+_SPEEDS = np.arange(-8.0, 3.5, 0.5)
+#: A maximum farther from the measured speeds is none, decades.
+_FARTHEST = 15.0
+#: How far beyond the measured speeds laws that cannot be told apart are compared, decades.
+_BEYOND = 1.0
+_ALIKE = 0.05  # decades
+
+
+@dataclass(frozen=True, eq=False)
+class StressTable(Table):
+    """Shear stress (values are its log10) over slip speed and temperature."""
+
+    speed: Array  # (n,), log10 of m/s
+    kelvin: Array  # (n,)
+
+    @classmethod
+    def of(cls, speed: Array, kelvin: Array, values: Array, covariance: Array) -> StressTable:
+        """Prepare values (n,) with their covariance (n, n)."""
+        variance, axes = np.linalg.eigh(covariance)
+        return cls(values, axes.T, np.maximum(variance, 0.0) + SMALLEST_ERROR**2, 0.0, speed, kelvin)
+
+
+class _Family:
+    """A law to be fitted to a table: with a given shift, or with the activation energy of its own if `energy`."""
+
+    surcharge = 0
+    positive = True
+
+    def __init__(self, kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> None:
+        self.kind, self.kelvin, self.shift, self.reference = kind, table.kelvin, shift, reference
+        self.x = table.speed + (0.0 if shift is None else np.asarray(shift.log10(table.kelvin)))
+        # ∂log10 α/∂Ea; constant stress does not depend on it
+        own = energy and kind != "constant"
+        self.y = Arrhenius(1.0, reference).gradient(table.kelvin)[:, 0] if own else None
+        self.size = len(KINDS[kind]._adjusted) + own
+
+    def law(self, parameters: Array, covariance: Array | None = None) -> InterfaceLaw:
+        """Return the law; with a covariance, as one fitted to the table."""
+        shift, x = self.shift, self._reduced(parameters)
+        fitted = None if covariance is None else (float(self.kelvin.min()), float(self.kelvin.max()))
+        if self.y is not None:
+            spread = None if covariance is None else covariance[-1:, -1:]
+            shift = Arrhenius(float(parameters[-1]), self.reference, spread, fitted)
+        return self._made(
+            parameters,
+            shift=shift,
+            covariance=covariance,
+            fitted_temperatures=fitted,
+            fitted_speeds=None if covariance is None else (float(10.0 ** x.min()), float(10.0 ** x.max())),
+        )
+
+    def _made(self, parameters: Array, **rest: object) -> InterfaceLaw:
+        law = KINDS[self.kind]
+        return law(**dict(zip(law._adjusted, parameters.tolist(), strict=False)), **rest)  # type: ignore[arg-type]
+
+    def _reduced(self, parameters: Array) -> Array:
+        return self.x if self.y is None else self.x + parameters[-1] * self.y
+
+    def values(self, parameters: Array) -> Array:
+        """Return log10 τ_s, (n,)."""
+        return self._made(parameters)._log10(self._reduced(parameters), self.kelvin)
+
+    def gradient(self, parameters: Array) -> Array:
+        """Return the derivatives of log10 τ_s by the constants, (n, size)."""
+        law, x = self._made(parameters), self._reduced(parameters)
+        own = law._gradient(x)
+        return own if self.y is None else np.column_stack([own, law._slope(x) * self.y])
+
+    def start(self, values: Array) -> Array:
+        """Scan activation energies and, for Eyring's law, speeds; the rest follows by plain least squares."""
+        energies = [0.0] if self.y is None else _ENERGIES.tolist()
+        trials = [trial for energy in energies for trial in self._trials(values, energy)]
+        if not trials:
+            raise InputError("shear stress has no maximum over speed: no Gaussian law describes it.", code="no-law")
+        found = min(trials, key=lambda trial: trial[0])[1]
+        return np.array(found if self.y is not None else found[:-1])
+
+    def _trials(self, values: Array, energy: float) -> list[tuple[float, list[float]]]:
+        """Return misfits with constants and energy."""
+        x = self.x if self.y is None else self.x + energy * self.y
+        if self.kind == "gaussian":
+            middle = float(x.mean())
+            bend, slope, level = np.polyfit(x - middle, values, 2)
+            if bend >= 0.0:
+                return []
+            misfit = float(np.sum((values - np.polyval([bend, slope, level], x - middle)) ** 2))
+            place, width = -0.5 * slope / bend, float(np.sqrt(-0.5 / (np.log(10.0) * bend)))
+            if abs(place) > _FARTHEST:  # the stress hardly bends over these reduced speeds
+                return []
+            peak = float(level + 0.5 * slope * place)
+            return [(misfit, [10.0**peak, 10.0 ** (middle + float(place)), width, energy])]
+        trials = []
+        for place in float(x.mean()) + _SPEEDS:
+            shape = EyringShearStress(1e-27, 10.0**place)._log10(x, self.kelvin)
+            level = float(np.mean(values - shape))
+            trials.append((float(np.sum((values - shape - level) ** 2)), [1e-27 * 10.0**-level, 10.0**place, energy]))
+        return trials
+
+
+class _LinearFamily(_Family):
+    """Constant stress, and a power of speed: linear in log10 τ, the exponent n, and n times the activation energy."""
+
+    positive = False
+
+    def gradient(self, parameters: Array) -> Array:
+        """Return the columns (n, size) of the linear constants."""
+        columns = [np.ones(self.x.shape)]
+        if self.kind == "power":
+            columns.append(self.x - self.x.mean())
+            columns += [] if self.y is None else [self.y]
+        return np.column_stack(columns)
+
+    def start(self, values: Array) -> Array:
+        """Return any constants: the problem is linear."""
+        return np.zeros(self.size)
+
+    def law(self, parameters: Array, covariance: Array | None = None) -> InterfaceLaw:
+        """Return the law from its linear constants and their covariance."""
+        stress = 10.0 ** float(parameters[0])
+        own, slope = [stress, *parameters[1:]], np.eye(self.size)
+        slope[0, 0] = np.log(10.0) * stress
+        if self.y is not None:
+            exponent, product = float(parameters[1]), float(parameters[2])
+            if not exponent * product > 0.0:
+                raise InputError(
+                    "shear stress over temperature contradicts that over speed: α of a power law would rise with "
+                    "temperature.",
+                    code="no-law",
+                )
+            own[2] = product / exponent
+            slope[2, 1:] = -product / exponent**2, 1.0 / exponent
+        return super().law(np.array(own), None if covariance is None else slope @ covariance @ slope.T)
+
+    def _made(self, parameters: Array, **rest: object) -> InterfaceLaw:
+        if self.kind == "power":
+            rest["speed"] = float(10.0 ** self.x.mean())
+        return super()._made(parameters, **rest)
+
+
+class FittedStress(NamedTuple):
+    """A law, its χ² by the stated errors alone, the scatter (decades) that explains its misfit, and Akaike's AIC."""
+
+    law: InterfaceLaw
+    chi2: float
+    scatter: float
+    aic: float
+    constants: int
+
+
+def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> FittedStress:
+    """Fit one law; see `ShearStress.law`."""
+    check_choice(kind, "law", *KINDS)
+    linear = kind in ("constant", "power")
+    family = (_LinearFamily if linear else _Family)(kind, table, shift, reference, energy)
+    freedom = len(table) - family.size
+    if freedom < 0:
+        raise InputError(
+            f"{len(table)} values of shear stress are too few to fit {kind!r}; give {family.size} or more.",
+            code="too-few-points",
+        )
+    try:
+        with np.errstate(over="ignore"):  # a constant that runs away is refused below
+            bare = least_squares(family, table, family.start(table.values), 0.0)
+            found, scatter = with_misfit(family, table, bare)
+            aic = criterion_of(family, table, found.parameters)
+    except np.linalg.LinAlgError:
+        raise _not_described(kind) from None
+    if not np.all(np.isfinite(found.covariance)) or not np.all(np.diag(found.covariance) > 0.0):
+        raise _not_described(kind)
+    if not linear and np.any(np.diag(found.covariance) > (LARGEST_RELATIVE_ERROR * found.parameters) ** 2):
+        raise _not_described(kind)
+    law = family.law(found.parameters, _wider(found, scatter, freedom))
+    return FittedStress(law, bare.chi2, scatter, aic, family.size)
+
+
+def _wider(found: Solution, scatter: float, freedom: int) -> Array:
+    """Return the covariance with which normal 95 % intervals are those of Student's t, where scatter was found."""
+    from scipy.special import stdtrit
+
+    if scatter == 0.0:
+        return found.covariance
+    return found.covariance * (float(stdtrit(freedom, 0.975)) / LEVEL_95) ** 2
+
+
+def _not_described(kind: str) -> InputError:
+    return InputError(
+        f"the shear stress does not fix the constants of the {KINDS[kind].title} law; take another law, or measure "
+        "over a wider range of speeds or temperatures.",
+        code="no-law",
+    )
+
+
+def compare_stress_laws(
+    table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool
+) -> LawComparison[InterfaceLaw]:
+    """Fit every law and choose, as laws of shift factors are chosen; see `LawComparison`."""
+    rows = [_row(kind, table, shift, reference, energy) for kind in KINDS]
+    fitted = [row for row in rows if row.law is not None]
+    kind = chosen_row(fitted).kind
+    rows = sorted(weighted(rows, fitted), key=lambda row: row.aic)
+    chosen = next(row for row in rows if row.kind == kind)
+    return LawComparison(tuple(rows), chosen, _notes(chosen, [row for row in rows if row.law is not None], table))
+
+
+def _row(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> LawRow[InterfaceLaw]:
+    title = KINDS[kind].title
+    try:
+        found = fit_stress(kind, table, shift, reference, energy)
+    except InputError as error:
+        return LawRow(kind, title, None, 0, refusal=str(error))
+    freedom = len(table) - found.constants
+    return LawRow(kind, title, found.law, found.constants, found.chi2, freedom, found.scatter, found.aic)
+
+
+def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table: StressTable) -> tuple[Note, ...]:
+    """Return why a law was chosen, which others cannot be excluded, and the remaining misfit."""
+    others = [row for row in rows if row is not chosen]
+    better = [row for row in others if row.aic < chosen.aic]
+    if better:
+        first = f"its AIC is within {chosen.aic - better[0].aic:.2g} of the lowest, and it has fewer constants"
+    elif others:
+        first = f"its AIC is lower by {others[0].aic - chosen.aic:.2g} than that of the next, {others[0].title}"
+    else:
+        first = "no other law can be fitted"
+    notes = [Note("law-chosen", f"The law of shear stress is: {chosen.title}; {first}.")]
+    notes += [_rivalry(chosen, row, table) for row in others if row.aic <= chosen.aic + EXCLUDED]
+    if chosen.scatter > 0.0:
+        text = f"Shear stress scatters about the law by {100.0 * (10.0**chosen.scatter - 1.0):.2g} % more than its "
+        notes.append(Note("law-scatter", text + "stated errors explain.", values={"scatter": chosen.scatter}))
+    return tuple(notes)
+
+
+def _rivalry(chosen: LawRow[InterfaceLaw], rival: LawRow[InterfaceLaw], table: StressTable) -> Note:
+    """Return a sentence on the difference of a law that cannot be excluded."""
+    assert chosen.law is not None
+    assert rival.law is not None
+    kelvin = float(np.median(table.kelvin))
+    middle = table.speed[np.abs(table.kelvin - kelvin) == np.abs(table.kelvin - kelvin).min()]
+    low, high = float(middle.min()), float(middle.max())
+    decades = np.linspace(low - _BEYOND, high + _BEYOND, 81)
+    apart = np.abs(np.log10(chosen.law(10.0**decades, kelvin) / rival.law(10.0**decades, kelvin)))
+    inside, beyond = (
+        100.0 * (10.0 ** float(part.max()) - 1.0) for part in (apart[(decades >= low) & (decades <= high)], apart)
+    )
+    weights = f"Akaike weights {chosen.weight:.2f} and {rival.weight:.2f}"
+    code = "laws-alike" if float(apart.max()) <= _ALIKE else "laws-undecided"
+    return Note(
+        code,
+        f"{rival.title} cannot be excluded ({weights}); the two differ by up to {inside:.2g} % at the measured speeds "
+        f"and {beyond:.2g} % up to a decade beyond them.",
+        values={"inside": inside, "beyond": beyond},
+    )

@@ -1,0 +1,85 @@
+"""Friction of an interface on contacts of known mean pressure: μ = τ_s/p, with its error and its doubts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.notes import Note
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.rheology.shifts.shift_law import LN10
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+
+
+#: Within this factor pressures are those of the fit.
+SAME_PRESSURE = 1.5
+
+
+def insist_on_interface(given: object) -> InterfaceLaw:
+    """Return a law of shear stress; raise `InputError` for anything else."""
+    if not isinstance(given, InterfaceLaw):
+        raise InputError(
+            "interface must be a law of shear stress, such as GaussianShearStress or what ShearStress.law() gives, not "
+            f"{type(given).__name__}.",
+            code="not-a-law",
+        )
+    return given
+
+
+def interface_friction(
+    law: InterfaceLaw, speed: Array, kelvin: Array | None, pressure: Array, pressure_error: Array
+) -> tuple[Array, Array]:
+    """Return μ = τ_s(v, T)/p and its standard error at slip speeds, m/s, and mean contact pressures, Pa, of one shape.
+
+    The error of a law of unknown uncertainty is that of the pressure alone.
+    """
+    friction = np.asarray(law(speed, kelvin)) / pressure
+    relative = pressure_error / pressure
+    if law.has_standard_error:
+        relative = np.hypot(relative, LN10 * np.asarray(law.standard_error(speed, kelvin)))
+    return friction, friction * relative
+
+
+def interface_notes(law: InterfaceLaw, speed: Array, kelvin: Array | None, pressure: Array) -> tuple[Note, ...]:
+    """Return how the friction of an interface was found, and where its law is used outside its fit."""
+    how = "fitted to measured stress" if law.fitted_speeds is not None else "as given"
+    said = f"Interfacial friction is shear stress times solved contact area over load; law of the stress, {how}: {law}."
+    notes = [Note("interface-law", said)]
+    if not law.has_standard_error:
+        notes.append(
+            Note("interface-without-error", "The uncertainty of the law of shear stress is not known, nor included.")
+        )
+    outside = np.broadcast_to(law.extrapolates(speed, kelvin), pressure.shape)
+    if np.any(outside):
+        said = (
+            f"At {np.count_nonzero(outside)} of {outside.size} points the reduced slip speed or the temperature lies "
+            "outside those at which shear stress was measured; there the stress rests on the form of the law."
+        )
+        notes.append(Note("interface-extrapolated", said, values={"points": int(np.count_nonzero(outside))}))
+    if law.fitted_pressures is not None:
+        low, high = law.fitted_pressures
+        lowest, highest = float(pressure.min()), float(pressure.max())
+        if lowest * SAME_PRESSURE < low or highest > SAME_PRESSURE * high:
+            said = (
+                f"Shear stress was measured at mean contact pressures of {1e-6 * low:.2g} to {1e-6 * high:.2g} MPa and "
+                f"is used at {1e-6 * lowest:.2g} to {1e-6 * highest:.2g} MPa, as if it did not depend on pressure."
+            )
+            notes.append(Note("interface-pressure", said, values={"lowest": lowest, "highest": highest}))
+    return tuple(notes)
+
+
+def friction_on_area(law: InterfaceLaw, speed: Array, kelvin: Array, pressure: float, area: Array) -> dict[str, Any]:
+    """Return friction, standard error (m, n, k) and notes of an interface on parts (m, n, k) of the nominal area.
+
+    At m temperatures, NaN where none was given, n speeds of sliding and a nominal pressure.
+    """
+    v = np.broadcast_to(speed[None, :, None], area.shape)
+    T = np.broadcast_to(kelvin[:, None, None], area.shape) if np.all(np.isfinite(kelvin)) else None
+    local = pressure / area
+    friction, error = interface_friction(law, v, T, local, np.zeros(area.shape))
+    notes = interface_notes(law, v, T, local)
+    return {"interface_friction": friction, "interface_error": error, "notes": notes}

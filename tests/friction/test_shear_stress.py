@@ -1,0 +1,144 @@
+"""Shear stress of an interface from separated friction, and the friction of other contacts that follows from it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.friction.interface.prediction import with_interface
+
+RUBBER = vf.synthetic_fluoroelastomer()
+TRUE = vf.GaussianShearStress("0.4 MPa", "4 mm/s", 1.2, shift=vf.Arrhenius("70 kJ/mol", "60 degC"))
+SPEED = np.geomspace(0.01, 0.3, 9)
+KELVIN = np.array([323.15, 333.15, 343.15])
+N = SPEED.size * KELVIN.size
+
+
+def curves(**columns):
+    """Curves over the speeds and temperatures, without meaning but for what is given."""
+    empty = {f"viscoelastic{name}": np.full(N, 0.02) for name in ("", "_error", "_scatter")}
+    speed, kelvin = np.tile(SPEED, KELVIN.size), np.repeat(KELVIN, SPEED.size)
+    return vf.FrictionCurves(speed, kelvin, np.full(N, 5.0), **empty, replicates=np.full(N, 9), **columns)
+
+
+#: Contacts whose pressures are made up.
+CONTACTS = curves(mean_pressure=3e5 * np.tile(SPEED, KELVIN.size) ** 0.05, mean_pressure_error=np.full(N, 1e3))
+
+
+def measured(noise=0.02, seed=0, slip=0.1):
+    """Synthetic Coulomb friction of the planted law at a part of the speed as slip."""
+    speed = slip * CONTACTS.speed
+    true = TRUE(speed, CONTACTS.temperature) / CONTACTS.mean_pressure
+    scatter = 1.0 + noise * np.random.default_rng(seed).standard_normal(N)
+    return curves(coulomb=true * scatter, coulomb_error=noise * true, slip=speed)
+
+
+@pytest.fixture(scope="module")
+def stress():
+    return vf.shear_stress(measured(), CONTACTS, reference="60 degC")
+
+
+def test_stress_is_friction_times_the_mean_pressure_of_the_solved_contact(stress):
+    np.testing.assert_allclose(stress.shear_stress, measured().coulomb * CONTACTS.mean_pressure)
+    np.testing.assert_allclose(stress.speed, 0.1 * CONTACTS.speed)
+    relative = np.hypot(0.02 * TRUE(stress.speed, stress.temperature) / stress.shear_stress, 1e3 / stress.mean_pressure)
+    np.testing.assert_allclose(stress.error / stress.shear_stress, relative)
+    found = stress.to_dataset()
+    assert found["shear_stress"].attrs["units"] == "Pa"
+    assert found.attrs["reference_temperature"] == pytest.approx(333.15)
+
+
+def test_the_interface_has_shift_factors_of_its_own(stress):
+    """Within four standard errors of the planted ones, as nothing is selected."""
+    assert stress.found
+    away = stress.shift.log10_values - TRUE.shift.log10(stress.shift.temperatures)
+    assert np.all(np.abs(away) < 4.0 * np.sqrt(np.diag(stress.shift.covariance)) + 1e-9)
+    assert stress.overlap.rms < 0.1
+
+
+def test_the_planted_law_comes_back(stress):
+    compared = stress.compare_laws()
+    assert compared.chosen.kind == "gaussian"
+    law = compared.best
+    assert law.peak == pytest.approx(4e5, abs=3.0 * law.standard_errors[0])
+    assert law.shift.activation_energy == pytest.approx(7e4, abs=3.0 * law.standard_errors[-1])
+    assert law.fitted_pressures == (stress.mean_pressure.min(), stress.mean_pressure.max())
+    assert stress.law("gaussian") == law
+
+
+def test_shared_errors_widen_the_law_by_their_size(stress):
+    """An error of all areas is one of the peak alone; that of each temperature is one of the energy."""
+    areas = vf.shear_stress(measured(), CONTACTS, shift=TRUE.shift, area_error=0.1).law("gaussian")
+    bare = vf.shear_stress(measured(), CONTACTS, shift=TRUE.shift).law("gaussian")
+    assert areas.standard_errors[0] / areas.peak == pytest.approx(
+        np.hypot(0.1, bare.standard_errors[0] / bare.peak), rel=1e-3
+    )
+    assert areas.standard_errors[2] == pytest.approx(bare.standard_errors[2], rel=1e-3)
+    levels = vf.shear_stress(measured(), CONTACTS, reference="60 degC", level_error=0.1).law("gaussian")
+    assert levels.standard_errors[-1] > 1.1 * stress.law("gaussian").standard_errors[-1]
+
+
+def test_points_near_zero_and_missing_slip_are_noted():
+    weak = measured()
+    error = weak.coulomb_error.copy()
+    error[:3] = weak.coulomb[:3]
+    found = vf.shear_stress(replace(weak, coulomb_error=error, slip=None), CONTACTS, shift=TRUE.shift)
+    assert len(found) == N - 3
+    assert {note.code for note in found.notes} == {"left-out", "slip-assumed"}
+
+
+def test_stress_of_one_level_has_no_shift_factors_and_is_constant():
+    level = 3e5 / CONTACTS.mean_pressure * (1.0 + 0.02 * np.random.default_rng(1).standard_normal(N))
+    flat = vf.shear_stress(replace(measured(), coulomb=level, coulomb_error=0.02 * level), CONTACTS)
+    assert flat.shift is None
+    assert [note.code for note in flat.notes] == ["no-shift-factors"]
+    assert flat.compare_laws().chosen.kind == "constant"
+
+
+@pytest.mark.parametrize(
+    ("given", "code"),
+    [
+        ((CONTACTS, CONTACTS), "no-coulomb"),
+        ((measured(), measured()), "no-pressure"),
+        ((measured(), CONTACTS.select(np.arange(5))), "no-prediction"),
+    ],
+)
+def test_what_is_missing_is_named(given, code):
+    with pytest.raises(vf.InputError) as refused:
+        vf.shear_stress(*given)
+    assert refused.value.code == code
+
+
+def test_predicted_friction_has_hysteresis_and_interface():
+    """μ = τ_s A/F with the area of the contact; the hysteresis is that of the contact alone."""
+    case = {"load": "200 N/m", "accuracy": 0.1}
+    law = vf.ConstantShearStress(2e5, covariance=[[1e8]])
+    both = vf.predict_friction(RUBBER, vf.Cylinder("10 mm"), speeds=0.1, temperatures=333.15, **case, interface=law)
+    alone = vf.solve_steady(RUBBER, vf.Cylinder("10 mm"), speed=0.1, temperature=333.15, **case)
+    assert both.viscoelastic[0] == alone.friction_coefficient
+    assert both.coulomb[0] == pytest.approx(2e5 * alone.contact_area / 200.0)
+    assert both.total[0] == pytest.approx(both.viscoelastic[0] + both.coulomb[0])
+    relative = np.hypot(0.05, alone.diagnostics.contact_area_error / alone.contact_area)
+    assert both.coulomb_error[0] == pytest.approx(relative * both.coulomb[0])
+    assert both.total_error[0] == pytest.approx(np.hypot(both.coulomb_error[0], both.viscoelastic_error[0]))
+    assert {note.code for note in both.notes} == {"interface-law", "interface-share"}
+
+
+def test_the_interface_slips_at_its_own_speed_and_says_where_it_is_extrapolated():
+    power = vf.PowerShearStress(2e5, 0.5, 0.02, fitted_speeds=(1e-3, 1e-2), fitted_pressures=(1e3, 2e3))
+    sliding, rolling = with_interface(CONTACTS, power), with_interface(CONTACTS, power, "20 mm/s")
+    np.testing.assert_allclose(rolling.coulomb, 2e5 / CONTACTS.mean_pressure)
+    np.testing.assert_allclose(sliding.coulomb / rolling.coulomb, (CONTACTS.speed / 0.02) ** 0.5)
+    codes = {note.code for note in rolling.notes}
+    assert codes >= {"interface-extrapolated", "interface-pressure", "interface-without-error"}
+
+
+def test_interface_and_slip_belong_together():
+    case = {"speeds": 0.1, "temperatures": 333.15, "load": 100.0}
+    for more, code in (({"slip": 0.1}, "interface-needed"), ({"interface": 3e5}, "not-a-law")):
+        with pytest.raises(vf.InputError) as refused:
+            vf.predict_friction(RUBBER, vf.Cylinder("10 mm"), **case, **more)
+        assert refused.value.code == code
