@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         plot_friction_master_curve,
     )
     from viscofric.report.figures.identified import plot_identified_modulus
+    from viscofric.report.figures.interface import plot_friction_parts, plot_shear_stress
     from viscofric.report.figures.motion import (
         plot_force_depth,
         plot_friction_loop,
@@ -57,6 +58,8 @@ _HOME = {
     "plot_coulomb_friction": "viscofric.report.figures.friction",
     "plot_friction_curves": "viscofric.report.figures.friction",
     "plot_friction_master_curve": "viscofric.report.figures.friction",
+    "plot_friction_parts": "viscofric.report.figures.interface",
+    "plot_shear_stress": "viscofric.report.figures.interface",
     "plot_identified_modulus": "viscofric.report.figures.identified",
     "plot_isotherms": "viscofric.report.figures.rubber",
     "plot_kramers_kronig": "viscofric.report.figures.superposition",
@@ -92,6 +95,7 @@ __all__ = [
     "plot_friction_curves",
     "plot_friction_loop",
     "plot_friction_master_curve",
+    "plot_friction_parts",
     "plot_identified_modulus",
     "plot_isotherms",
     "plot_kramers_kronig",
@@ -102,6 +106,7 @@ __all__ = [
     "plot_residuals",
     "plot_restitution",
     "plot_retardation_spectrum",
+    "plot_shear_stress",
     "plot_shift_comparison",
     "plot_shift_factors",
     "plot_temperature_ramps",

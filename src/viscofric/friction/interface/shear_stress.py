@@ -14,6 +14,7 @@ from viscofric.friction.pairing import partner
 from viscofric.friction.shifting.collapse import Collapse, collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
 from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms, nominal_rows
+from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.notes import Note
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
@@ -83,9 +84,12 @@ class ShearStress:
     @property
     def reduced_speed(self) -> Array:
         """α(T) v, m/s, (n,) array; NaN where α is not known."""
-        if self.shift is None:
-            return np.where(np.abs(self.temperature - self.reference) < 1.0, self.speed, np.nan)
-        return np.asarray(self.speed * 10.0 ** self.shift.values_at(_nominal(self.temperature))[0])
+        return self._reduced(self.shift)
+
+    def _reduced(self, shift: ShiftLaw | None) -> Array:
+        if shift is None:
+            return np.where(np.abs(self.temperature - self.reference) < SAME_TEMPERATURE, self.speed, np.nan)
+        return np.asarray(self.speed * 10.0 ** shift.values_at(_nominal(self.temperature))[0])
 
     def law(self, kind: str) -> InterfaceLaw:
         """Fit a law to the shear stress, by generalised least squares of its logarithm.
@@ -149,21 +153,34 @@ class ShearStress:
             np.diag(variance) + shared,
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self, law: InterfaceLaw | None = None) -> xarray.Dataset:
         """Return the points as a labelled data set along ``point``, with units and long names.
 
-        ``reduced_speed`` is NaN where α is not known.  Attributes: ``reference_temperature`` (K), ``level_error``,
-        ``area_error`` and ``notes``.
+        Parameters
+        ----------
+        law : InterfaceLaw, optional
+            Whose shift gives the ``reduced_speed``; that of the stress without it.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``reduced_speed`` is NaN where α is not known.  Attributes: ``reference_temperature`` (K), ``level_error``,
+            ``area_error`` and ``notes``, with a law also ``law`` and ``description``.
         """
         from viscofric.datasets import dataset
 
+        reduced, reference, described = self.reduced_speed, self.reference, {}
+        if law is not None:
+            described = {"law": law.title, "description": str(law)}
+            reduced = self.speed if law.shift is None else self._reduced(law.shift)
+            reference = self.reference if law.shift is None else law.shift.reference
         return dataset(
             "point",
             {
                 "shear_stress": (self.shear_stress, "Pa", "shear stress of the interface"),
                 "shear_stress_error": (self.error, "Pa", "standard error of the shear stress"),
                 "mean_pressure": (self.mean_pressure, "Pa", "mean contact pressure"),
-                "reduced_speed": (self.reduced_speed, "m/s", "slip speed times shift factor of the interface"),
+                "reduced_speed": (reduced, "m/s", "slip speed times shift factor of the interface"),
             },
             coordinates={
                 "speed": (self.speed, "m/s", "slip speed"),
@@ -171,7 +188,8 @@ class ShearStress:
                 "load": (self.load, self.curves.load_unit, "normal load"),
             },
             attributes={
-                "reference_temperature": self.reference,
+                **described,
+                "reference_temperature": reference,
                 "level_error": self.level_error,
                 "area_error": self.area_error,
                 "notes": "\n".join(str(note) for note in self.notes),

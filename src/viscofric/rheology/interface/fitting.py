@@ -36,9 +36,11 @@ if TYPE_CHECKING:
 
 #: Kinds of law as `ShearStress.law` takes them, those of fewest constants first.
 KINDS = {law.kind: law for law in (ConstantShearStress, PowerShearStress, EyringShearStress, GaussianShearStress)}
-#: Starting values: activation energies, J/mol; decades of a law's speed about those measured; width, decades.
+#: Starting values: activation energies, J/mol, and decades of a law's speed about those measured.
 _ENERGIES = np.geomspace(5e3, 5e5, 25)
 _SPEEDS = np.arange(-8.0, 3.5, 0.5)
+#: Above that of any activated process of a polymer, even near its glass transition, J/mol.
+_LARGEST_ENERGY = 2e6
 #: A maximum farther from the measured speeds is none, decades.
 _FARTHEST = 15.0
 #: How far beyond the measured speeds laws that cannot be told apart are compared, decades.
@@ -76,11 +78,14 @@ class _Family:
 
     def law(self, parameters: Array, covariance: Array | None = None) -> InterfaceLaw:
         """Return the law; with a covariance, as one fitted to the table."""
-        shift, x = self.shift, self._reduced(parameters)
+        shift = self.shift
         fitted = None if covariance is None else (float(self.kelvin.min()), float(self.kelvin.max()))
         if self.y is not None:
+            if not parameters[-1] < _LARGEST_ENERGY:
+                raise _not_described(self.kind)
             spread = None if covariance is None else covariance[-1:, -1:]
             shift = Arrhenius(float(parameters[-1]), self.reference, spread, fitted)
+        x = self._reduced(parameters)
         return self._made(
             parameters,
             shift=shift,

@@ -1,0 +1,56 @@
+"""Figures of the dry interface draw what the results hold."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import viscofric as vf
+from viscofric import report
+from viscofric.friction.interface.prediction import with_interface
+
+LAW = vf.PowerShearStress(
+    "0.2 MPa", 0.2, 0.03, shift=vf.Arrhenius("60 kJ/mol", 313.15), covariance=np.diag([1e8, 1e-4, 1e6])
+)
+
+
+@pytest.fixture(scope="module")
+def contacts():
+    speed, kelvin = np.tile(np.geomspace(0.01, 0.1, 4), 2), np.repeat([303.15, 313.15], 4)
+    friction = {f"viscoelastic{name}": np.full(8, 0.02) for name in ("", "_error", "_scatter")}
+    pressure = {"mean_pressure": np.full(8, 4e5), "mean_pressure_error": np.zeros(8)}
+    return vf.FrictionCurves(speed, kelvin, np.full(8, 5.0), **friction, replicates=np.ones(8), **pressure)
+
+
+def test_stress_is_drawn_at_the_reduced_speed_of_the_first_law(contacts):
+    predicted = with_interface(contacts, LAW)
+    measured = replace(predicted, coulomb_error=0.02 * predicted.coulomb)
+    stress = vf.shear_stress(measured, contacts, shift=LAW.shift)
+    axes = Figure().subplots()
+    report.plot_shear_stress(axes, stress, [LAW, vf.ConstantShearStress("0.3 MPa")], synthetic=True)
+    drawn = np.concatenate([bars.lines[0].get_xdata() for bars in axes.containers])
+    reduced = 1e3 * stress.speed * LAW.shift(stress.temperature)
+    np.testing.assert_allclose(np.sort(drawn), np.sort(reduced))
+    law = next(line for line in axes.lines if len(line.get_xdata()) == 101)
+    np.testing.assert_allclose(law.get_ydata(), 1e-6 * LAW(1e-3 * law.get_xdata(), 313.15))
+    assert len(axes.collections) == 3  # two sets of bars and one band: the constant law has no errors
+    assert "synthetic" in axes.get_legend().get_title().get_text()
+    assert "40 °C" in axes.get_xlabel()
+
+
+def test_parts_are_stacked_to_the_total(contacts):
+    both = with_interface(contacts, LAW).at_temperature(313.15)
+    axes = Figure().subplots()
+    report.plot_friction_parts(axes, both)
+    hysteresis, interface = (part.get_paths()[0].get_extents() for part in axes.collections[:2])
+    assert (hysteresis.y0, hysteresis.y1) == pytest.approx((0.0, 0.02))
+    assert interface.y1 == pytest.approx(both.total.max())
+    with pytest.raises(vf.InputError) as refused:
+        report.plot_friction_parts(axes, with_interface(contacts, LAW))
+    assert refused.value.code == "several-temperatures"
+    with pytest.raises(vf.InputError) as refused:
+        report.plot_friction_parts(axes, contacts)
+    assert refused.value.code == "no-coulomb"
