@@ -16,6 +16,7 @@ from viscofric.motion.free.box import Box
 from viscofric.motion.free.energy import _relaxation
 from viscofric.motion.free.response import response_of
 from viscofric.motion.free.wake import Wake
+from viscofric.notes import codes
 
 TAU = 0.01
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=TAU)
@@ -37,6 +38,21 @@ def test_start_of_a_cylinder_from_rest():
     assert np.all(np.abs(run.friction_coefficient - friction) < run.errors.friction_force / LOAD)
     assert run.energy_imbalance < 1e-4
     assert run.method == "grid"
+
+
+def test_a_line_load_put_on_at_once_is_glassy_then_relaxed_and_what_is_not_stored_is_dissipated():
+    """δ = (2F/πE*)(ln(2L/a) + ½) from points at the distance L, W = (F²/πE*)(ln(2L/a) + ¼); a mode of 1 ns."""
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=1e-9)
+    history = vf.History([0.0, 0.1], load=LOAD)
+    run = vf.solve_transient(rubber, CYLINDER, history, times=[0.0, 0.1], accuracy=1e-2)
+    stiffness, a = np.array([1e7, 1e6]) / 0.75, A0 * np.sqrt([0.1, 1.0])
+    depth = 2.0 * LOAD / (np.pi * stiffness) * (np.log(40.0 * A0 / a) + 0.5)
+    stored = LOAD**2 / (np.pi * stiffness) * (np.log(40.0 * A0 / a) + 0.25)
+    assert run.indentation == pytest.approx(depth, rel=3e-4)  # the load at the distance L counts as a point
+    assert run.stored == pytest.approx(stored, rel=1e-3)
+    lost = stored[0] + LOAD * (depth[1] - depth[0]) - stored[1]
+    assert run.dissipated == pytest.approx([0.0, lost], abs=1e-3 * lost)
+    assert "no-level" in codes(run.warnings)
 
 
 def test_start_after_a_dwell_on_untouched_rubber_rises_from_below():

@@ -189,6 +189,16 @@ def test_jumps_are_elastic_and_their_work_is_stored():
     assert run.energy_imbalance < 1e-4
 
 
+def test_a_mode_too_quick_for_any_step_dissipates_after_a_jump():
+    """Work 0.4 F δ₀ of the glassy jump and F (δ₁ − δ₀) after it; 0.4 F δ₁ remains stored."""
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=1e-15)
+    run = vf.solve_transient(rubber, BALL, vf.History([0.0, 1.0], load=1.0), times=[0.0, 1.0])
+    first, last = run.indentation
+    assert last == pytest.approx(hertz_ball(1.0, 0.01, E0, 0.5).indentation, rel=1e-4)
+    assert run.dissipated == pytest.approx([0.0, 0.6 * (last - first)], rel=1e-4)
+    assert run.energy_imbalance < 1e-4
+
+
 def test_temperature_runs_the_clock():
     """At another temperature a creep test is the same by the material's clock; a ramp too."""
     law = vf.WLF(C1=8.0, C2=100.0, reference=300.0)

@@ -13,9 +13,9 @@ import viscofric as vf
 from motion.dense_wave import displacement_matrix, marched
 from viscofric.contact.reference import westergaard
 from viscofric.motion.memory import Modes
-from viscofric.motion.periodic import PeriodicMover, merged_modes
+from viscofric.motion.periodic import PeriodicMover
 from viscofric.motion.problem import Problem
-from viscofric.motion.wave_memory import StepResponse, advance
+from viscofric.motion.wave_memory import StepResponse, advance, merged_modes
 
 if TYPE_CHECKING:
     from viscofric.motion.mover import Observation
@@ -216,6 +216,17 @@ def test_work_is_stored_or_dissipated() -> None:
     run = vf.solve_transient(TWO_MODES, crossed(12), history, accuracy=3e-3, times=[0.0, 2e-3, 4e-3, 6e-3])
     assert run.energy_imbalance < 1e-4
     assert run.dissipated[-1] > 0.3 * run.work[-1] > 0.0
+
+
+def test_quick_modes_dissipate_after_a_jump() -> None:
+    """A wave in full contact stores E q z²/(8 (1 − ν²)) per area: with E_inf at once, soon afterwards with E0."""
+    z = 1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16)[:, None]
+    solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=1e-9)
+    surface, history = vf.PeriodicSurface(z, (1e-5, 1e-5)), vf.History([0.0, 1.0], pressure=1e8)
+    run = vf.solve_transient(solid, surface, history, times=[0.0, 1.0])
+    stored = np.array([1e7, 1e6]) / 0.75 * 2.0 * np.pi / 16e-5 * 1e-12 / 8.0
+    assert run.stored == pytest.approx(stored, rel=1e-9)
+    assert run.dissipated == pytest.approx([0.0, stored[0] - stored[1]], rel=1e-3)
 
 
 def test_units_do_not_matter() -> None:

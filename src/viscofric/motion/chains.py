@@ -25,11 +25,12 @@ class Errors(NamedTuple):
 
 
 class Link(NamedTuple, Generic[State]):
-    """A state of one chain with what is seen of it, and the work so far."""
+    """A state of one chain with what is seen of it, and the work so far: all of it, and that of friction."""
 
     state: State
     seen: Observation
     work: float
+    rubbed: float = 0.0
 
 
 class Pair(NamedTuple, Generic[State]):
@@ -100,13 +101,40 @@ def over_scales(off: Difference, scales: Scales) -> tuple[float, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Moment(Generic[State]):
-    """One returned time: what was seen, the work so far, and the estimated errors."""
+    """One returned time: what was seen, the work so far, the estimated errors, and the part of friction in the work."""
 
     instant: Instant
     seen: Observation
     work: float
     errors: Errors
     field: Field | None
+    rubbed: float = 0.0
+
+
+def moment_of(pair: Pair[State], instant: Instant, held: Field | None, *, extrapolate: bool) -> Moment[State]:
+    """Return what the chains say of one time: the energies extrapolated, and the rest too on request."""
+    coarse, fine = pair
+    off = difference(pair)
+    steps = [one / 3.0 for one in map(abs, off)]
+    each = steps[0], steps[1], math.hypot(*steps[2:4]), max(steps[4:])
+    errors = Errors(*(one + left for one, left in zip(each, fine.seen.left_out, strict=True)))
+    # Sums over all steps are smooth enough to be extrapolated.
+    stored, dissipated, work, rubbed = (
+        two + (two - one) / 3.0
+        for one, two in (
+            (coarse.seen.stored, fine.seen.stored),
+            (coarse.seen.dissipated, fine.seen.dissipated),
+            (coarse.work, fine.work),
+            (coarse.rubbed, fine.rubbed),
+        )
+    )
+    seen = fine.seen._replace(stored=stored, dissipated=dissipated)
+    if extrapolate:
+        x, y = seen.friction_force
+        force = x + off.along / 3.0, y + off.across / 3.0
+        load, depth = seen.load + off.load / 3.0, seen.depth + off.depth / 3.0
+        seen = seen._replace(load=load, depth=depth, friction_force=force)
+    return Moment(instant, seen, work, errors, held, rubbed)
 
 
 @dataclass(frozen=True, eq=False)

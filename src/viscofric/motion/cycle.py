@@ -172,7 +172,7 @@ class _Search:
         for _ in range(self.most_periods):
             memory = mover.memory_of(state)
             # The instantaneous pressure that belongs to this memory.
-            begun = mover.step(mover.with_memory(state, memory), first, first)
+            begun = mover.settle(mover.step(mover.with_memory(state, memory), first, first), first)
             link = Link(begun, mover.observe(begun), 0.0)
             track = march(
                 mover,

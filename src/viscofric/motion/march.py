@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Generic
 import numpy as np
 
 from viscofric.errors import ConvergenceError
-from viscofric.motion.chains import Errors, Link, Moment, Pair, Reached, Track, difference, over_scales
+from viscofric.motion.chains import Link, Moment, Pair, Reached, Track, difference, moment_of, over_scales
 from viscofric.motion.mover import SHARE, Mover, Scales, State
 
 if TYPE_CHECKING:
@@ -33,6 +33,8 @@ _MOST_MARCHES = 6
 _SHRINK, _GROW, _SAFETY = 0.1, 3.0, 0.85
 #: First step of an interval, and the least one, as parts of the interval.
 _FIRST, _LEAST = 1.0 / 32.0, 1e-10
+#: First step after a jump, in the time in which the response changes; least part of the time that has a length.
+_FIRST_AFTER_JUMP, _INSTANT = 0.2, 1e-14
 
 
 class _TooLargeError(Exception):
@@ -195,11 +197,24 @@ class _March(Generic[State]):
             state = self.mover.step(link.state, before, after)
             seen = self.mover.observe(state)
             self.mover.accept(state, after)
-            links.append(Link(state, seen, link.work + seen.stored - link.seen.stored))
+            links.append(Link(state, seen, link.work + seen.stored - link.seen.stored, link.rubbed))
+        return self._seen(Pair(*links))
+
+    def _settled(self, pair: Pair[State], instant: Instant) -> Pair[State]:
+        """Let the modes follow a jump that are too quick for steps; the load or the depth does not change."""
+        links = []
+        for link in pair:
+            state = self.mover.settle(link.state, instant)
+            if state is link.state:
+                return pair
+            seen, before = self.mover.observe(state), link.seen
+            self.mover.accept(state, instant)
+            links.append(Link(state, seen, link.work + seen.load * (seen.depth - before.depth), link.rubbed))
         return self._seen(Pair(*links))
 
     def _interval(self, pair: Pair[State], start: float, end: float) -> None:
         """March through a part without kinks."""
+        pair = self._settled(pair, self.schedule.at(start))
         ticks = self.mover.ticks(self.schedule.at(start), self.schedule.at(end, after=False))
         if ticks is None:
             self._freely(pair, start, end)
@@ -207,7 +222,7 @@ class _March(Generic[State]):
             self._by_ticks(pair, start, np.asarray(ticks))
 
     def _freely(self, pair: Pair[State], start: float, end: float) -> None:
-        time, step = start, self._pace or _FIRST * (end - start)
+        time, step = start, self._pace or self._first_step(start, end)
         while time < end:
             # avoid a tiny last step
             left = end - time
@@ -224,6 +239,16 @@ class _March(Generic[State]):
             step = max(proposed if step < proposed and ratio < 1.0 else 0.0, step * _growth(ratio))
             pair = self._take(tried, reached, end, step)
             time = reached
+
+    def _first_step(self, start: float, end: float) -> float:
+        """Return the first step after a jump, before the end of which not even quick modes have followed it.
+
+        The two chains could not show an error of both of them.
+        """
+        step = _FIRST * (end - start)
+        clock = self.schedule.at(start + step).clock - self.schedule.at(start).clock
+        quick = step / clock * _FIRST_AFTER_JUMP * self.mover.quickest
+        return min(step, max(quick, _INSTANT * max(abs(start), abs(end))))
 
     def _by_ticks(self, pair: Pair[State], start: float, ticks: Array) -> None:
         """March by whole ticks: two or more for the coarse chain, half as many for the fine one."""
@@ -256,11 +281,10 @@ class _March(Generic[State]):
     def _step(self, link: Link[State], start: Instant, end: Instant) -> Link[State]:
         state = self.mover.step(link.state, start, end)
         seen, before = self.mover.observe(state), link.seen
-        work = 0.5 * (seen.load + before.load) * (seen.depth - before.depth)
-        for axis in (0, 1):
-            force = 0.5 * (seen.friction_force[axis] + before.friction_force[axis])
-            work += force * float(end.position[axis] - start.position[axis])
-        return Link(state, seen, link.work + work)
+        pressed = 0.5 * (seen.load + before.load) * (seen.depth - before.depth)
+        forces = 0.5 * np.add(seen.friction_force, before.friction_force)
+        rubbed = float(forces @ (end.position - start.position))
+        return Link(state, seen, link.work + pressed + rubbed, link.rubbed + rubbed)
 
     def _ratio(self, pair: Pair[State], tried: Pair[State]) -> float:
         """Return the growth of the difference of the chains in a step, relative to the allowed growth."""
@@ -299,30 +323,8 @@ class _March(Generic[State]):
     def _record(self, pair: Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:
         if not asked and self.times is not None:
             return
-        coarse, fine = pair
-        load, depth, along, across, *energies = (abs(one) / 3.0 for one in difference(pair))
-        of_load, of_depth, of_energy = fine.seen.left_out
-        errors = Errors(load + of_load, depth + of_depth, math.hypot(along, across), max(energies) + of_energy)
-        # Sums over all steps are smooth enough to be extrapolated.
-        stored, dissipated, work = (
-            two + (two - one) / 3.0
-            for one, two in (
-                (coarse.seen.stored, fine.seen.stored),
-                (coarse.seen.dissipated, fine.seen.dissipated),
-                (coarse.work, fine.work),
-            )
-        )
-        seen = fine.seen._replace(stored=stored, dissipated=dissipated)
-        if self.extrapolate:
-            off = difference(pair)
-            x, y = fine.seen.friction_force
-            seen = seen._replace(
-                load=seen.load + off.load / 3.0,
-                depth=seen.depth + off.depth / 3.0,
-                friction_force=(x + off.along / 3.0, y + off.across / 3.0),
-            )
-        held = self.mover.pressure(fine.state) if self.fields else None
-        self.moments += times * [Moment(instant, seen, work, errors, held)]
+        held = self.mover.pressure(pair.fine.state) if self.fields else None
+        self.moments += times * [moment_of(pair, instant, held, extrapolate=self.extrapolate)]
 
 
 def _growth(ratio: float) -> float:

@@ -77,6 +77,11 @@ def step_coefficients(steps: ArrayLike, turn: ArrayLike = 0.0) -> StepCoefficien
     return StepCoefficients(np.exp(z), kappa * (first - second), kappa * second)
 
 
+def quickest_time(instantaneous: float, compliances: Array, times: Array) -> float:
+    """Return the time in which an instantaneous compliance would double at the first rate of creep, s."""
+    return instantaneous / float(compliances @ (1.0 / times)) if len(times) else math.inf
+
+
 class Spectrum(Protocol):
     """A retardation spectrum: J(t) = 1/E_inf + Σ C_k (1 − exp(−t/τ_k))."""
 
@@ -104,6 +109,7 @@ class Modes:
     C: Array  # (n,) compliance of each mode, 1/Pa
     tau: Array  # (n,) retardation times, s, rising
     error: float = 0.0  # bound on the error of the creep compliance by merging, relative to it
+    at_once: float = 0.0  # part of the instantaneous compliance that is of modes without a field, 1/Pa
 
     @classmethod
     def of(cls, spectrum: Spectrum) -> Modes:
@@ -181,8 +187,8 @@ def _merged(every: Modes, at_once: int, fast: int, slow: int) -> Modes:
         part = slice(last, None)
         one_C.append(C[part].sum(keepdims=True))
         one_tau.append(one_C[-1] / (C[part] @ (1.0 / tau[part])))
-    instantaneous = every.instantaneous + float(C[:at_once].sum())
-    return Modes(instantaneous, np.concatenate(one_C), np.concatenate(one_tau))
+    quick = float(C[:at_once].sum())
+    return Modes(every.instantaneous + quick, np.concatenate(one_C), np.concatenate(one_tau), at_once=quick)
 
 
 @dataclass(frozen=True, eq=False)

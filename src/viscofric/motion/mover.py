@@ -37,8 +37,9 @@ class Observation(NamedTuple):
         not from the work of load and friction, which the march adds up itself.
     extents : mapping
         ``contact_radius``, or ``front``, ``rear`` and ``half_width``, m.
-    left_out : (float, float, float)
-        Errors of load, depth and dissipated energy that shorter steps do not reduce, from the number of springs.
+    left_out : (float, float, float, float)
+        Errors of load, depth, friction and dissipated energy that shorter steps do not reduce: by the number of
+        springs, and by merged modes.
     """
 
     load: float
@@ -48,7 +49,7 @@ class Observation(NamedTuple):
     stored: float
     dissipated: float
     extents: Mapping[str, float]
-    left_out: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    left_out: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
 
 
 class Scales(NamedTuple):
@@ -98,6 +99,11 @@ class Mover(Protocol[State]):
         """First part of the accuracy that one step may add to the difference of the chains, between times asked for."""
         ...
 
+    @property
+    def quickest(self) -> float:
+        """Time in which the response to a jump changes noticeably, s of the clock."""
+        ...
+
     def begin(self) -> State:
         """Return the state just before the start: nothing has happened, or what `Schedule.before` says."""
         ...
@@ -105,8 +111,12 @@ class Mover(Protocol[State]):
     def step(self, state: State, start: Instant, end: Instant) -> State:
         """Return the state at the end of a step; the memory is exact for a pressure that is linear in between.
 
-        A jump is a step with ``end.clock == start.clock``.
+        A jump is a step with ``end.clock == start.clock``: the response of the glassy modulus.
         """
+        ...
+
+    def settle(self, state: State, instant: Instant) -> State:
+        """Return the state soon after a jump, in which modes too quick for steps have followed; others as they are."""
         ...
 
     def accept(self, state: State, instant: Instant) -> None:

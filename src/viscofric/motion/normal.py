@@ -24,12 +24,13 @@ import numpy as np
 
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
+from viscofric.motion.memory import quickest_time
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
 from viscofric.motion.springs import both_sides, elastic_radius, profile
 from viscofric.motion.steps import step_parts
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array
+    from viscofric.arrays import Array, Mask
     from viscofric.motion.problem import Problem
     from viscofric.motion.schedule import Instant, Schedule
 
@@ -45,6 +46,8 @@ _RISE = 0.02
 #: Error of the load by the trapezoidal rule, over the largest difference of neighbouring forces times their
 #: distance; smallest load, relative to the largest one, with which it is compared.
 _LEFT_OUT, _LEAST_LOAD = 0.5, 0.01
+#: Retardation times without steps of their own, in the duration of the history, whose digits end at 1e-16.
+_QUICK = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +101,18 @@ class NormalMotion:
         )
 
     @cached_property
+    def _quick(self) -> Mask:
+        """Modes that follow a jump before any time of the schedule."""
+        ends = [self.schedule.at(float(time)) for time in self.schedule.kinks[[0, -1]]]
+        return np.asarray(self.tau < _QUICK * (ends[1].clock - ends[0].clock))
+
+    @property
+    def quickest(self) -> float:
+        """Time in which the response to a jump changes noticeably, s of the clock."""
+        c, quick = self.compliances, self._quick
+        return quickest_time(self.glassy + float(c[quick].sum()), c[~quick], self.tau[~quick])
+
+    @cached_property
     def scales(self) -> Scales:
         """Load at E0 of the largest depth, depth at E∞ of the largest load."""
         largest = self.schedule.largest
@@ -138,29 +153,42 @@ class NormalMotion:
         )
         return SpringState(depth, self._carried(force, end), force, memory, state.dissipated + dissipated, threshold)
 
+    def settle(self, state: SpringState, instant: Instant) -> SpringState:
+        """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
+        quick = self._quick
+        if not quick.any():
+            return state
+        known = state.memory[:, ~quick] @ self.compliances[~quick]
+        depth, force = self._pressed(self.g + known, self.glassy + float(self.compliances[quick].sum()), instant)
+        memory = np.where(quick, force[:, None], state.memory)
+        found = SpringState(depth, self._carried(force, instant), force, memory, state.dissipated, self.g + known)
+        lost = found.load * (depth - state.depth) - (self._stored(found) - self._stored(state))
+        return replace(found, dissipated=state.dissipated + lost)
+
     def observe(self, state: SpringState) -> Observation:
         """Return load, depth, radius and energies."""
-        stored = (
-            0.5 * self.weights @ (self.glassy * np.square(state.force) + np.square(state.memory) @ self.compliances)
-        )
         radius = self._edge(state)
         extents = {"contact_radius": radius, "dent": float(state.memory[0] @ self.compliances)}
         if state.force[0] > 0.0:
             extents["dent"] = float(state.depth)
         return Observation(
-            state.load, state.depth, (0.0, 0.0), np.pi * radius**2, float(stored), state.dissipated, extents,
+            state.load, state.depth, (0.0, 0.0), np.pi * radius**2, self._stored(state), state.dissipated, extents,
             self._left_out(state),
         )  # fmt: skip
 
-    def _left_out(self, state: SpringState) -> tuple[float, float, float]:
+    def _stored(self, state: SpringState) -> float:
+        squares = self.glassy * np.square(state.force) + np.square(state.memory) @ self.compliances
+        return 0.5 * float(self.weights @ squares)
+
+    def _left_out(self, state: SpringState) -> tuple[float, float, float, float]:
         """Return the discretisation errors of the springs, caused by a force that is not smooth at the contact edge."""
         if self.indenter.has_walls:
-            return 0.0, 0.0, 0.0
+            return 0.0, 0.0, 0.0, 0.0
         least = _LEFT_OUT * float(self.s[1] / self.radius) ** 2
         load = _LEFT_OUT * float(np.max(np.abs(np.diff(state.force)) * np.diff(self.s)))
         part = max(least, load / max(state.load, _LEAST_LOAD * self.scales.load))
         depth, energy = part * abs(state.depth), 2.0 * least * state.dissipated
-        return (0.0, depth, energy) if self.schedule.control == "load" else (load, 0.0, energy)
+        return (0.0, depth, 0.0, energy) if self.schedule.control == "load" else (load, 0.0, 0.0, energy)
 
     def pressure(self, state: SpringState) -> Field:
         """Return p(r) between the springs."""

@@ -9,7 +9,6 @@ Inside, depths are in rms heights and compliances in that of the most compliant 
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -24,9 +23,9 @@ from viscofric.contact.periodic.one_grid import OneGrid, Stage
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import ConvergenceError
-from viscofric.motion.memory import Modes
+from viscofric.motion.memory import Modes, quickest_time
 from viscofric.motion.mover import Field, Observation, Scales
-from viscofric.motion.wave_memory import StepResponse, advance
+from viscofric.motion.wave_memory import StepResponse, advance, merged_modes
 from viscofric.motion.waves import Waves
 
 if TYPE_CHECKING:
@@ -47,26 +46,11 @@ _TIGHTNESS, _LEAST_DISPLACEMENT = 1e-2, 1e-5
 _LEAST_FRICTION = 0.1
 # Steps whose transfer functions are kept: one, and its halves.
 _KEPT = 2
-# Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
-# that part of it in which a point is passed from which on the passage is the shortest time.
-_MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
-_EXTENDED = 10_000  # points from which on residuals are extended, which saves products but costs time
+# Points from which on residuals are extended, which saves products but costs time.
+_EXTENDED = 10_000
 _SHARES = (0.05, 0.3)  # see `march`: for ridges, and for spots, where errors of steps that come and go nearly cancel
 _SAME = 1e-12  # relative difference up to which steps are the same
 _SINGLE = 1e-4  # accuracy from which on memory is in single precision: each step rounds it to 6e-8 of itself
-
-
-def merged_modes(problem: Problem) -> Modes:
-    """Return the modes required for a history on a grid."""
-    schedule, surface = problem.schedule, problem.indenter
-    assert isinstance(surface, PeriodicSurface)
-    cell, shortest = min(surface.spacing), math.inf
-    for start, end in itertools.pairwise(schedule.kinks.tolist()):
-        clock = schedule.at(end, after=False).clock - schedule.at(start).clock
-        speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
-        passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
-        shortest = min(shortest, passing if passing < _QUICK * clock else _SHORTEST * clock)
-    return Modes.for_history(schedule.spectrum, shortest, schedule.duration, _MERGING * problem.accuracy)
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +65,7 @@ class PeriodicState:
     stored: float  # per area
     dissipated: float
     trend: Array | None = None  # (nx, ny) rate of change of the pressure in the step before, 1/s
+    lagging: float = 0.0  # after a jump: energy of the modes without a field minus that after they have followed
 
 
 class _Step(NamedTuple):
@@ -115,7 +100,10 @@ class PeriodicMover:
         self.response_unit = float(self.grid.response.max())
         self.compliance_unit = self.response_unit * spectrum.relaxed
         self.pressure_unit = self.depth_unit / self.compliance_unit
-        self.modes = Modes(spectrum.instantaneous / spectrum.relaxed, spectrum.C / spectrum.relaxed, spectrum.tau)
+        unit = 1.0 / spectrum.relaxed
+        self.modes = Modes(
+            unit * spectrum.instantaneous, unit * spectrum.C, spectrum.tau, spectrum.error, unit * spectrum.at_once
+        )
         self._shape = self.grid.response / self.response_unit
         self._scale = np.sqrt(self.grid.weights * self._shape)  # √(w G), a factor of the memory
         self._unscaled = np.sqrt(self._shape / self.grid.weights)
@@ -135,6 +123,11 @@ class PeriodicMover:
         pressure = self.pressure_unit if self.schedule.control == "gap" else highest
         slope = max(float(self.surface.slope(axis).std()) for axis in ((1.0, 0.0), (0.0, 1.0)))
         return Scales(pressure, self.depth_unit, _LEAST_FRICTION * slope * pressure, pressure * self.depth_unit)
+
+    @property
+    def quickest(self) -> float:
+        """Time in which the response to a jump changes noticeably, s of the clock."""
+        return quickest_time(self.modes.instantaneous, self.modes.C, self.modes.tau)
 
     def begin(self) -> PeriodicState:
         """Return the state just before the start."""
@@ -164,9 +157,29 @@ class PeriodicMover:
 
     def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
         """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""
+        lagging = self.modes.at_once if end.clock == start.clock else 0.0
+        found = self._stepped(state, start, end, lagging, keep=keep)
+        if lagging == 0.0:
+            return found
+        change = np.linalg.norm(self._scale * state.waves) ** 2 - np.linalg.norm(self._scale * found.waves) ** 2
+        return replace(found, lagging=0.5 * lagging * float(change))
+
+    def settle(self, state: PeriodicState, instant: Instant) -> PeriodicState:
+        """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
+        if state.lagging == 0.0:
+            return state
+        found = self._stepped(state, instant, instant, 0.0, keep=True)
+        work = float(found.pressure.mean()) * (found.depth - state.depth)
+        lost = work - (found.stored - state.stored - state.lagging)
+        return replace(found, dissipated=state.dissipated + lost)
+
+    def _stepped(
+        self, state: PeriodicState, start: Instant, end: Instant, lagging: float, *, keep: bool
+    ) -> PeriodicState:
+        """Return the state at the end of a step; compliances that lag behind remember the pressure before it."""
         path = np.asarray(end.position) - np.asarray(start.position)
         clock_step = end.clock - start.clock
-        problem = self._step_of(clock_step, path)
+        problem = self._step_of(clock_step, path, lagging)
         past = problem.response.known(self.modes, state.memory, self._scale * state.waves)
         guess = state.pressure
         if state.trend is not None and clock_step > 0.0:
@@ -186,14 +199,19 @@ class PeriodicMover:
         """Return the observed quantities of a state, per area."""
         work = self.pressure_unit * self.depth_unit
         loaded = np.count_nonzero(state.pressure > 0.0)
+        load, depth = self.pressure_unit * float(state.pressure.mean()), self.depth_unit * abs(state.depth)
+        free, part = self.schedule.control == "pressure", self.modes.error
+        friction, lost = work * math.hypot(*state.friction), work * state.dissipated
+        left_out = (0.0 if free else part * load, part * depth if free else 0.0, part * friction, part * lost)
         return Observation(
-            load=self.pressure_unit * float(state.pressure.mean()),
+            load=load,
             depth=self.depth_unit * state.depth,
             friction_force=(work * state.friction[0], work * state.friction[1]),
             area=float(loaded) / state.pressure.size,
-            stored=work * state.stored,
+            stored=work * (state.stored + state.lagging),
             dissipated=work * state.dissipated,
             extents={},
+            left_out=left_out,
         )
 
     def pressure(self, state: PeriodicState) -> Field:
@@ -248,17 +266,19 @@ class PeriodicMover:
         stored = 0.5 * float(np.vdot(self.grid.weights * elastic, squares)) + energies[0]
         return PeriodicState(pressure, waves, memory, depth, friction, stored, energies[1], trend)
 
-    def _step_of(self, clock_step: float, path: Array) -> _Step:
+    def _step_of(self, clock_step: float, path: Array, lagging: float) -> _Step:
         """Return the problem of a step, kept from one that differs by rounding only."""
-        for (step, x, y), problem in self._steps.items():
+        for (step, x, y, late), problem in self._steps.items():
             far = math.hypot(x - path[0], y - path[1])
-            if abs(step - clock_step) <= _SAME * step and far <= _SAME * math.hypot(x, y):
+            if abs(step - clock_step) <= _SAME * step and far <= _SAME * math.hypot(x, y) and late == lagging:
                 return problem
         response = StepResponse.of(self.modes, clock_step, self.grid.turn(path))
+        if lagging > 0.0:
+            response = replace(response, start=response.start + lagging, end=response.end - lagging)
         while len(self._steps) >= _KEPT:
             del self._steps[next(iter(self._steps))]
         problem = self._made(response, path)
-        self._steps[clock_step, float(path[0]), float(path[1])] = problem
+        self._steps[clock_step, float(path[0]), float(path[1]), lagging] = problem
         return problem
 
     def _made(self, response: StepResponse, path: Array) -> _Step:

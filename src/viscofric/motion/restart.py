@@ -58,7 +58,8 @@ class Restart:
         else:
             modes: Modes = mover.modes  # type: ignore[attr-defined]
             unit = mover.compliance_unit / mover.response_unit  # type: ignore[attr-defined]
-            basis = {"instantaneous": np.array(unit * modes.instantaneous), "C": unit * modes.C, "tau": modes.tau}
+            basis = {"C": unit * modes.C, "tau": modes.tau}
+            basis |= {one: np.array(unit * getattr(modes, one)) for one in ("instantaneous", "at_once")}
         return cls(method, history, track, _same(problem, basis), basis)
 
     def insist_on_same(self, problem: Problem) -> None:
@@ -114,9 +115,11 @@ class Restart:
         )
 
     def _waves(self, problem: Problem) -> Mover[Any]:
-        from viscofric.motion.periodic import PeriodicMover, merged_modes
+        from viscofric.motion.periodic import PeriodicMover
+        from viscofric.motion.wave_memory import merged_modes
 
-        held = Modes(float(self.basis["instantaneous"]), self.basis["C"], self.basis["tau"])
+        one = self.basis
+        held = Modes(float(one["instantaneous"]), one["C"], one["tau"], at_once=float(one["at_once"]))
         fresh, every = merged_modes(problem), Modes.of(problem.schedule.spectrum)
         if len(held) == len(fresh) and all(
             np.allclose(one, two, rtol=_FITTED, atol=0.0)

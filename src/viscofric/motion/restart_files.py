@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
 
-_FORMAT = "viscofric state 1"
+_FORMAT = "viscofric state 2"
 _DAMAGED = (KeyError, ValueError, TypeError, IndexError, OSError, EOFError, zipfile.BadZipFile, InputError)
 _REACHED = ("time", "jumped", "told", "pace", "share", "stored")
 _SEEN = ("load", "depth", "friction_force", "area", "stored", "dissipated")

@@ -100,9 +100,10 @@ def solve_transient(
     springs must fall outwards.  If it does not, the contact is solved on cells, and a note says so.
 
     Sliding contacts, contacts on layers and those of other indenters are solved on cells that are fixed to the body, on
-    finer and finer grids.  An indenter moves by whole cells wherever it can.  A line contact has no absolute
-    indentation, so its change since the first contact is given.  The accuracy of this change is relative to the largest
-    change, or to a fiftieth of the indentation a²/R if that is more.  Without `times`, the first steps after a start or
+    finer and finer grids.  An indenter moves by whole cells wherever it can.  A line contact on
+    a half-space has no absolute indentation.  Of one that has rested or slid, the change since the start is given; of
+    any other, the depth below points at a distance that a note names.  Its accuracy is relative to the largest value,
+    or to a fiftieth of the indentation a²/R if that is more.  Without `times`, the first steps after a start or
     a reversal, in which the contact moves by less than one cell, may have errors above the accuracy; `errors` holds
     them.
 

@@ -20,12 +20,15 @@ energies.  Memory may be in single precision; sums over waves are in double prec
 
 from __future__ import annotations
 
+import itertools
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.motion.memory import StepCoefficients, phi
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.motion.memory import Modes, StepCoefficients, phi
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,11 +36,27 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.arrays import Array, ComplexArray
-    from viscofric.motion.memory import Modes
+    from viscofric.motion.problem import Problem
 
 
+# Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
+# that part of it in which a point is passed from which on the passage is the shortest time.
+_MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
 # Waves processed at once: those of all modes stay in the processor's cache.
 _BLOCK = 2048
+
+
+def merged_modes(problem: Problem) -> Modes:
+    """Return the modes required for a history on a grid."""
+    schedule, surface = problem.schedule, problem.indenter
+    assert isinstance(surface, PeriodicSurface)
+    cell, shortest = min(surface.spacing), math.inf
+    for start, end in itertools.pairwise(schedule.kinks.tolist()):
+        clock = schedule.at(end, after=False).clock - schedule.at(start).clock
+        speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
+        passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
+        shortest = min(shortest, passing if passing < _QUICK * clock else _SHORTEST * clock)
+    return Modes.for_history(schedule.spectrum, shortest, schedule.duration, _MERGING * problem.accuracy)
 
 
 @dataclass(frozen=True, eq=False)

@@ -46,7 +46,7 @@ class FreeMover(Cells):
     share: ClassVar[float] = _SHARE
     reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
     longest: float = field(default=0.0, init=False)  # the longest of them
-    first_depth: float | None = field(default=None, init=False)  # at the first contact
+    datum: float = field(default=0.0, init=False)  # depth at the start, where depths have no level
 
     _swept: Box | None = field(default=None, init=False)  # cells of all memories that were read
 
@@ -54,6 +54,11 @@ class FreeMover(Cells):
     def scales(self) -> Scales:
         """Sizes that errors are compared with, SI."""
         return self.setting.scales
+
+    @property
+    def quickest(self) -> float:
+        """Time in which the response to a jump changes noticeably, s of the clock."""
+        return self.setting.body.quickest
 
     def begin(self) -> FreeState:
         """Return the state before the start."""
@@ -65,17 +70,30 @@ class FreeMover(Cells):
             state = rested(self, first)
         else:
             state = slid(self, first, self.setting.first_speed)
-        self.first_depth = state.depth if state.pressure.any() else None
+        self.datum = 0.0 if self.setting.is_levelled else state.depth
         return state
 
     def step(self, state: FreeState, start: Instant, end: Instant) -> FreeState:
         """Return the state at the end of a step."""
+        return self._stepped(state, start, end, self.setting.body.at_once if end.clock == start.clock else 0.0)
+
+    def settle(self, state: FreeState, instant: Instant) -> FreeState:
+        """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
+        if state.lagging == 0.0:
+            return state
+        found = self._stepped(state, instant, instant, 0.0)
+        work = self.grid.cell_area * float(found.pressure.sum()) * (found.depth - state.depth)
+        lost = work - (self._stored(found) - self._stored(state))
+        return replace(found, dissipated=state.dissipated + lost)
+
+    def _stepped(self, state: FreeState, start: Instant, end: Instant, lagging: float) -> FreeState:
+        """Return the state at the end of a step; compliances that lag behind remember the pressure before it."""
         setting, body = self.setting, self.setting.body
         duration = end.clock - start.clock
         coefficients = body.over(duration)
         place = self.placed(end)
         load, depth = setting.control(end)
-        compliance = body.compliance(coefficients)
+        compliance = body.compliance(coefficients) - lagging
         for _ in range(MOST_WINDOWS):
             window = self.window(place)
             box = state.box if state.box.holds(window) else state.box.grown(window, _SPARE)
@@ -83,7 +101,7 @@ class FreeMover(Cells):
             held = state.window.carried(state.pressure, box)
             memory = state.box.carried(state.memory, box)
             left = np.tensordot(body.compliances * coefficients.decay, memory, 1)
-            left += float(body.compliances @ coefficients.start) * held
+            left += (float(body.compliances @ coefficients.start) + lagging) * held
             known = self.response.seen_from(left, box, window)
             if state.wake is not None:
                 known = known + self._of_wake(state.wake, coefficients, window, end)
@@ -94,7 +112,9 @@ class FreeMover(Cells):
         else:
             raise ConvergenceError("no window was found that holds the contact.", code="no-window")
         force = self.force(solved[0], known)
-        return self._after(state, coefficients, duration, place, window, box, held, memory, solved, force)
+        after = self._after(state, coefficients, duration, place, window, box, held, memory, solved, force)
+        change = state.products.pressure - after.products.pressure
+        return replace(after, lagging=0.5 * self.grid.cell_area * lagging * change)
 
     def _check_size(self, box: Box) -> None:
         """Refuse a path whose cells do not fit into memory."""
@@ -122,8 +142,6 @@ class FreeMover(Cells):
         """Note how far a contact reaches that the march has accepted."""
         if not state.pressure.any():
             return
-        if self.first_depth is None:
-            self.first_depth = state.depth
         grid = self._grid_of(state)
         loaded = state.pressure > 0.0
         here = grid.extent(loaded)
@@ -139,27 +157,30 @@ class FreeMover(Cells):
         load = cell * float(state.pressure.sum())
         force = scale.force * scale.slope
         along, across = state.force
-        body = setting.body
-        stored = (
-            0.5
-            * cell
-            * (
-                body.instant * state.products.pressure
-                + float(body.compliances @ state.products.modes)
-                + body.counterface * state.faced
-            )
-        )
         area, extents = self._footprint(state, window)
         work = scale.force * scale.depth
+        free = setting.schedule.control == "load"
+        left_out = (
+            0.0 if free else scale.force * load,
+            scale.depth * abs(state.depth) if free else 0.0,
+            force * math.hypot(along, across),
+            work * state.dissipated,
+        )
         return Observation(
             load=scale.force * load,
-            depth=scale.depth * state.depth,
+            depth=scale.depth * (state.depth - self.datum),
             friction_force=setting.unturned(force * along, force * across),
             area=area,
-            stored=work * stored,
+            stored=work * self._stored(state),
             dissipated=work * state.dissipated,
             extents=extents,
+            left_out=tuple(setting.body.merged * one for one in left_out),  # type: ignore[arg-type]
         )
+
+    def _stored(self, state: FreeState) -> float:
+        body, products = self.setting.body, state.products
+        twice = body.instant * products.pressure + float(body.compliances @ products.modes)
+        return 0.5 * self.grid.cell_area * (twice + body.counterface * state.faced) + state.lagging
 
     def pressure(self, state: FreeState) -> Field:
         """Return the pressure of a state, from the indenter's axis, SI."""
@@ -233,7 +254,7 @@ class FreeMover(Cells):
         now = window.carried(pressure, box)
         spread = self.response(now)
         end, with_end = float(np.vdot(now, spread)), float(np.vdot(held, spread))
-        flat = memory.reshape(len(memory), -1)
+        flat = memory.reshape(len(memory), spread.size)
         modes_with_end = flat @ spread.ravel()
         wake = state.wake
         if wake is not None:

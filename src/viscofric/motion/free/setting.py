@@ -45,7 +45,7 @@ _BEND = 0.25
 _OF_SPEED = 5
 # Graded ticks of a rest, at cells of this length or longer, and the first of them, as a part of the rest.
 _AT_REST, _REST_CELL, _FIRST_AT_REST = 48, 0.04, 1e-3
-# First tick after a jump, in the shortest retardation time.
+# Second tick after a jump, in the time in which the response to it changes.
 _FIRST_TICK = 0.2
 
 
@@ -284,9 +284,10 @@ class Setting:
 
     def _after_jump(self, start: Instant, end: Instant) -> Array:
         duration = end.time - start.time
-        first = min(_FIRST_TICK * float(self.body.times.min(initial=duration)), 0.1 * duration)
+        rate = (end.clock - start.clock) / duration
+        first = min(_FIRST_TICK * self.body.quickest / rate, 0.1 * duration)
         count = 1 + math.ceil(_OF_TIME * math.log(duration / first))
-        return np.asarray(start.time + np.geomspace(first, duration, count))
+        return np.asarray(start.time + np.concatenate([[0.5 * first], np.geomspace(first, duration, count)]))
 
 
 def _direction(schedule: Schedule) -> tuple[float, float]:

@@ -52,7 +52,7 @@ def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
     response = cells.response
     spread = response(here)
     each = [response(one) for one in memory]
-    mixed = memory.reshape(len(memory), -1) @ spread.ravel()
+    mixed = memory.reshape(len(memory), spread.size) @ spread.ravel()
     modes = np.array([float(np.vdot(a, b)) for a, b in zip(memory, each, strict=True)])
     wake, far = None, np.zeros((1, nx))
     if behind < faded:

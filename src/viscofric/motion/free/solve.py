@@ -145,11 +145,6 @@ def _march(
         setting = replace(setting, known=largest)
     mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy * _smallness(setting))
     track = follow(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
-    if not setting.is_levelled:
-        # Of a line contact, only the change of the indentation has a meaning.
-        unit = setting.scale.depth * (mover.first_depth or 0.0)
-        moments = [replace(one, seen=one.seen._replace(depth=one.seen.depth - unit)) for one in track.moments]
-        track = replace(track, moments=moments)
     return _Level(mover, track, mover.longest / mover.grid.spacing)
 
 
@@ -166,8 +161,6 @@ def _setting(problem: Problem, spacing: float, times: Sequence[float] | None) ->
     every = Modes.of(problem.schedule.spectrum)
     ratio, indenter = problem.material.poisson_ratio, problem.indenter
     setting = Setting.of(problem.schedule, every, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
-    if len(every) < 4:
-        return setting
     shortest = setting.shortest_time(spacing, times)
     modes = Modes.for_history(problem.schedule.spectrum, shortest, setting.longest_time, _MERGED * problem.accuracy)
     return Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
@@ -236,14 +229,19 @@ def _compared(level: _Level, coarser: _Level) -> list[Moment[Any]]:
 
 
 def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Array:
-    """Return values (n, m) at other times, by cubics between kinks that overshoot nowhere."""
+    """Return values (n, m) at other times, by cubics between kinks that overshoot nowhere.
+
+    They are cubics of the logarithm of the time since the kink: first steps are short.
+    """
     found = np.empty((len(clock), values.shape[1]))
     for start, end in itertools.pairwise(kinks):
         begin = np.nextafter(start, math.inf)  # the second of two points, at a jump
         inside = (given >= (begin if begin in given else start)) & (given <= end)
         wanted = (clock >= (begin if begin in clock else start)) & (clock <= end)
         if np.count_nonzero(inside) > 1:
-            found[wanted] = PchipInterpolator(given[inside], values[inside])(clock[wanted])
+            first, second = given[inside][:2]
+            since, then = (np.log1p((one - first) / (second - first)) for one in (given[inside], clock[wanted]))
+            found[wanted] = PchipInterpolator(since, values[inside])(then)
         else:
             found[wanted] = values[inside]
     return found
@@ -263,7 +261,7 @@ def _resolved(moments: list[Moment[Any]], coarse: list[Moment[Any]], kinks: Arra
 
 def _values(moment: Moment[Any]) -> tuple[float, float, float, float, float, float]:
     seen = moment.seen
-    return seen.load, seen.depth, seen.dissipated, *seen.friction_force, moment.work
+    return seen.load, seen.depth, seen.dissipated, *seen.friction_force, moment.rubbed
 
 
 def _order(times: list[float]) -> Array:
@@ -286,7 +284,9 @@ def _notes(problem: Problem, setting: Setting, track: Track[Any]) -> tuple[Note,
     if not track.moments:
         return ()
     notes: list[Note | None] = []
-    loads = [one.seen.load for one in track.moments]
+    schedule = problem.schedule
+    both = [schedule.at(float(time), after=after).load or 0.0 for time in schedule.kinks for after in (False, True)]
+    loads = [*both, 0.0] if schedule.before == "untouched" else both
     if not setting.is_levelled and max(loads) - min(loads) > _STEADY_LOAD * max(loads):
         distance = 1e3 * setting.level * setting.scale.length
         notes.append(

@@ -38,3 +38,4 @@ class FreeState:
     dissipated: float
     force: tuple[float, float]  # of friction, along and across the lattice
     wake: Wake | None = None  # memory far behind a contact that has slid for ever
+    lagging: float = 0.0  # after a jump: energy of the modes without a field minus that after they have followed
