@@ -47,7 +47,7 @@ def numbers_of(results: dict[str, Any], start: str) -> list[dict[str, Any]]:
     return rows
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.usefixtures("benchmark_path")
 def test_benchmark_without_peers_and_without_real_data(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -205,7 +205,7 @@ def test_residual_of_the_rough_benchmark_is_that_of_the_pressures() -> None:
     assert rough.residual(spoilt, surface) > 1e-4
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.usefixtures("contact_path")
 def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
     import scaling
@@ -325,7 +325,7 @@ def test_benchmark_of_the_interface_counts_planted_laws_within_bands(
         assert row["points"] > 0.5  # below a half in 1 of 70 such sets of four bands, which move as one
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.usefixtures("contact_path")
 def test_benchmark_of_sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(BENCHMARKS / "study"))

@@ -107,8 +107,8 @@ def thin_out(study: Path) -> None:
     study.write_text(text, encoding="utf-8")
     runs = study.parent / "mtm.csv"
     lines = runs.read_text(encoding="utf-8").splitlines(keepends=True)
-    cooler = ("29.", "30.", "59.", "60.")  # °C, as measured
-    runs.write_text("".join(line for line in lines if not line.startswith(cooler)), encoding="utf-8")
+    hottest = ("#", "t", "89.", "90.")  # °C, as measured, below comments and headings
+    runs.write_text("".join(line for line in lines if line.startswith(hottest)), encoding="utf-8")
 
 
 def run_command(words: list[str], folder: Path) -> str:

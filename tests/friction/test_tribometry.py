@@ -576,20 +576,20 @@ def test_tolerance_must_be_a_fraction(tolerance: float) -> None:
 
 
 @pytest.mark.slow
-def test_fifty_thousand_readings_take_seconds() -> None:
-    """1500 conditions of eight replicates; the limit allows a machine ten times slower than a laptop."""
+def test_many_readings_take_seconds() -> None:
+    """Hundreds of conditions of eight replicates; the limit allows a machine ten times slower than a laptop."""
     runs = traction_runs(
         viscoelastic=lambda v, T: 0.03,
         speeds=tuple(np.geomspace(0.02, 0.2, 30)),
-        temperatures=tuple(290.0 + 5.0 * np.arange(52)),
+        temperatures=tuple(290.0 + 5.0 * np.arange(13)),
         replicates=8,
         noise=0.05,
     )
-    assert len(runs) == 49920
+    assert len(runs) == 12480
     start = process_time()
     curves = separate(runs)
-    assert process_time() - start < 20.0
-    assert len(curves) == 1560
+    assert process_time() - start < 5.0
+    assert len(curves) == 390
     assert curves.notes == ()
 
 

@@ -19,7 +19,7 @@ from viscofric.readers import read_mtm
 LONGEST = 1.0
 
 damage = settings(
-    max_examples=15,
+    max_examples=10,
     deadline=None,
     derandomize=True,
     database=None,

@@ -22,7 +22,7 @@ from viscofric.readers.dma.read import FORMATS
 LONGEST = 1.0
 
 damage = settings(
-    max_examples=15,
+    max_examples=10,
     deadline=None,
     derandomize=True,
     database=None,

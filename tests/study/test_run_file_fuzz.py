@@ -22,7 +22,7 @@ SOURCES = [
     ),
 ]
 # So many in every run of the tests; VISCOFRIC_FUZZ asks for more.
-HOW_MANY = int(os.environ.get("VISCOFRIC_FUZZ", "1500"))
+HOW_MANY = int(os.environ.get("VISCOFRIC_FUZZ", "800"))
 PATH = Path("study.toml")
 #: Words in messages of Python and of its libraries that are no sentences for users.
 LEAKS = ("Traceback", "pydantic", "Input should", "object at 0x", "NoneType", "<range>:", "Value error", "Error(")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from marks import apart
 from refusals import refused
 from viscofric.contact import steady
 from viscofric.contact.arrays.transforms import ScipyTransforms
@@ -193,7 +194,8 @@ SEEN_BY: dict[str, Callable[[pytest.MonkeyPatch], None]] = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+# the defect that lee-radok finds after some seconds, impact finds at once
+@pytest.mark.parametrize("name", [*(name for name in NAMES if name != "lee-radok"), *apart("lee-radok")])
 def test_check_fails_where_the_engine_is_wrong(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     SEEN_BY[name](monkeypatch)
     (check,) = select(CHECKS, [name])

@@ -19,6 +19,7 @@ from friction.identification.planted import (
     planted_curves,
 )
 from friction.synthetic_curves import synthetic_curves
+from marks import apart
 from refusals import refused
 from viscofric.errors import SuperpositionError
 from viscofric.friction.identification.solving import Contacts
@@ -169,7 +170,7 @@ def test_without_an_anchor_there_is_a_family() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("size", ["half_width", "indentation", "contact_area"])
+@pytest.mark.parametrize("size", ["half_width", *apart("indentation", "contact_area")])
 def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
     speed = 0.05
     contact = vf.solve_steady(RUBBER, BALL, speed=speed, load=LOAD, temperature=REFERENCE)
@@ -323,7 +324,7 @@ def test_an_interrupt_ends_it() -> None:
         vf.identify_material(closed_form_curves(REFERENCE), progress=interrupt, **SETTINGS)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_the_synthetic_fluoroelastomer_comes_back_over_four_decades() -> None:
     """Nine temperatures, ten speeds, no noise, one modulus, α(T) unknown: 2 % and 0.01 decades are asked for."""
     truth = vf.synthetic_fluoroelastomer()
@@ -343,7 +344,7 @@ def test_the_synthetic_fluoroelastomer_comes_back_over_four_decades() -> None:
     np.testing.assert_allclose(factors.log10_values, truth.shift.log10(factors.temperatures), atol=2e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_friction_known_better_than_contacts_are_solved_settles() -> None:
     """Predicted friction has errors of 0.04 %, contacts an accuracy of 0.1 %: steps below that would never end."""
     truth, ball = vf.synthetic_fluoroelastomer(), vf.Ball(radius="9.525 mm")
@@ -371,7 +372,7 @@ def test_curves_about_a_maximum_of_friction_stay_together() -> None:
     """A spectrum with two maxima fits curves moved apart by 2.4 decades as well, and is not what was planted."""
     rubber, ball, kelvin = lossy_polymer(), vf.Ball(radius=9.525e-3), REFERENCE + np.array([0.0, 8.0, 16.0, 25.0, 35.0])
     exact = vf.predict_friction(
-        rubber, ball, speeds=np.geomspace(0.02, 0.2, 7), temperatures=kelvin, load=25.0, accuracy=1e-2
+        rubber, ball, speeds=np.geomspace(0.02, 0.2, 7), temperatures=kelvin, load=25.0, accuracy=3e-2
     )
     scattered = exact.viscoelastic * (1.0 + 0.05 * np.random.default_rng(0).standard_normal((8, len(exact))))
     scatter = scattered.std(axis=0, ddof=1)
@@ -385,7 +386,7 @@ def test_curves_about_a_maximum_of_friction_stay_together() -> None:
     modulus = float(abs(rubber.complex_modulus(1.0, REFERENCE)))
     anchor = vf.ModulusAnchor(modulus, 1.0, REFERENCE, error=1e-3)
     found = vf.identify_material(
-        curves, indenter=ball, anchor=anchor, reference=REFERENCE, accuracy=1e-2, samples=20, modes=20
+        curves, indenter=ball, anchor=anchor, reference=REFERENCE, accuracy=3e-2, samples=20, modes=20
     )
     factors = found.shift_factors
     assert factors is not None

@@ -68,7 +68,7 @@ def test_claimed_errors_cover_those_of_random_rubbers(seed: int) -> None:
         assert one.friction_coefficient == pytest.approx(true.friction_coefficient, rel=1e-2)  # the accuracy
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.parametrize(
     ("material", "slowest", "fastest"),
     [
