@@ -11,7 +11,7 @@ from refusals import refused
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
-from viscofric.motion.free import mover
+from viscofric.motion.free import mover, past, solve
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.energy import _relaxation
 from viscofric.motion.free.response import response_of
@@ -215,6 +215,42 @@ def test_far_wake_is_the_sum_over_its_cells(line):
         ]
         assert wake.at(response, window)[:, place] == pytest.approx(exact, rel=1e-5)  # the midpoint rule's, (1/201)²/24
     assert wake.holds_near(Box(-190, 0, 50, 1))
+
+
+@pytest.mark.parametrize("line", [True, False])
+def test_far_memory_acts_as_on_its_cells(line):
+    rng, width = np.random.default_rng(3), 1 if line else 24
+    response, window = response_of(line, 0.1, 1.0, None, 500.0), Box(0, 0, 30, width)
+    whole = Box(-75, 0 if line else -3, 120, width)
+    memory = rng.random((2, *whole.shape))
+    rest, near, pieces = past.parted(whole, memory, window)
+    assert (rest.i, rest.nx) == (-30, 75)
+    assert sum(part.sum() for _, part in pieces) + near.sum() == pytest.approx(memory.sum(), rel=1e-12)
+    far, decay = past.NO_PAST.joined(pieces), np.array([0.5, 0.25])
+    under, pressure = far.faded(decay).under(response, window), rng.random(window.shape)
+    union, exact = whole.joined(window), 0.0
+    for one, values in pieces:
+        exact = exact + np.array([response.seen_from(one.carried(part, union), union, window) for part in values])
+    exact *= decay[:, None, None]
+    slope = np.abs(np.diff(exact, axis=1)).max()
+    assert under.weighted(np.array([1.0, 2.0])) == pytest.approx(exact[0] + 2.0 * exact[1], abs=1e-3 * slope)
+    assert under.with_pressure(pressure) == pytest.approx((exact * pressure).sum(axis=(1, 2)), rel=1e-6)
+    left, revived = far.split(Box(-70, 0, 30, width))
+    assert len(left.pieces) == 0
+    assert sum(part.sum() for _, part in revived) == pytest.approx(memory.sum() - near.sum(), rel=1e-12)
+
+
+@pytest.mark.slow
+def test_a_contact_returns_to_memory_that_was_far(monkeypatch):
+    monkeypatch.setattr(solve, "_LINE_CELLS", 24)
+    history = vf.History([0.0, 0.02, 0.04], load=20.0, position=[0.0, 3e-3, 0.0], before="at rest")
+    runs = []
+    for far in (past._FAR, 1e9):
+        monkeypatch.setattr(past, "_FAR", far)
+        runs.append(vf.solve_transient(RUBBER, CYLINDER, history, times=[0.01, 0.02, 0.03, 0.04], accuracy=0.1))
+    pieces, cells = runs
+    assert pieces.friction_force == pytest.approx(cells.friction_force, rel=1e-6)
+    assert pieces.dissipated == pytest.approx(cells.dissipated, rel=1e-7)
 
 
 def test_a_path_too_long_for_the_memory_is_refused_before_it_is_full(monkeypatch):

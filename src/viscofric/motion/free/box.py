@@ -37,6 +37,29 @@ class Box(NamedTuple):
             and self.j + self.ny >= other.j + other.ny
         )
 
+    def meets(self, other: Box) -> bool:
+        """Return whether the boxes have cells in common."""
+        return max(self.i, other.i) < min(self.i + self.nx, other.i + other.nx) and max(self.j, other.j) < min(
+            self.j + self.ny, other.j + other.ny
+        )
+
+    def cut(self, axis: int, count: int, *, at_end: bool) -> tuple[Box, Box]:
+        """Return the first or the last cells along an axis, and the rest."""
+        values, start = list(self), self[axis]
+        kept = self[axis + 2] - count
+        values[axis], values[axis + 2] = start + kept * at_end, count
+        slab = Box(*values)
+        values[axis], values[axis + 2] = start + count * (not at_end), kept
+        return slab, Box(*values)
+
+    def divided(self, axis: int, longest: int) -> list[Box]:
+        """Return boxes side by side along an axis, none longer than so many cells."""
+        found, rest = [], self
+        while rest[axis + 2] > longest:
+            one, rest = rest.cut(axis, longest, at_end=False)
+            found.append(one)
+        return [*found, rest]
+
     def joined(self, other: Box) -> Box:
         """Return the smallest box that holds both."""
         i, j = min(self.i, other.i), min(self.j, other.j)

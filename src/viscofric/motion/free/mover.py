@@ -1,8 +1,9 @@
 """A free contact on cells that are fixed to the body, on one grid.
 
 The displacement at the end of a step is u = G [s p + Σ C_k (e_k q_k + α_k p₀)], s = 1/E∞ + Σ C_k β_k: an elastic
-contact problem whose surface was deformed before.  It is solved on a window of cells around the indenter; the memory,
-one delayed pressure q_k for each mode, is kept on all cells that were loaded.
+contact problem whose surface was deformed before.  It is solved on a window of cells around the indenter.  The memory,
+one delayed pressure q_k for each mode, is kept on the cells around the window; farther away, it is kept in pieces that
+only fade.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.cells import Cells
 from viscofric.motion.free.energy import Products
+from viscofric.motion.free.past import NO_PAST, parted
 from viscofric.motion.free.resting import rested, untouched
 from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
@@ -27,6 +29,7 @@ from viscofric.motion.mover import Field, Observation, Scales
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.free.grids import Grid
+    from viscofric.motion.free.past import Far, Past
     from viscofric.motion.free.wake import Wake
     from viscofric.motion.memory import StepCoefficients
     from viscofric.motion.schedule import Instant
@@ -96,13 +99,14 @@ class FreeMover(Cells):
         compliance = body.compliance(coefficients) - lagging
         for _ in range(MOST_WINDOWS):
             window = self.window(place)
-            box = state.box if state.box.holds(window) else state.box.grown(window, _SPARE)
-            self._check_size(box)
+            box, memory, past = self._near(state, window)
             held = state.window.carried(state.pressure, box)
-            memory = state.box.carried(state.memory, box)
             left = np.tensordot(body.compliances * coefficients.decay, memory, 1)
             left += (float(body.compliances @ coefficients.start) + lagging) * held
             known = self.response.seen_from(left, box, window)
+            far = past.under(self.response, window) if past.pieces else None
+            if far is not None:
+                known = known + far.weighted(body.compliances * coefficients.decay)
             if state.wake is not None:
                 known = known + self._of_wake(state.wake, coefficients, window, end)
             shape = self.height(place) + known
@@ -112,17 +116,30 @@ class FreeMover(Cells):
         else:
             raise ConvergenceError("no window was found that holds the contact.", code="no-window")
         force = self.force(solved[0], known)
-        after = self._after(state, coefficients, duration, place, window, box, held, memory, solved, force)
+        after = self._after(state, coefficients, duration, place, window, box, held, memory, past, far, solved, force)
         change = state.products.pressure - after.products.pressure
         return replace(after, lagging=0.5 * self.grid.cell_area * lagging * change)
 
-    def _check_size(self, box: Box) -> None:
+    def _near(self, state: FreeState, window: Box) -> tuple[Box, Array, Past]:
+        """Return the memory on cells that hold the window and all pieces near it, and the rest."""
+        past, near = state.past.split(window)
+        box = state.box if state.box.holds(window) else state.box.grown(window, _SPARE)
+        for piece, _ in near:
+            box = box.joined(piece)
+        self._check_size(box, past)
+        memory = state.box.carried(state.memory, box)
+        for piece, values in near:
+            memory = memory + piece.carried(values, box)
+        return box, memory, past
+
+    def _check_size(self, box: Box, past: Past) -> None:
         """Refuse a path whose cells do not fit into memory."""
-        size = 8 * len(self.setting.body.times) * box.nx * box.ny
+        cells = box.nx * box.ny + sum(piece.box.nx * piece.box.ny for piece in past.pieces)
+        size = 8 * len(self.setting.body.times) * cells
         if size > MOST_BYTES:
             raise ConvergenceError(
-                f"the path has covered {box.nx} × {box.ny} cells, whose memory needs {size / 2**30:.1f} GiB; shorten "
-                "the path, or ask for less accuracy.",
+                f"the path has covered {cells} cells, whose memory needs {size / 2**30:.1f} GiB; shorten the path, or "
+                "ask for less accuracy.",
                 code="too-long-path",
                 values={"gibibytes": size / 2**30},
             )
@@ -197,8 +214,13 @@ class FreeMover(Cells):
 
     def memory_of(self, state: FreeState) -> Array:
         """Return the memory on the cells of all memories so far, scaled by the root of its compliances."""
-        self._swept = state.box if self._swept is None else self._swept.joined(state.box)
-        return np.asarray(self._roots * state.box.carried(state.memory, self._swept))
+        box, memory = state.box, state.memory
+        for piece, left in zip(state.past.pieces, state.past.left, strict=True):
+            whole = box.joined(piece.box)
+            memory = box.carried(memory, whole) + piece.box.carried(left[:, None, None] * piece.memory, whole)
+            box = whole
+        self._swept = box if self._swept is None else self._swept.joined(box)
+        return np.asarray(self._roots * box.carried(memory, self._swept))
 
     def with_memory(self, state: FreeState, memory: Array) -> FreeState:
         """Return a state with another memory, which has not dissipated anything yet."""
@@ -208,7 +230,12 @@ class FreeMover(Cells):
         products = state.products
         # The products with the pressure are those after the next step, a jump.
         return replace(
-            state, box=box, memory=fields, products=Products(products.pressure, products.mixed, own), dissipated=0.0
+            state,
+            box=box,
+            memory=fields,
+            past=NO_PAST,
+            dissipated=0.0,
+            products=Products(products.pressure, products.mixed, own),
         )
 
     def recovered(self, change: Array, start: Instant, end: Instant) -> Array:
@@ -246,6 +273,8 @@ class FreeMover(Cells):
         box: Box,
         held: Array,
         memory: Array,
+        past: Past,
+        far: Far | None,
         solved: tuple[Array, float, float],
         force: tuple[float, float],
     ) -> FreeState:
@@ -256,6 +285,8 @@ class FreeMover(Cells):
         end, with_end = float(np.vdot(now, spread)), float(np.vdot(held, spread))
         flat = memory.reshape(len(memory), spread.size)
         modes_with_end = flat @ spread.ravel()
+        if far is not None:
+            modes_with_end = modes_with_end + far.with_pressure(pressure)
         wake = state.wake
         if wake is not None:
             modes_with_end = modes_with_end + wake.at(self.response, window) @ pressure.sum(axis=1)
@@ -269,6 +300,7 @@ class FreeMover(Cells):
         if duration > 0.0:
             advanced[(..., *window.within(box))] += last * pressure
             advanced[(..., *state.window.within(box))] += first * state.pressure
+        box, advanced, cut = parted(box, advanced, window)
         faced = 0.0
         if body.counterface > 0.0:
             facing = self.facing or self.response
@@ -287,6 +319,7 @@ class FreeMover(Cells):
             depth=depth,
             dissipated=state.dissipated + lost,
             force=force,
+            past=past.faded(coefficients.decay).joined(cut),
             wake=wake,
         )
 

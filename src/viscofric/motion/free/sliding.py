@@ -73,7 +73,7 @@ def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
     faced = float(np.vdot(pressure, opposite))
     zero = np.zeros_like(pressure)
     force = cells.force(pressure, remembered[window.within(box)])
-    return FreeState(place, window, pressure, zero, 0.0, box, memory, products, faced, depth, 0.0, force, wake)
+    return FreeState(place, window, pressure, zero, 0.0, box, memory, products, faced, depth, 0.0, force, wake=wake)
 
 
 def _steady_pressure(cells: Cells, instant: Instant, speed: float) -> Array:
