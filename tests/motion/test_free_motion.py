@@ -260,6 +260,33 @@ def test_a_path_too_long_for_the_memory_is_refused_before_it_is_full(monkeypatch
         vf.solve_transient(RUBBER, CYLINDER, history, accuracy=2e-2)
 
 
+@pytest.mark.slow
+def test_progress_is_one_of_all_grids_and_an_interruption_states_errors_of_cells():
+    told: list[float] = []
+
+    def stop(reached: float, end: float) -> None:
+        told.append(reached / end)
+        if told[-1] > 0.6:
+            raise KeyboardInterrupt
+
+    history = vf.History([0.0, 0.3 * A0 / SPEED], load=LOAD, speed=SPEED, before="at rest")
+    whole: list[float] = []
+    run = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=lambda now, end: whole.append(now / end))
+    assert np.all(np.diff(whole) >= 0.0)
+    assert whole[-1] == 1.0
+    part = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=stop)
+    assert part.interrupted
+    assert part.time[-1] < run.time[-1]
+    assert part.friction_force == pytest.approx(run.friction_force[: len(part.time)], rel=1e-12)
+    assert np.all(part.errors.friction_force[1:] > 0.2 * run.errors.friction_force[1 : len(part.time)])
+    assert not part.warnings
+    nothing = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, times=[history.time[-1]], progress=stop)
+    assert nothing.interrupted
+    assert len(nothing.time) == 0
+    early = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=lambda now, end: stop(0.7, 1.0))
+    assert [note.code for note in early.warnings] == ["one-grid"]
+
+
 def test_line_contacts_refuse_a_depth_and_a_path_across():
     with refused("no-level"):
         vf.solve_transient(RUBBER, CYLINDER, vf.History([0.0, 1.0], indentation="1 mm", speed=1.0))

@@ -74,7 +74,8 @@ def solve_transient(
     indenter_poisson_ratio : float
         Of an elastic indenter.
     progress : callable, optional
-        Called with the time reached and the last time, s.
+        Called with the time reached and the last time, s.  Contacts on cells are solved on several grids; the time is
+        then the part of all the work.
     resume : TransientSolution or path, optional
         Run to continue, or the file that its `TransientSolution.save_state` wrote: an interrupted run, or one whose
         history is the beginning of this history.  The results equal those of one uninterrupted run, and include

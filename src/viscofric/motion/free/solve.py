@@ -56,8 +56,16 @@ _LEAST_DEPTH = 0.02
 _STEADY_LOAD = 1e-6
 # Of the contact conditions, in the accuracy, for a friction coefficient that is such a part of the slope; least part.
 _TOLERANCE, _TYPICAL_FRICTION, _SMALLEST = 0.01, 0.2, 0.02
+# Part of what remains that the first grid takes, and each of the next.
+_FIRST_PART, _NEXT_PART = 0.25, 0.7
 # Error of the creep compliance by merged modes, in the accuracy.
 _MERGED = 0.02
+
+
+_ONE_GRID = Note(
+    "one-grid",
+    "Interrupted on the first grid: the stated errors do not include those of the cells, which finer grids show.",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +75,34 @@ class _Level:
     mover: FreeMover
     track: Track[Any]
     cells: float  # along the longest contact
+
+
+@dataclass(eq=False)
+class _Progress:
+    """One progress of all grids, whose number is not known before: each takes a part of what remains."""
+
+    whole: Callable[[float, float], object]
+    start: float
+    end: float
+    begun: float = 0.0
+    remaining: float = 1.0
+    part: float = _FIRST_PART
+    furthest: float = 0.0
+
+    def __call__(self, reached: float, end: float) -> None:
+        share = (reached - self.start) / (end - self.start)
+        self.furthest = max(self.furthest, self.begun + self.part * self.remaining * share)
+        self.whole(self.start + self.furthest * (self.end - self.start), self.end)
+
+    def next(self) -> None:
+        """Begin with another grid."""
+        self.begun += self.part * self.remaining
+        self.remaining = 1.0 - self.begun
+        self.part = _NEXT_PART
+
+    def end_all(self) -> None:
+        """State that all grids are done."""
+        self.whole(self.end, self.end)
 
 
 def solve_free(
@@ -83,9 +119,12 @@ def solve_free(
     line = problem.indenter.geometry.dimension == 1  # type: ignore[union-attr]
     cells = _LINE_CELLS if line else _POINT_CELLS
     most = _MOST_LINE_CELLS if line else _MOST_POINT_CELLS
-    level = _first(problem, cells, times, progress, follow)
+    told = None if progress is None else _Progress(progress, problem.schedule.start, problem.schedule.end)
+    level = _first(problem, cells, times, told, follow)
+    if level.track.interrupted:
+        return level.track, (*_notes(problem, level.mover.setting, level.track), _ONE_GRID)
     largest, steps = _largest(level), problem.accuracy
-    while not level.track.interrupted:
+    while True:
         finer = level.cells * _FINER
         if finer > most:
             raise ConvergenceError(
@@ -94,7 +133,9 @@ def solve_free(
             )
         before, spacing = level, _fitted(level.mover.setting, level.mover.grid.spacing / _FINER)
         steps *= _FINER_STEPS
-        level = _march(problem, _around(before, spacing), times, progress, follow, largest, steps)
+        level = _march(problem, _around(before, spacing), times, told, follow, largest, steps)
+        if level.track.interrupted and not level.track.moments:
+            return level.track, ()
         moments = _compared(level, before)
         largest = _largest(level)
         judged = moments if times is not None else _resolved(moments, before.track.moments, problem.schedule.kinks)
@@ -102,10 +143,10 @@ def solve_free(
         logger.info(
             "%.0f cells along the contact: known to %.1g, %d products", level.cells, error, level.mover.products
         )
-        if error <= problem.accuracy:
+        if error <= problem.accuracy or level.track.interrupted:
             break
-    else:
-        return level.track, _notes(problem, level.mover.setting, level.track)
+    if told is not None and not level.track.interrupted:
+        told.end_all()
     return replace(level.track, moments=moments), _notes(problem, level.mover.setting, level.track)
 
 
@@ -113,7 +154,7 @@ def _first(
     problem: Problem,
     cells: int,
     times: Sequence[float] | None,
-    progress: Callable[[float, float], object] | None,
+    progress: _Progress | None,
     follow: Callable[..., Track[Any]],
 ) -> _Level:
     """March on the coarsest grid that has so many cells along the longest contact."""
@@ -135,7 +176,7 @@ def _march(
     problem: Problem,
     grid: Grid,
     times: Sequence[float] | None,
-    progress: Callable[[float, float], object] | None,
+    progress: _Progress | None,
     follow: Callable[..., Track[Any]],
     largest: Scales | None,
     steps: float,
@@ -145,6 +186,8 @@ def _march(
         setting = replace(setting, known=largest)
     mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy * _smallness(setting))
     track = follow(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
+    if progress is not None:
+        progress.next()
     return _Level(mover, track, mover.longest / mover.grid.spacing)
 
 
