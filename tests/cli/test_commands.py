@@ -17,6 +17,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from cli.refusals import refusal, refusal_of
+from marks import apart
 from viscofric.cli import main
 from viscofric.cli.run import print_outcome
 from viscofric.notes import Note, codes
@@ -298,7 +299,8 @@ def test_template_names_every_key_of_a_run_file() -> None:
 @pytest.mark.timeout(600)
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
 @pytest.mark.parametrize(
-    ("sent", "status", "word"), [(signal.SIGINT, 130, "Interrupted."), (signal.SIGTERM, 143, "Terminated.")]
+    ("sent", "status", "word"),
+    [(signal.SIGTERM, 143, "Terminated."), *apart((signal.SIGINT, 130, "Interrupted."))],
 )
 def test_signals_end_a_run_with_one_sentence(tmp_path: Path, sent: signal.Signals, status: int, word: str) -> None:
     write(tmp_path)

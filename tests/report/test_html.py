@@ -261,7 +261,7 @@ def test_study_file_with_a_space_is_quoted_in_the_command(
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("unrendered")
+@pytest.mark.usefixtures("unrendered", "few_figures")
 def test_same_results_give_the_same_page(make_tree: Callable[..., xr.DataTree], tmp_path: Path) -> None:
     first = report.write_report(make_tree(), tmp_path / "one").read_bytes()
     assert report.write_report(make_tree(), tmp_path / "two").read_bytes() == first

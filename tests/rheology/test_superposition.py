@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from scipy.optimize import curve_fit
 
 import viscofric as vf
+from marks import apart
 from refusals import refused
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.errors import SuperpositionError
@@ -378,7 +379,7 @@ def test_the_adhesives_hot_plateau_is_reported(real_data):
     assert np.ptp(away) < 0.3
 
 
-@pytest.mark.parametrize("vertical", [None, "density", "free"])
+@pytest.mark.parametrize("vertical", [None, *apart("density"), "free"])
 @pytest.mark.parametrize("name", ["adhesive_ems_ca", "eva_shear", "vinyl_nitrile_foam"])
 @pytest.mark.slow
 def test_real_rubbers_are_joined_over_all_their_temperatures(real_data, name, vertical):

@@ -169,12 +169,14 @@ def test_left_out_isotherms_and_small_strain_are_reported(results: StudyResults)
 
 
 @pytest.mark.slow
-def test_a_second_run_solves_nothing_again(results: StudyResults, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_run_solves_nothing_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
+    path = _small_study(tmp_path, speed='speed = ["50 mm/s", "100 mm/s"]')
+    results = run_study(path)
     monkeypatch.setattr("viscofric.study.cases.solving.solve_with_sensitivity", refuse)
-    again = run_study(results.folder.parent / "study.toml", resume=True)
+    again = run_study(path, resume=True)
     first, second = (one.tree["prediction"]["friction_coefficient"].values for one in (results, again))
     np.testing.assert_array_equal(first, second)
 

@@ -59,7 +59,9 @@ def test_a_run_file_takes_creep_tests(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["creep", "relaxation"])
-def test_a_material_is_fitted_to_step_tests(tmp_path, kind):
+def test_a_material_is_fitted_to_step_tests(tmp_path, monkeypatch, kind):
+    # figures are drawn, but not turned into images: tests of the report look at them
+    monkeypatch.setattr("viscofric.report.figures.saving._encoded", lambda figure, form: form.encode())
     path = written(tmp_path, kind)
     arguments = ["material", "fit", str(path), f"--{kind}", "--reference", "10 degC", "--deformation", "tension"]
     arguments += ["--synthetic", "--samples", "20", "-o", str(tmp_path / "out")]

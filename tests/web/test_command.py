@@ -29,7 +29,7 @@ def left_in(folder: Path) -> list[str]:
     return [path.name for path in folder.glob("viscofric-web-*")]
 
 
-@pytest.mark.parametrize("kind", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("kind", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.apart)])
 def test_interrupt_ends_it_at_once_with_nothing_left(tmp_path: Path, kind: signal.Signals) -> None:
     """Also while a job is at work, and an idle connection is open."""
     with started(tmp_path) as served, served.client() as client:

@@ -62,7 +62,7 @@ def test_a_rubber_made_of_sweeps_has_the_bands_and_doubts_of_the_run_file(desk: 
         "material": {"dma": "dma.csv", "deformation": "tension", "reference_temperature": "30 degC", "shift": "wlf"},
         "conditions": {**BALL["conditions"], "speed": ["20 mm/s", "1e9 m/s"], "temperature": ["60 degC", "240 degC"]},
         "solver": {"accuracy": 0.1, "master_curve_points": 2},
-        "uncertainty": {"draws": 50},
+        "uncertainty": {"draws": 20},
     }
     with as_file(files("viscofric.templates") / "paper" / "dma.csv") as sweeps:
         for folder in (desk.context.files, tmp_path):

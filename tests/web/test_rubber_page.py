@@ -156,7 +156,7 @@ def test_what_a_file_leaves_open_is_asked(tab: Tab, tmp_path: Path) -> None:
     assert tab.value("page.state.state.get('data_origin') ?? null") is None
 
 
-@pytest.mark.slow  # a browser
+@pytest.mark.apart
 def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> None:
     rows = [f"{T},{f},{2e6 * f**0.2 * 10 ** (-0.01 * T)},{3e5}" for T in (20, 30, 40) for f in (0.1, 0.3, 1, 3, 10)]
     strange = tmp_path / "strange.csv"

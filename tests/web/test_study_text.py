@@ -36,7 +36,7 @@ def changed(**tables: Any) -> dict[str, Any]:
     return {**FIRST_STUDY, **tables}
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(_DOCUMENTS)
 def test_text_says_the_same_as_the_document(document: dict[str, Any]) -> None:
     assert tomllib.loads(study_text(document)) == document

@@ -92,7 +92,9 @@ def test_finished_cases_of_an_interrupted_study_are_put_together(tmp_path: Path)
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps open files")
-@pytest.mark.parametrize("what", [pytest.param("folder", marks=SLOW), pytest.param("cases", marks=SLOW), "one case"])
+@pytest.mark.parametrize(
+    "what", [pytest.param("folder", marks=SLOW), pytest.param("cases", marks=pytest.mark.apart), "one case"]
+)
 def test_what_is_removed_in_mid_run_is_an_error(tmp_path: Path, what: str) -> None:
     study, folder = tmp_path / "study.toml", tmp_path / "study.results"
     study.write_text(STUDY.format(points=3, cases="each"))
