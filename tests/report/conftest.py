@@ -81,6 +81,8 @@ def _dma() -> dict[str, xr.Dataset]:
             "temperatures_given": json.dumps(steps.tolist()),
             "overlap_rms_log10_storage": 0.0061,
             "overlap_rms_log10_loss": 0.0083,
+            "overlap_holds": 1,
+            "overlap_limit": 0.05,
         },
     ).assign_coords(temperature=("temperature", steps, {"units": "K", "long_name": "temperature"}))
     return {
@@ -102,6 +104,8 @@ def _dma() -> dict[str, xr.Dataset]:
             {
                 "law": "WLF",
                 "rms": 0.31,
+                "misfit_holds": 0,
+                "misfit_limit": 0.1,
                 "constants": json.dumps(plain(WLF(C1, C2, REFERENCE))),
                 "wlf_C1": C1,
                 "wlf_C2": C2,
@@ -118,7 +122,7 @@ def _dma() -> dict[str, xr.Dataset]:
                 "fitted_storage_modulus": (modulus(reduced).real, "Pa", "fitted storage modulus"),
                 "fitted_loss_modulus": (modulus(reduced).imag, "Pa", "fitted loss modulus"),
             },
-            {"rms_log10_storage": 0.0052, "rms_log10_loss": 0.0071},
+            {"rms_log10_storage": 0.0052, "rms_log10_loss": 0.0071, "misfit_holds": 1, "misfit_limit": 0.05},
         ),
         "spectrum_curve": dataset(
             "angular_frequency",

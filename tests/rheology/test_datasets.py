@@ -10,7 +10,10 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import InputError
+from viscofric.rheology.shifts.parametric_law import law_misfit
+from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.superposition.kramers_kronig import kramers_kronig
+from viscofric.rheology.superposition.overlap import OverlapQuality
 
 WLF = vf.WLF(8.0, 100.0, "30 degC")
 
@@ -154,3 +157,20 @@ def test_measurements_and_master_curve(fit: vf.Superposition) -> None:
     np.testing.assert_array_equal(fitted.fitted_loss_modulus, spectrum.loss_modulus(curve.angular_frequency))
     away = np.log10(fitted.fitted_storage_modulus / fitted.storage_modulus)
     assert float(np.sqrt((away**2).mean())) == pytest.approx(fitted.attrs["rms_log10_storage"])
+
+
+def test_small_misfits_hold() -> None:
+    """Overlaps and spectra are good to 0.05 decades (12 %), laws of α to 0.1; neighbours without overlap are not."""
+    assert OverlapQuality(0.05, 0.01, 10, 2).holds
+    assert not OverlapQuality(0.01, 0.051, 10, 2).holds
+    assert not OverlapQuality(0.0, 0.0, 0, 2, gaps=(1,)).holds
+    fit = SpectrumFit(0.01, 0.051, False, False, (0.1, 10.0), rms_step=0.05)
+    assert fit.modulus_misfit == {
+        "rms_log10_storage": 0.01, "rms_log10_loss": 0.051, "misfit_holds": 0, "misfit_limit": 0.05,
+    }  # fmt: skip
+    assert fit.step_misfit == {"rms_log10_step": 0.05, "misfit_holds": 1, "misfit_limit": 0.05}
+    assert SpectrumFit(None, None, False, False, (0.1, 10.0)).modulus_misfit == {}
+    kelvin = np.array([293.15, 313.15])
+    for away, holds in ((0.09, 1), (0.11, 0)):
+        found = law_misfit(WLF, kelvin, WLF.log10(kelvin) + np.array([away, -away]))
+        assert found == {"rms": pytest.approx(away), "misfit_holds": holds, "misfit_limit": 0.1}

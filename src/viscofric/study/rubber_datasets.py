@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.rheology.shifts.parametric_law import law_misfit
 from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import of_all_kinds
@@ -96,14 +97,13 @@ def _shift_law(rubber: Rubber) -> xarray.Dataset:
     law = rubber.law
     assert law is not None
     ends = law.fitted_range or (law.reference - 50.0, law.reference + 50.0)
-    rms: dict[str, float] = {}
+    misfit: dict[str, float] = {}
     if (fit := rubber.superposed) is not None:
         factors = fit.shift_factors
         ends = float(factors.temperatures[0]), float(factors.temperatures[-1])
-        residual = factors.log10_values - law.log10(factors.temperatures)
-        rms["rms"] = float(np.sqrt(np.mean(residual**2)))
+        misfit = law_misfit(law, factors.temperatures, factors.log10_values)
     kelvin = np.linspace(max(ends[0], law.extrapolation_limits[0] + 1.0), ends[1], 201)
-    return law.to_dataset(kelvin).assign_attrs(rms)
+    return law.to_dataset(kelvin).assign_attrs(misfit)
 
 
 def _wide(spectrum: RetardationSpectrum) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,15 +20,9 @@ from viscofric.report.results import (
 from viscofric.report.texts.numbers import degrees, percent, several, significant
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     import xarray as xr
-
-
-# Largest values that are good
-_OVERLAP = 0.05  # decades of modulus, rms, of the isotherms over one another
-_FIT = 0.05  # decades of modulus, rms, of the spectrum from the master curve
-_LAW = 0.1  # decades of α, rms
 
 
 def rubber_checks(tree: xr.DataTree) -> Iterator[Check]:
@@ -40,6 +34,14 @@ def rubber_checks(tree: xr.DataTree) -> Iterator[Check]:
 def _decades(rms: float) -> str:
     """Say an rms of log10 as a percentage."""
     return percent(10.0**rms - 1.0)
+
+
+def _judged(name: str, words: str, value: float, attributes: Mapping[Any, Any], kind: str) -> Check:
+    """Return a check with the verdict that the results hold, and the words with the limit for an ``@``."""
+    holds, limit = (number(attributes, f"{kind}_{part}") for part in ("holds", "limit"))
+    if not math.isfinite(limit):  # results of an older viscofric
+        return Check(name, "noted", words.replace("@", "rms"), value)
+    return Check.of(name, holds == 1.0, words.replace("@", f"rms; good if ≤ {_decades(limit)}"), value, limit)
 
 
 def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
@@ -72,27 +74,17 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
     if factors is None:
         return
     storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
-    pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
-    if math.isfinite(storage) and math.isfinite(loss):
-        yield Check.of(
-            "Overlap of the isotherms",
-            max(storage, loss) <= _OVERLAP and not apart > 0,
-            f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
-            f"{_decades(loss)} in the loss modulus (rms; good if ≤ {_decades(_OVERLAP)})."
-            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
-            max(storage, loss),
-            _OVERLAP,
-        )
     step = number(factors.attrs, "overlap_rms_log10")
+    pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
+    without = f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""
+    name = "Overlap of the isotherms"
+    if math.isfinite(storage) and math.isfinite(loss):
+        words = f"Where shifted isotherms overlap they differ by {_decades(storage)} in the storage and "
+        words += f"{_decades(loss)} in the loss modulus (@).{without}"
+        yield _judged(name, words, max(storage, loss), factors.attrs, "overlap")
     if math.isfinite(step):
-        yield Check.of(
-            "Overlap of the isotherms",
-            step <= _OVERLAP and not apart > 0,
-            f"Where shifted tests overlap they differ by {_decades(step)} (rms; good if ≤ {_decades(_OVERLAP)})."
-            + (f" {apart:.0f} of {pairs:.0f} neighbours do not overlap at all." if apart > 0 else ""),
-            step,
-            _OVERLAP,
-        )
+        words = f"Where shifted tests overlap they differ by {_decades(step)} (@).{without}"
+        yield _judged(name, words, step, factors.attrs, "overlap")
     yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
     whole = group(tree, "superposition")
     if whole is not None:
@@ -115,29 +107,21 @@ def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
         words = f"{far}; the measured shift factors are used, not this law."
         yield Check("Shift law", "noted", words)
     else:
-        yield Check.of("Shift law", rms <= _LAW, f"{far} that is used (good if ≤ {_LAW:g}).", rms, _LAW)
+        holds, limit = (number(law.attrs, f"misfit_{part}") for part in ("holds", "limit"))
+        words = f"{far} that is used (good if ≤ {limit:g})."
+        yield Check.of("Shift law", holds == 1.0, words, rms, limit)
 
 
 def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
     steps = group(tree, "step_master_curve")
     if steps is not None and math.isfinite(step := number(steps.attrs, "rms_log10_step")):
-        yield Check.of(
-            "Fit of the spectrum",
-            step <= _FIT,
-            f"The spectrum lies {_decades(step)} from the measured response (rms; good if ≤ {_decades(_FIT)}).",
-            step,
-            _FIT,
-        )
+        words = f"The spectrum lies {_decades(step)} from the measured response (@)."
+        yield _judged("Fit of the spectrum", words, step, steps.attrs, "misfit")
     curve = group(tree, "master_curve")
     if curve is None:
         return
     storage, loss = (number(curve.attrs, f"rms_log10_{name}") for name in ("storage", "loss"))
     if math.isfinite(storage) and math.isfinite(loss):
-        yield Check.of(
-            "Fit of the spectrum",
-            max(storage, loss) <= _FIT,
-            f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
-            f"measured loss modulus (rms; good if ≤ {_decades(_FIT)}).",
-            max(storage, loss),
-            _FIT,
-        )
+        words = f"The spectrum lies {_decades(storage)} from the measured storage and {_decades(loss)} from the "
+        words += "measured loss modulus (@)."
+        yield _judged("Fit of the spectrum", words, max(storage, loss), curve.attrs, "misfit")

@@ -37,6 +37,8 @@ LARGEST_UNCERTAINTY = 0.5  # decades
 LEVEL_95 = 1.959963984540054
 #: Two temperatures closer than this are the same one, to rounding of °C.
 SAME_TEMPERATURE = 1e-9  # relative
+#: A law that stands for measured factors lies this close to them.
+LARGEST_MISFIT = 0.1  # decades of α, rms
 
 
 class Constant(NamedTuple):
@@ -327,3 +329,9 @@ def shown_constant(constant: Constant, value: float, error: float) -> str:
 def _spread(gradient: Array, covariance: Array) -> Array:
     variance = np.einsum("...i,ij,...j->...", gradient, covariance, gradient)
     return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
+
+
+def law_misfit(law: ParametricLaw, temperatures: Array, log10_values: Array) -> dict[str, float]:
+    """Return how far measured log10 α (n,) at temperatures (n,) in K lie from a law, as attributes of data sets."""
+    rms = float(np.sqrt(np.mean((log10_values - np.asarray(law.log10(temperatures))) ** 2)))
+    return {"rms": rms, "misfit_holds": int(rms <= LARGEST_MISFIT), "misfit_limit": LARGEST_MISFIT}

@@ -18,6 +18,8 @@ _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
 FROM_FRICTION, FROM_INDENTATION = "friction", "indentation"
 _BEYOND_INDENTATION = "extrapolated: beyond the range of the indentation"
 _REACHED = "reached by the sweeps"
+#: A spectrum fits what was measured if it is off by this at most.
+LARGEST_MISFIT = 0.05  # decades, rms of E' and of E''
 
 
 @dataclass(frozen=True)
@@ -115,6 +117,16 @@ class SpectrumFit:
         return self._beyond if self.E_inf_extrapolated else _REACHED
 
     @property
+    def modulus_misfit(self) -> dict[str, float]:
+        """What data sets of the master curve say of the fit: rms misfits, decades, and whether they are small."""
+        return _misfit(rms_log10_storage=self.rms_storage, rms_log10_loss=self.rms_loss)
+
+    @property
+    def step_misfit(self) -> dict[str, float]:
+        """The same for data sets of a creep compliance or relaxation modulus."""
+        return _misfit(rms_log10_step=self.rms_step)
+
+    @property
     def attributes(self) -> dict[str, Any]:
         """What data sets of the spectrum say of the fit."""
         return {
@@ -162,3 +174,10 @@ class SpectrumFit:
 
     def _measured(self, end: int) -> str:
         return "" if self.measured_storage is None else f", {shown_modulus(self.measured_storage[end])}"
+
+
+def _misfit(**rms: float | None) -> dict[str, float]:
+    known = {name: value for name, value in rms.items() if value is not None}
+    if not known:
+        return {}
+    return {**known, "misfit_holds": int(max(known.values()) <= LARGEST_MISFIT), "misfit_limit": LARGEST_MISFIT}

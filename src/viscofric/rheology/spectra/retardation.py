@@ -210,7 +210,8 @@ class RetardationSpectrum(FrequencyResponse):
         -------
         xarray.Dataset
             As `MasterCurve.to_dataset`, with ``fitted_storage_modulus`` and ``fitted_loss_modulus`` (Pa).  Attributes
-            where the spectrum was fitted: ``rms_log10_storage`` and ``rms_log10_loss`` (decades).
+            where the spectrum was fitted: ``rms_log10_storage``, ``rms_log10_loss`` and ``misfit_limit``, the largest
+            that is good (decades), and ``misfit_holds`` (0 or 1).
         """
         insist_on(master_curve, "master_curve", MasterCurve)
         fitted, of_fit = self.complex_modulus(master_curve.angular_frequency), "modulus of the fitted spectrum"
@@ -220,10 +221,7 @@ class RetardationSpectrum(FrequencyResponse):
                 "fitted_storage_modulus": (fitted.real, "Pa", f"storage {of_fit}"),
                 "fitted_loss_modulus": (fitted.imag, "Pa", f"loss {of_fit}"),
             },
-            attributes={
-                "rms_log10_storage": None if self.fit is None else self.fit.rms_storage,
-                "rms_log10_loss": None if self.fit is None else self.fit.rms_loss,
-            },
+            attributes={} if self.fit is None else self.fit.modulus_misfit,
         )
         return master_curve.to_dataset().assign(columns.data_vars).assign_attrs(columns.attrs)
 
@@ -239,14 +237,15 @@ class RetardationSpectrum(FrequencyResponse):
         -------
         xarray.Dataset
             As `StepMasterCurve.to_dataset`, with ``fitted_creep_compliance`` (1/Pa) or ``fitted_relaxation_modulus``
-            (Pa).  Attribute where the spectrum was fitted: ``rms_log10_step`` (decades).
+            (Pa).  Attributes where the spectrum was fitted: ``rms_log10_step`` and ``misfit_limit``, the largest that
+            is good (decades), and ``misfit_holds`` (0 or 1).
         """
         insist_on(curve, "curve", StepMasterCurve)
         fitted = self.creep_compliance(curve.time) if curve.kind == "creep" else self.relaxation_modulus(curve.time)
         columns = dataset(
             "reading",
             step_columns(curve.kind, curve.temperature, curve.time, fitted, fitted=True),
-            attributes={"rms_log10_step": None if self.fit is None else self.fit.rms_step},
+            attributes={} if self.fit is None else self.fit.step_misfit,
         )
         return curve.to_dataset().assign(columns.data_vars).assign_attrs(columns.attrs)
 

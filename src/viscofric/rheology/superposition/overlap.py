@@ -196,6 +196,10 @@ def parted(sweeps: list[LogSweep], log10_shifts: Array) -> list[int]:
     return found
 
 
+#: Isotherms overlap well if they differ by this at most.
+LARGEST_OVERLAP = 0.05  # decades, rms of E' and of E''
+
+
 @dataclass(frozen=True)
 class OverlapQuality:
     """How well shifted isotherms overlap with their neighbours.
@@ -231,6 +235,21 @@ class OverlapQuality:
     def joint(self) -> float:
         """√((storage² + loss²)/2), decades."""
         return float(np.sqrt(0.5 * (self.storage**2 + self.loss**2)))
+
+    @property
+    def holds(self) -> bool:
+        """Whether all neighbours overlap, and differ by 0.05 decades (rms) at most."""
+        return max(self.storage, self.loss) <= LARGEST_OVERLAP and not self.gaps
+
+    @property
+    def attributes(self) -> dict[str, float]:
+        """What data sets of shift factors say of the overlap, besides its misfits."""
+        return {
+            "neighbours": self.neighbours,
+            "neighbours_without_overlap": self.without_overlap,
+            "overlap_holds": int(self.holds),
+            "overlap_limit": LARGEST_OVERLAP,
+        }
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the misfits as single numbers.

@@ -112,8 +112,7 @@ class Superposition:
             "isotherms_used": len(self.shift_factors.temperatures),
             "overlap_rms_log10_storage": quality.storage,
             "overlap_rms_log10_loss": quality.loss,
-            "neighbours": quality.neighbours,
-            "neighbours_without_overlap": quality.without_overlap,
+            **quality.attributes,
             "shifted_by": self.shifted_by,
         }
         if self.weights is not None:

@@ -173,8 +173,7 @@ class StepSuperposition:
             "isotherms_used": len(self.shift_factors.temperatures),
             "kind": self.master_curve.kind,
             "overlap_rms_log10": quality.joint,
-            "neighbours": quality.neighbours,
-            "neighbours_without_overlap": quality.without_overlap,
+            **quality.attributes,
         }
         return with_vertical_shift(found, self.vertical_shift, self.shift_factors.temperatures)
 
