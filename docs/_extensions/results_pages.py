@@ -35,6 +35,8 @@ _WORDS = {
     "/measurement": "The separated measurement, and the prediction at the same points.",
     "/measurement_master": "Measured friction over the reduced speed, at the load of the master curve.",
     "/friction_shift_factors": "log10 α found from the measured friction alone, beside that of the material.",
+    "/interface": "With a fitted `[interface]`: shear stress at the measured points.",
+    "/interface_law": "Its law at the reference temperature.",
     "/agreement": "Prediction against measurement, at each temperature.",
     "/assumptions": "Assumptions of the predictions, and their checks.",
     "/history": "With `[history]`: the cases over time.",

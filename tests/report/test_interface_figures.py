@@ -6,15 +6,26 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib.figure import Figure
 
 import viscofric as vf
 from viscofric import report
+from viscofric.datasets import dataset
 from viscofric.friction.interface.prediction import with_interface
+from viscofric.report.figures.interface import parts_figure
 
 LAW = vf.PowerShearStress(
     "0.2 MPa", 0.2, 0.03, shift=vf.Arrhenius("60 kJ/mol", 313.15), covariance=np.diag([1e8, 1e-4, 1e6])
 )
+
+PARTS = {
+    "friction_coefficient": 0.1,
+    "friction_error": 0.03,
+    "interface_friction": 0.2,
+    "interface_error": 0.04,
+    "failed": 0,
+}
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +50,24 @@ def test_stress_is_drawn_at_the_reduced_speed_of_the_first_law(contacts):
     assert len(axes.collections) == 3  # two sets of bars and one band: the constant law has no errors
     assert "synthetic" in axes.get_legend().get_title().get_text()
     assert "40 °C" in axes.get_xlabel()
+
+
+def test_a_study_shows_the_parts_at_three_temperatures():
+    speed, kelvin = np.array([0.01, 0.1]), 293.15 + 10.0 * np.arange(4)
+    numbers = {name: np.full((4, 2), value) for name, value in PARTS.items()}
+    cases = dataset(
+        ("temperature", "speed"),
+        {name: (column, "1", name) for name, column in numbers.items()},
+        coordinates={"temperature": (kelvin, "K", "temperature"), "speed": (speed, "m/s", "speed")},
+    )
+    figure = parts_figure(xr.DataTree.from_dict({"/prediction": cases}))
+    assert [axes.get_xlabel().split("at ")[1] for axes in figure.axes] == ["20 °C", "40 °C", "50 °C"]
+    for axes in figure.axes:
+        (bars,) = axes.containers
+        np.testing.assert_allclose(bars.lines[0].get_ydata(), 0.3)
+        (upper,) = (segments[0][1][1] for segments in [bars.lines[2][0].get_segments()])
+        assert upper == pytest.approx(0.3 + 1.96 * 0.05, rel=1e-4)
+    assert parts_figure(xr.DataTree.from_dict({"/prediction": cases.drop_vars("interface_friction")})) is None
 
 
 def test_parts_are_stacked_to_the_total(contacts):

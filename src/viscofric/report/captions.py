@@ -61,7 +61,12 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         f"over the whole range{_thin(tree, 'prediction_master')}{_shaded(tree, 'prediction_master')}.{bars}{together}",
         "friction_sweep": _of_sweep(tree),
         "friction_map": _of_map(tree),
-        "coulomb_friction": f"Coulomb friction against speed.{bars} Coulomb friction is not predicted.",
+        "coulomb_friction": f"Coulomb friction against speed.{bars}",
+        "shear_stress": f"Shear stress of the interface against slip speed times shift factor: {measured} Coulomb "
+        "friction times the mean pressure of the solved contact, with bars of one standard error. Line: the law fitted "
+        "to it, with its 95 % band.",
+        "friction_parts": "Predicted friction against speed, with its parts: hysteresis of the material, and shear "
+        "stress of the interface on the predicted contact area. Bars: 95 % interval of the total.",
         "friction_shift_factors": "Shift factors from friction alone, by superposition of its curves, "
         "and those of the modulus, with their standard errors.",
         "ramps": "Left: storage (filled) and loss modulus (open) as measured, against the temperature, at each "

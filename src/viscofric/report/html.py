@@ -131,6 +131,7 @@ def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
     """Return all other figures in groups, as they follow each other."""
     found = [
         ("Friction", ("friction_master_curve", "coulomb_friction", "friction_shift_factors")),
+        ("Interface", ("friction_parts", "shear_stress")),
         ("Contact", ("contacts", "recovery_trail")),
         ("Material", tuple(RUBBER_FIGURES)),
     ]

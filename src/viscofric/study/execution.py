@@ -16,6 +16,7 @@ from viscofric.study.assumptions import assumption_checks, assumption_warnings, 
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.histories import Histories
+from viscofric.study.interface import interface_results
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
@@ -206,11 +207,14 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), histories: Histori
     def within(part: Solved) -> list[bool] | None:
         return all_within(rubbers, part.of_records, part.records) if known else None
 
+    rubbed = interface_results(study.interface, requested, at_points, measured)
+    groups |= rubbed.groups
     groups["/prediction"] = prediction(
         contacts.sweep,
         requested.outcomes,
         within=within(requested),
         curves=band_columns(rubbers, requested.of_records, requested.records),
+        interface=rubbed.columns,
     )
     groups |= field_groups(contacts.sweep, requested.outcomes)
     if along.records:
@@ -233,7 +237,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), histories: Histori
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
         **{name: text for name, text in (("citation", study.citation), ("licence", study.licence)) if text},
-        "notes": _listed([*notes, *study.notes, *(measured.notes if measured else ())]),
+        "notes": _listed([*notes, *study.notes, *(measured.notes if measured else ()), *rubbed.notes]),
         "warnings": _listed(
             [
                 *doubtful,

@@ -179,7 +179,9 @@ def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples 
 
 
 def curves_of(records: Sequence[Record]) -> FrictionCurves:
-    """Return the friction of solved cases, in their order."""
+    """Return the friction of solved cases of indenters, in their order."""
+    pressure = np.array([record.load / record.contact_area for record in records])
+    relative = np.array([record.contact_area_error / record.contact_area for record in records])
     return FrictionCurves(
         speed=np.array([record.speed for record in records]),
         temperature=np.array([record.temperature for record in records]),
@@ -189,6 +191,8 @@ def curves_of(records: Sequence[Record]) -> FrictionCurves:
         viscoelastic_scatter=np.zeros(len(records)),
         replicates=np.ones(len(records), dtype=np.int64),
         source="prediction",
+        mean_pressure=pressure,
+        mean_pressure_error=relative * pressure,
     )
 
 

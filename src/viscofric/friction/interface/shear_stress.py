@@ -213,8 +213,8 @@ def shear_stress(
     curves : FrictionCurves
         With Coulomb friction, as `separate` gives them.  The speed of the stress is the slip; without slip, the speed.
     contacts : FrictionCurves, or iterable of ContactSolution
-        The contact of every point, at its speed, temperature and load (within 5 %): what `predict_friction` gives, or
-        solved contacts.  The stress is μ_c times their mean pressure.
+        The contact of every point, at its speed, temperature and load (within 5 %): what `solve_steady` gives for
+        each, or `predict_friction` for all.  The stress is μ_c times their mean pressure.
     shift : ShiftLaw or ShiftFactors, optional
         α(T) of the interface; found from the stress if left out, as `shift_friction` finds that of friction.
     reference : float, str or pint.Quantity, optional

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.lines import Line2D
 
 from viscofric.errors import InputError
+from viscofric.report.data import as_dataset
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -15,18 +16,24 @@ from viscofric.report.figures.style import (
     ORANGE,
     at_temperature,
     looks,
+    new_figure,
     origin,
     plain_numbers,
     speed_ticks,
 )
-from viscofric.report.results import nearest, nominal_temperatures
+from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, values
+from viscofric.report.sweeps import SAMPLE, labelled, solved_cases, sweep_axes, thinned
 from viscofric.report.texts.numbers import degrees
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.interface.shear_stress import ShearStress
     from viscofric.rheology.interface.law import InterfaceLaw
@@ -35,20 +42,26 @@ if TYPE_CHECKING:
 _MEGA, _MILLIMETRES = 1e-6, 1e3
 _DASHES: tuple[Any, ...] = ("-", "--", ":", "-.")
 _BEYOND = 0.2  # decades that lines reach beyond the points
+#: Temperatures whose parts of friction a study's figure shows.
+MOST_PANELS = 3
 
 
 def plot_shear_stress(
-    axes: Axes, stress: ShearStress, laws: Sequence[InterfaceLaw] = (), *, synthetic: bool = False
+    axes: Axes,
+    stress: ShearStress | xr.Dataset,
+    laws: Sequence[InterfaceLaw | xr.Dataset] = (),
+    *,
+    synthetic: bool = False,
 ) -> None:
     """Draw shear stress of all temperatures against the reduced slip speed, and laws fitted to it.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    stress : ShearStress
+    stress : ShearStress or xarray.Dataset
         Points with bars of one standard error, shifted by the first law's α(T), or by the stress's own without laws;
-        points whose α is not known are not drawn.
-    laws : sequence of InterfaceLaw
+        points whose α is not known are not drawn.  A dataset is that of `ShearStress.to_dataset` with the first law.
+    laws : sequence of InterfaceLaw or xarray.Dataset
         Lines at the reference temperature; the first one with its 95 % band where that is known.
     synthetic : bool
         Whether to call the points synthetic instead of measured.
@@ -58,39 +71,32 @@ def plot_shear_stress(
     InputError
         If there is nothing to draw: several temperatures without shift factors and without a law.
     """
-    drawn = stress.to_dataset(*laws[:1])
-    reduced = drawn["reduced_speed"].values
+    points = as_dataset(stress, *laws[:1])
+    reduced, temperature = values(points, "reduced_speed"), values(points, "temperature")
     known = np.isfinite(reduced)
     if not np.any(known):
         raise InputError("the shear stress has no shift factors; give a law fitted to it.", code="nothing-to-draw")
-    nominal = nominal_temperatures(stress.temperature)
+    nominal = nominal_temperatures(temperature)
     handles = []
-    for index, look in enumerate(looks(nominal.size)):
-        rows = known & (nearest(nominal, stress.temperature) == index)
+    for index, look in reversed(list(enumerate(looks(nominal.size)))):
+        rows = known & (nearest(nominal, temperature) == index)
         if not np.any(rows):
             continue
         axes.errorbar(
             _MILLIMETRES * reduced[rows],
-            _MEGA * stress.shear_stress[rows],
-            yerr=_MEGA * stress.error[rows],
+            _MEGA * values(points, "shear_stress")[rows],
+            yerr=_MEGA * values(points, "shear_stress_error")[rows],
             fmt=look.marker,
             color=look.colour,
             elinewidth=1.0,
         )
-        named = {"marker": look.marker, "linestyle": "none", "label": degrees(float(nominal[index]))}
-        handles.append(Line2D([], [], color=look.colour, **named))  # type: ignore[arg-type]
-    handles.reverse()
+        named: Any = {"marker": look.marker, "linestyle": "none", "label": degrees(float(nominal[index]))}
+        handles.append(Line2D([], [], color=look.colour, **named))
     decades = np.log10(reduced[known])
     speeds = np.logspace(decades.min() - _BEYOND, decades.max() + _BEYOND, 101)
-    reference = drawn.attrs["reference_temperature"]
-    for law, dashes in zip(laws, _DASHES, strict=False):
-        first = law is laws[0]
-        colour = INK if first else GREY
-        axes.plot(_MILLIMETRES * speeds, _MEGA * law(speeds, reference), color=colour, linestyle=dashes)
-        handles.append(Line2D([], [], color=colour, linestyle=dashes, label=law.title))
-        if first and law.has_standard_error:
-            lower, upper = law.interval(speeds, reference)
-            axes.fill_between(_MILLIMETRES * speeds, _MEGA * lower, _MEGA * upper, color=GREY, alpha=0.3, linewidth=0)
+    reference = number(points.attrs, "reference_temperature")
+    for place, (law, dashes) in enumerate(zip(laws, _DASHES, strict=False)):
+        handles.append(_plot_law(axes, as_dataset(law, speeds, reference), dashes, banded=place == 0))
     axes.set(xscale="log", yscale="log", ylabel=r"shear stress of the interface $\tau_\mathrm{s}$ (MPa)")
     axes.set_xlabel(r"reduced slip speed $\alpha_T\,v$ (mm/s)" + at_temperature(reference))
     speed_ticks(axes.xaxis)
@@ -99,38 +105,98 @@ def plot_shear_stress(
     axes.legend(handles=handles, title=title, alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
-def plot_friction_parts(axes: Axes, curves: FrictionCurves) -> None:
+def _plot_law(axes: Axes, line: xr.Dataset, dashes: Any, *, banded: bool) -> Line2D:
+    """Draw a law at one temperature, and return what the legend shows of it."""
+    speed, stress = _MILLIMETRES * values(line, "speed"), _MEGA * np.ravel(line["shear_stress"].values)
+    colour = INK if banded else GREY
+    axes.plot(speed, stress, color=colour, linestyle=dashes)
+    if banded and "standard_error" in line:
+        factor = 10.0 ** (LEVEL_95 * np.ravel(line["standard_error"].values))
+        axes.fill_between(speed, stress / factor, stress * factor, color=GREY, alpha=0.3, linewidth=0)
+    return Line2D([], [], color=colour, linestyle=dashes, label=str(line.attrs["law"]))
+
+
+def plot_friction_parts(axes: Axes, curves: FrictionCurves | xr.Dataset) -> None:
     """Draw predicted friction against speed with its parts, hysteresis and interface, stacked.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    curves : FrictionCurves
+    curves : FrictionCurves or xarray.Dataset
         Of `predict_friction` with an interface, at one temperature and load (`FrictionCurves.at_temperature`); the
-        total has its 95 % interval.
+        total has its 95 % interval.  A dataset has `speed`, `temperature`, `friction_coefficient`,
+        `friction_error`, `interface_friction`, `interface_error` and perhaps `friction_material_error` along `case`.
 
     Raises
     ------
     InputError
         If there is no interfacial part, or are several temperatures.
     """
-    if curves.coulomb is None or curves.total_error is None:
+    parts = _parts(curves)
+    if not np.isfinite(parts.interface).any():
         raise InputError("the friction curves have no interfacial part; predict with interface=….", code="no-coulomb")
-    if curves.temperatures.size != 1:
+    nominal = nominal_temperatures(parts.temperature)
+    if nominal.size != 1:
         raise InputError(
-            f"the friction curves have {curves.temperatures.size} temperatures; choose one with at_temperature().",
+            f"the friction curves have {nominal.size} temperatures; choose one with at_temperature().",
             code="several-temperatures",
         )
-    order = np.argsort(curves.speed, kind="stable")
-    speed, hysteresis, total = (
-        column[order] for column in (_MILLIMETRES * curves.speed, curves.viscoelastic, curves.total)
-    )
-    half = 1.96 * curves.total_error[order]
+    order = np.argsort(parts.speed, kind="stable")
+    speed, hysteresis = _MILLIMETRES * parts.speed[order], parts.hysteresis[order]
+    total, half = hysteresis + parts.interface[order], LEVEL_95 * parts.error[order]
     axes.fill_between(speed, 0.0, hysteresis, color=BLUE, alpha=0.6, linewidth=0, label="hysteresis")
     axes.fill_between(speed, hysteresis, total, color=ORANGE, alpha=0.6, linewidth=0, label="interface")
     axes.errorbar(speed, total, yerr=half, color=INK, marker="o", markersize=3, elinewidth=1.0, label="total, 95 %")
-    axes.set(xscale="log", ylabel=r"friction coefficient $\mu$", ylim=(0.0, 1.08 * float((total + half).max())))
-    axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(float(curves.temperatures[0])))
+    axes.set(xscale="log", ylabel=r"friction coefficient $\mu$", ylim=(0.0, 1.08 * float(np.nanmax(total + half))))
+    axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(float(nominal[0])))
     speed_ticks(axes.xaxis)
     plain_numbers(axes, "y")
     axes.legend(title="predicted", alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+class _Parts(NamedTuple):
+    """Parts of friction (n,), and the standard error of their sum."""
+
+    speed: Array
+    temperature: Array
+    hysteresis: Array
+    interface: Array
+    error: Array
+
+
+def _parts(curves: FrictionCurves | xr.Dataset) -> _Parts:
+    data = as_dataset(curves)
+    of_case = "friction_coefficient" in data
+    names = ("friction_coefficient", "interface_friction") if of_case else ("viscoelastic", "coulomb")
+    errors = ("friction_error", "friction_material_error", "interface_error")
+    errors = errors if of_case else ("viscoelastic_error", "material_error", "coulomb_error")
+    squares = [np.nan_to_num(values(data, name)) ** 2 for name in errors]
+    speed, temperature, hysteresis, interface = (values(data, name) for name in ("speed", "temperature", *names))
+    return _Parts(speed, temperature, hysteresis, interface, np.sqrt(np.sum(squares, axis=0)))
+
+
+def stress_figure(tree: xr.DataTree) -> Figure | None:
+    """Return the figure of a study's shear stress, with the law fitted to it."""
+    stress, law = group(tree, "interface"), group(tree, "interface_law")
+    if stress is None:
+        return None
+    figure = new_figure(7.4, 4.3)
+    plot_shear_stress(figure.subplots(), stress, () if law is None else [law], synthetic=is_synthetic(tree))
+    return figure
+
+
+def parts_figure(tree: xr.DataTree) -> Figure | None:
+    """Return the figure of hysteresis and interface at a few temperatures, where nothing but these and speed varies."""
+    cases, friction = solved_cases(tree), labelled(tree)
+    if cases is None or friction is None or "interface_friction" not in cases or SAMPLE in friction.dims:
+        return None
+    names = {axis.name for axis in sweep_axes(friction)}
+    if "speed" not in names or not names <= {"speed", "temperature"}:
+        return None
+    temperature = values(cases, "temperature")
+    nominal = nominal_temperatures(temperature)
+    shown = thinned(nominal.size, MOST_PANELS)
+    figure = new_figure(7.4, 3.0 * len(shown))
+    for axes, place in zip(figure.subplots(len(shown), 1, squeeze=False)[:, 0], shown, strict=True):
+        plot_friction_parts(axes, cases.isel(case=np.flatnonzero(nearest(nominal, temperature) == place)))
+    return figure

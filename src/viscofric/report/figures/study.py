@@ -20,6 +20,7 @@ from viscofric.report.figures.friction import (
     plot_friction_master_curves,
 )
 from viscofric.report.figures.histories import histories_figure
+from viscofric.report.figures.interface import parts_figure, stress_figure
 from viscofric.report.figures.maps import known_shifts, map_figure
 from viscofric.report.figures.ramps import plot_temperature_ramps
 from viscofric.report.figures.rubber import plot_isotherms, plot_master_curve, plot_residuals, plot_retardation_spectrum
@@ -261,6 +262,8 @@ FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "friction_map": friction_map,
     "friction_master_curve": friction_master_curve,
     "coulomb_friction": coulomb_friction,
+    "shear_stress": stress_figure,
+    "friction_parts": parts_figure,
     "friction_shift_factors": _friction_shift_factors,
     "contacts_over_time": histories_figure,
     "contacts": contacts,

@@ -103,7 +103,25 @@ def scope(tree: xr.DataTree) -> list[str]:
         )
         points = f"{measurement.sizes['point']} {kind} points of friction"
         said.append(f"The prediction is compared with {points}{separated}. {enters}")
-    return said
+    return said + _interface(tree)
+
+
+def _interface(tree: xr.DataTree) -> list[str]:
+    """Say which part of friction is measured, fitted and predicted, where there is an interface."""
+    found, stress = group(tree, "prediction"), group(tree, "interface")
+    if found is None or "interface_friction" not in found:
+        return []
+    share = found["interface_friction"].values / found["total_friction"].values
+    low, high = (percent(float(end)) for end in (np.nanmin(share), np.nanmax(share)))
+    law = "given"
+    if stress is not None:
+        kind = "synthetic" if is_synthetic(tree) else "measured"
+        law = f"fitted to {kind} Coulomb friction at {stress.sizes['point']} points"
+    said = (
+        f"The total friction has two parts: hysteresis, predicted from the material; and the interface, {low} to "
+        f"{high} of the total, whose law of shear stress is {law}, and acts on the predicted contact area."
+    )
+    return [said]
 
 
 def inputs(tree: xr.DataTree) -> list[Input]:

@@ -10,6 +10,8 @@
 ``/measurement_master``          measured friction over the reduced speed, at the load of the master curve
 ``/agreement``                   prediction and measurement compared, per temperature (if measured)
 ``/friction_shift_factors``      α(T) from friction alone, and that of the modulus (if measured curves overlap)
+``/interface``                   shear stress of the interface at the measured points (if a law was fitted to it)
+``/interface_law``               that law at the reference temperature
 ``/assumptions``                 assumptions of the predictions, checked
 ``/isotherms``                   measured moduli (tensile) in use
 ``/ramps``                       temperature ramps (tensile) in use instead, with α(T) at every point
@@ -69,6 +71,9 @@ _OTHER: dict[str, Meaning] = {
     ),
     "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
     "friction_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
+    "interface_friction": ("1", "friction coefficient of the interface"),
+    "interface_error": ("1", "standard error of the friction coefficient of the interface"),
+    "total_friction": ("1", "friction coefficient of hysteresis and interface together"),
     _WITHIN: ("1", "1: reduced frequency αv/a within the measured range; 0: beyond it; -1: case failed"),
     "interpolated": ("1", "1: interpolated between solved contacts; 0: solved"),
     "failed": ("1", "1: the case could not be solved, and its other variables are missing; 0: solved"),
@@ -113,11 +118,13 @@ def prediction(
     *,
     within: Sequence[bool] | None = None,
     curves: FrictionCurves | BandColumns | None = None,
+    interface: Mapping[str, Any] | None = None,
 ) -> xarray.Dataset:
     """Return the cases of a sweep over its axes; those with one point are scalar coordinates.
 
     Axes that vary together share a dimension, which has no coordinate of its own name.  `within` (whether the contact's
-    frequency was measured) and `curves` (their bands) are of the solved cases, in their order.
+    frequency was measured), `curves` (their bands) and `interface` (columns of its friction) are of the solved cases,
+    in their order.
     """
     import xarray
 
@@ -129,6 +136,7 @@ def prediction(
         if name not in _PLACES
     }
     columns |= {} if curves is None else _band(curves, "friction")
+    columns |= interface or {}
     columns["interpolated"] = [record.interpolated for record in records]
     if within is not None:
         columns[_WITHIN] = within

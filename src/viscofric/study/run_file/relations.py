@@ -31,6 +31,7 @@ def relations(tables: Tables) -> Iterator[Problem]:
         yield from _size(tables)
     yield from _measurement(tables)
     yield from _history(tables)
+    yield from _interface(tables)
     yield from _members(tables)
 
 
@@ -170,6 +171,19 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
 def _history(tables: Tables) -> Iterator[Problem]:
     if tables.get("history") is not None and tables.get("surface") is not None:
         yield "history", "needs an [indenter], but there is a rough [surface]"
+
+
+def _interface(tables: Tables) -> Iterator[Problem]:
+    interface = tables.get("interface")
+    if interface is None:
+        return
+    if tables.get("surface") is not None:
+        yield (
+            "interface",
+            "needs an [indenter], but there is a rough [surface]; in Python, predict_rough_friction has it",
+        )
+    if not interface.is_given and tables.get("measurement") is None:
+        yield "interface", "needs a [measurement] with Coulomb friction, or a law with its constants"
 
 
 def _members(tables: Tables) -> Iterator[Problem]:

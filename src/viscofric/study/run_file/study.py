@@ -20,6 +20,7 @@ from viscofric.study.run_file.contact import (
 )
 from viscofric.study.run_file.errors import place, problems, wrong, wrong_tables
 from viscofric.study.run_file.history import HistoryTable
+from viscofric.study.run_file.interface import InterfaceTable
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.measurement import MeasurementTable
 from viscofric.study.run_file.relations import relations
@@ -75,6 +76,8 @@ class Study(Table):
     history : HistoryTable or None
         Every case also over time.
     measurement : MeasurementTable or None
+    interface : InterfaceTable or None
+        The friction of a dry interface too.
     solver : SolverTable
     uncertainty : UncertaintyTable
     outputs : OutputsTable
@@ -99,6 +102,7 @@ class Study(Table):
     sweep_table: SweepTable = Field(SweepTable(), alias="sweep", description="Axes that vary together.")
     history: HistoryTable | None = Field(None, description="Every case of an indenter also over time.")
     measurement: MeasurementTable | None = Field(None, description="Measured friction to compare with the prediction.")
+    interface: InterfaceTable | None = Field(None, description="Friction of the dry interface, added to the rubber's.")
     solver: SolverTable = Field(SolverTable(), description="Accuracy of the predicted friction.")
     uncertainty: UncertaintyTable = Field(UncertaintyTable(), description="Uncertainty of the material.")
     outputs: OutputsTable = Field(OutputsTable(), description="Stored fields and formats of the results.")
@@ -161,6 +165,7 @@ TABLES: dict[str, type[BaseModel]] = {
     "sweep": SweepTable,
     "history": HistoryTable,
     "measurement": MeasurementTable,
+    "interface": InterfaceTable,
     "solver": SolverTable,
     "uncertainty": UncertaintyTable,
     "outputs": OutputsTable,

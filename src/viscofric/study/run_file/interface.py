@@ -1,0 +1,81 @@
+"""[interface] of a run file: shear stress of the dry interface, fitted to the measurement or given as a law."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from viscofric.rheology.interface.fitting import KINDS
+from viscofric.rheology.shifts.laws import Arrhenius
+from viscofric.study.run_file.tables import VALUE, Number, Pressure, Speed, Table, Temperature, as_text, with_unit
+from viscofric.units import positive
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.study.run_file.tables import Problem
+
+Volume = Annotated[float, BeforeValidator(lambda value: positive(with_unit(value), "m**3", VALUE)), as_text("20 nm**3")]
+Energy = Annotated[
+    float, BeforeValidator(lambda value: positive(with_unit(value), "J/mol", VALUE)), as_text("80 kJ/mol")
+]
+Part = Annotated[Number, Field(ge=0.0, lt=1.0)]
+#: Constants of each law.
+CONSTANTS = {kind: tuple(one.name for one in fields(law) if not one.kw_only) for kind, law in KINDS.items()}
+_ALL = tuple(dict.fromkeys(name for names in CONSTANTS.values() for name in names))
+
+
+class InterfaceTable(Table):
+    """[interface]: shear stress of the dry interface, whose friction is added to the hysteresis of every case."""
+
+    law: Literal["best", "constant", "power", "eyring", "gaussian"] = Field(
+        "best",
+        description="Law of the shear stress, fitted to measured Coulomb friction unless its constants are given.",
+    )
+    stress: Pressure | None = Field(None, description="Of 'constant', and of 'power' at speed: shear stress.")
+    exponent: Number | None = Field(None, description="Of 'power': exponent of the speed.")
+    speed: Speed | None = Field(None, description="Of 'power', 'eyring' and 'gaussian': slip speed v₀ or v_p.")
+    activation_volume: Volume | None = Field(None, description="Of 'eyring'.")
+    peak: Pressure | None = Field(None, description="Of 'gaussian': largest shear stress.")
+    width: Annotated[Number, Field(gt=0.0)] | None = Field(None, description="Of 'gaussian': width in decades.")
+    activation_energy: Energy | None = Field(None, description="Of the shift of a given law with temperature.")
+    reference: Temperature | None = Field(None, description="Temperature at which the given constants hold.")
+    slip: Speed | None = Field(None, description="Slip speed of all cases; default: their speed, as in pure sliding.")
+    level_error: Part = Field(0.0, description="Relative standard error shared by the points of a temperature.")
+    area_error: Part = Field(0.0, description="Relative standard error shared by all contact areas.")
+
+    def problems(self) -> Iterator[Problem]:
+        """Yield the contradictions within the table."""
+        if not self.is_given:
+            for name in ("activation_energy", "reference"):
+                if getattr(self, name) is not None:
+                    yield name, "belongs to a law whose constants are given"
+            return
+        if self.law == "best":
+            yield "law", f"is missing; constants belong to one of {', '.join(map(repr, CONSTANTS))}"
+            return
+        for name in _ALL:
+            if (name in CONSTANTS[self.law]) != (getattr(self, name) is not None):
+                needed = "is missing" if name in CONSTANTS[self.law] else "is no constant"
+                yield name, f"{needed} of the law {self.law!r}, which has {', '.join(CONSTANTS[self.law])}"
+        if (self.activation_energy is None) != (self.reference is None):
+            yield "reference", "and activation_energy belong together; give both or neither"
+        for name in ("level_error", "area_error"):
+            if name in self.model_fields_set:
+                yield name, "is for a law that is fitted to the measurement"
+
+    @property
+    def is_given(self) -> bool:
+        """Whether the law has constants, and is not fitted."""
+        return any(getattr(self, name) is not None for name in _ALL)
+
+    def given(self) -> InterfaceLaw:
+        """Return the law of the given constants."""
+        shift = None
+        if self.activation_energy is not None and self.reference is not None:
+            shift = Arrhenius(self.activation_energy, self.reference)
+        constants = {name: getattr(self, name) for name in CONSTANTS[self.law]}
+        return KINDS[self.law](**constants, shift=shift)
