@@ -119,6 +119,7 @@ def test_every_key_of_a_run_file_is_in_the_reference(extensions: dict[str, Modul
         "sweep": run_file.SweepTable,
         "history": run_file.HistoryTable,
         "measurement": run_file.MeasurementTable,
+        "interface": run_file.InterfaceTable,
         "solver": run_file.SolverTable,
         "uncertainty": run_file.UncertaintyTable,
         "outputs": run_file.OutputsTable,
