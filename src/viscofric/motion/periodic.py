@@ -17,14 +17,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.extension import Extension, lag
-from viscofric.contact.periodic.one_grid import OneGrid, Stage
+from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import Modes, quickest_time
 from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.wave_contact import StepContact, Target
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes
 from viscofric.motion.waves import Waves
 
@@ -32,16 +30,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.motion.problem import Problem
     from viscofric.motion.schedule import Instant
 
 
-# Of the solver that starts from the pressure of the step before; see `viscofric.contact.periodic.one_grid`.
-_PATIENCE, _DIRECTIONS, _DOUBT, _FEW_PRODUCTS = 6, 12, 0.0, 200
-_MOST_PRODUCTS = 10_000
-# Complementarity of a step, as a part of the accuracy, over the displacement (from the least one on, in rms heights).
-_TIGHTNESS, _LEAST_DISPLACEMENT = 1e-2, 1e-5
+# Complementarity of a step, as a part of what the step may add to the error, over the displacement that follows at once
+# (from the least one on, in rms heights); of the first contact, a part of that.
+_TIGHTNESS, _LEAST_DISPLACEMENT, _FIRST = 0.25, 1e-5, 0.1
 # Friction coefficient, over the rms slope of the surface, that is resolved to the accuracy.
 _LEAST_FRICTION = 0.1
 # Steps whose transfer functions are kept: one, and its halves.
@@ -72,18 +67,7 @@ class _Step(NamedTuple):
     """Quantities common to steps of one length along one path."""
 
     response: StepResponse
-    exact: PeriodicOperator
-    single: PeriodicOperator
-    extension: Extension | None
-    toward: tuple[float, float]
-
-
-class _Target(NamedTuple):
-    """Target of a step: the sum of the pressures or the indentation, and the tolerance of the gap."""
-
-    load: float | None
-    indentation: float | None
-    tolerance: float
+    contact: StepContact
 
 
 class PeriodicMover:
@@ -107,12 +91,18 @@ class PeriodicMover:
         self._shape = self.grid.response / self.response_unit
         self._scale = np.sqrt(self.grid.weights * self._shape)  # √(w G), a factor of the memory
         self._unscaled = np.sqrt(self._shape / self.grid.weights)
+        self._softness = self.grid.weights * np.square(self._shape)
+        self._softness[0, 0] = 0.0
         self._rigid = self.grid.rigid_factor * (problem.counterface / self.compliance_unit)
         self.height = (surface.z.max() - surface.z) / self.depth_unit
         self.mean_height = float(self.height.mean())
         self.precision = np.complex64 if problem.accuracy >= _SINGLE else np.complex128
-        self._tightness = _TIGHTNESS * problem.accuracy
         self.share = _SHARES[min(surface.shape) > 1]
+        self._tightness = _TIGHTNESS * self.share * problem.accuracy
+        self._extension = None
+        if math.prod(surface.shape) >= _EXTENDED:
+            # Without the lag behind edges, which costs more than it saves where few iterations are left.
+            self._extension = Extension(self.backend, surface.shape, np.float32)
         self.products = 0
         self._steps: dict[tuple[float, ...], _Step] = {}
 
@@ -146,7 +136,7 @@ class PeriodicMover:
         compliance = modes.instantaneous + sum(C * share for C, share in zip(modes.C, shares, strict=True))
         problem = self._made(StepResponse.steady(turn, compliance), moving)
         past = np.zeros(turn.shape, complex)
-        pressure, depth = self._solved(problem, past, first, None)
+        pressure, depth = self._solved(problem, past, first, None, None)
         waves = self.grid.of(pressure)
         scaled = self._scale * waves
         memory = np.empty((len(modes), *waves.shape), self.precision)
@@ -180,14 +170,14 @@ class PeriodicMover:
         path = np.asarray(end.position) - np.asarray(start.position)
         clock_step = end.clock - start.clock
         problem = self._step_of(clock_step, path, lagging)
-        past = problem.response.known(self.modes, state.memory, self._scale * state.waves)
+        before = self._scale * state.waves
+        past = problem.response.known(self.modes, state.memory, before)
         guess = state.pressure
         if state.trend is not None and clock_step > 0.0:
             guess = guess + clock_step * state.trend
-        pressure, depth = self._solved(problem, past, end, guess)
+        pressure, depth = self._solved(problem, past, end, guess, state.waves)
         waves = self.grid.of(pressure)
-        ends = self._scale * state.waves, self._scale * waves
-        after = advance(problem.response, self.modes, state.memory, *ends, keep=keep)
+        after = advance(problem.response, self.modes, state.memory, before, self._scale * waves, keep=keep)
         trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
         done = after.stored, state.dissipated + after.dissipated
         return self._state(pressure, waves, after.memory, problem.response, past, depth, done, trend)
@@ -286,15 +276,12 @@ class PeriodicMover:
         transfer[0, 0] = 0.0  # the mean displaces all points equally
         shape, spacing = self.surface.shape, self.surface.spacing
         exact = PeriodicOperator(transfer, shape, backend=self.backend)
-        single = exact.for_corrections()
         toward = (path[0] / spacing[0], path[1] / spacing[1]) if path.any() else (1.0, 0.0)
-        extension = None
-        if math.prod(shape) >= _EXTENDED:
-            late = lag(transfer, shape[1], toward)
-            extension = Extension(self.backend, shape, single.dtype, toward, late)
-        return _Step(response, exact, single, extension, toward)
+        return _Step(response, StepContact(exact, exact.for_corrections(), self._extension, toward, self._elastic))
 
-    def _solved(self, problem: _Step, past: ComplexArray, end: Instant, guess: Array | None) -> tuple[Array, float]:
+    def _solved(
+        self, problem: _Step, past: ComplexArray, end: Instant, guess: Array | None, waves: ComplexArray | None
+    ) -> tuple[Array, float]:
         """Return the pressure and the depth, without the mean displacement, at the end of a step."""
         known = self._unscaled * past
         known[0, 0] = 0.0  # a mean displacement is added to the depth afterwards
@@ -312,57 +299,24 @@ class PeriodicMover:
         if load is not None and guess is not None and guess.min() > 0.0:
             # Full contact that persists is a linear problem.
             level = float(height.mean())
-            pressure = problem.exact.precondition(level - height)
+            pressure = problem.contact.exact.precondition(level - height)
             pressure += load / height.size - float(pressure.mean())
             if float(pressure.min()) >= 0.0:
                 self.products += 1
                 return pressure, level
-        target = _Target(load, indentation, self._tolerance(end, guess))
-        before = problem.exact.products + problem.single.products
-        result = self._quickly(problem, height, target, guess)
-        if result is None or not result.converged:
-            result = self._surely(problem, height, target, guess if result is None else result.pressure)
-        self.products += problem.exact.products + problem.single.products - before
-        return result.pressure, result.indentation
+        target = Target(load, indentation, self._tolerance(waves))
+        pressure, depth, products = problem.contact.solved(height, target, guess)
+        self.products += products
+        return pressure, depth
 
-    def _tolerance(self, end: Instant, guess: Array | None) -> float:
-        """Return a tolerance of the gap in rms heights, which a light load makes tighter."""
-        if guess is None or end.gap is not None:
-            return self._tightness
-        displacement = self.modes.instantaneous * self._shape * np.abs(self.grid.of(guess))
-        displacement[0, 0] = 0.0
-        rms = math.sqrt(float(np.vdot(self.grid.weights, np.square(displacement))))
+    def _tolerance(self, waves: ComplexArray | None) -> float:
+        """Return a tolerance of the gap in rms heights, tighter for light pressures (waves of the last one)."""
+        if waves is None:
+            return _FIRST * self._tightness
+        squares = np.square(waves.real) + np.square(waves.imag)
+        rms = self.modes.instantaneous * math.sqrt(float(np.vdot(self._softness, squares)))
         return self._tightness * min(1.0, max(_LEAST_DISPLACEMENT, rms))
 
-    def _quickly(
-        self, problem: _Step, height: Array, target: _Target, guess: Array | None
-    ) -> ComplementaritySolution | None:
-        """Solve from a good guess."""
-        if guess is None or not np.any(guess > 0.0):
-            return None
-        return solve_complementarity(
-            problem.exact, height, target.load, guess, indentation=target.indentation, tolerance=target.tolerance,
-            most_products=_FEW_PRODUCTS, depth=1.0, inner=problem.single, patience=_PATIENCE, tighten="near the end",
-            directions=_DIRECTIONS, extension=problem.extension, doubt=_DOUBT,
-        )  # fmt: skip
-
-    def _surely(self, problem: _Step, height: Array, target: _Target, guess: Array | None) -> ComplementaritySolution:
-        """Solve with the method of steady contacts, from any initial guess."""
-        mean = None if target.load is None else target.load / height.size
-        gap = None if target.indentation is None else float(height.mean()) - target.indentation
-        stage = Stage(height, problem.exact.transfer, lambda: self._elastic, problem.toward)
-        one = OneGrid(stage, mean, gap, target.tolerance, _MOST_PRODUCTS, self.backend)
-        result = one.solve(guess)
-        self.products += one.products
-        if not result.converged:
-            raise ConvergenceError(
-                f"a step of the contact did not converge: a gap of {result.complementarity:.2g} rms heights was left; "
-                "ask for less accuracy.",
-                code="not-converged",
-            )
-        return result
-
-    @property
     def _elastic(self) -> Array:
         """Transfer function of an elastic solid, with the mean at zero and the largest value one."""
         found = self.grid.folded(self._shape).copy()
