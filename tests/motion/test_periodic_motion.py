@@ -225,7 +225,7 @@ def test_quick_modes_dissipate_after_a_jump() -> None:
     surface, history = vf.PeriodicSurface(z, (1e-5, 1e-5)), vf.History([0.0, 1.0], pressure=1e8)
     run = vf.solve_transient(solid, surface, history, times=[0.0, 1.0])
     stored = np.array([1e7, 1e6]) / 0.75 * 2.0 * np.pi / 16e-5 * 1e-12 / 8.0
-    assert run.stored == pytest.approx(stored, rel=1e-9)
+    assert run.stored == pytest.approx(stored, rel=2e-7)  # a memory in single precision
     assert run.dissipated == pytest.approx([0.0, stored[0] - stored[1]], rel=1e-3)
 
 
