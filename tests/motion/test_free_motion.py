@@ -99,6 +99,7 @@ def test_start_of_a_ball_from_rest():
     assert run.friction_coefficient[1:] == pytest.approx(friction, rel=1.3e-3)
     assert np.diff(run.indentation, prepend=run.indentation[0])[1:].cumsum() == pytest.approx(depth, rel=5e-3)
     assert run.energy_imbalance < 1e-4
+    assert run.lateral_force == pytest.approx(0.0, abs=1e-14 * 2.0)  # rounding
 
 
 @pytest.mark.apart
