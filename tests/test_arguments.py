@@ -348,7 +348,7 @@ CALLS: dict[str, Any] = {
     "solve_steady": lambda: {"material": rubber(), "indenter": CYLINDER, "speed": 1.0, "load": 1e3, "indentation": None,
         "temperature": None, "accuracy": 3e-2, "tolerance": 1e-7, "finest": 2048, "window": None, "grid": None,
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "layer": None, "backend": "scipy", "direction": (1.0,
-        0.0), "derivatives": False},
+        0.0), "derivatives": False, "heating": None},
     "History": lambda: {"time": np.array([0.0, 0.1, 0.2]), "load": np.array([0.0, 1.0, 0.5]), "indentation": None,
         "pressure": None, "gap": None, "position": np.zeros(3), "speed": None, "temperature": 300.0, "before":
         "untouched", "direction": (1.0, 0.0)},
@@ -421,6 +421,8 @@ CALLS: dict[str, Any] = {
     "FrictionCurves.at_temperature": lambda: (curves(), {"temperature": 300.0}),
     "FrictionCurves.at_load": lambda: (curves(), {"load": 1e3}),
     "ThermalProperties": lambda: {"conductivity": 0.3, "density": 1e3, "heat_capacity": 1e3, "name": "rubber"},
+    "Heating": lambda: {"rubber": steel(), "counterface": steel(), "coulomb": 0.3, "slip": 0.1, "track_radius": 0.02,
+        "passes": 3, "average": "loss", "branch": "cold"},
     "MovingHeatSource": lambda: {"power": 1.0, "size": 1e-3, "speed": 0.1, "body": steel(), "shape": "disc",
         "distribution": "uniform"},
     "MovingHeatSource.temperature_at": lambda: (vf.MovingHeatSource(1.0, 1e-3, 0.1, steel()), {"x": [0.0, 1e-4], "y":
@@ -449,7 +451,7 @@ CALLS: dict[str, Any] = {
     "Identified.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
     "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":
         [300.0], "load": 1e3, "samples": None, "interface": eyring(), "slip": 0.1, "accuracy": 3e-2, "workers": 1,
-        "progress": None, "finest": 2048},
+        "progress": None, "finest": 2048, "heating": None},
     "shear_stress": lambda: {"curves": rubbed(), "contacts": rubbed(), "shift": None, "reference": 300.0,
         "level_error": 0.0, "area_error": 0.0},
     "ShearStress.law": lambda: (vf.shear_stress(rubbed(), rubbed()), {"kind": "power"}),

@@ -83,7 +83,7 @@ INPUTS = {
     "Material",
     "ModulusAnchor",
 }
-INPUTS |= {"MovingHeatSource", "PeriodicSurface", "Study", "StudyResults", "ThermalProperties"}
+INPUTS |= {"Heating", "MovingHeatSource", "PeriodicSurface", "Study", "StudyResults", "ThermalProperties"}
 #: Parts of results, whose numbers lie in the data set of the whole.
 PARTS = {
     "Diagnostics": "ContactSolution",

@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from viscofric.friction.curve_files import read_friction_curves as read_friction_curves
     from viscofric.friction.curve_files import write_friction_curves as write_friction_curves
     from viscofric.friction.curves import FrictionCurves as FrictionCurves
+    from viscofric.friction.heating import HeatedFrictionCurves as HeatedFrictionCurves
     from viscofric.friction.identification.anchors import ContactAnchor as ContactAnchor
     from viscofric.friction.identification.anchors import ModulusAnchor as ModulusAnchor
     from viscofric.friction.identification.identified import Identified as Identified
@@ -74,7 +75,9 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.shift import shift_friction as shift_friction
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement as ShiftAgreement
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
+    from viscofric.heat.heating import Heating as Heating
     from viscofric.heat.maps import surface_temperature as surface_temperature
+    from viscofric.heat.result import ContactHeating as ContactHeating
     from viscofric.heat.sources import MovingHeatSource as MovingHeatSource
     from viscofric.heat.track import track_temperature as track_temperature
     from viscofric.literature.citations import Citations as Citations
@@ -250,6 +253,9 @@ _HOME = {
     "check_assumptions": "viscofric.friction.assumptions",
     "FrictionCurves": "viscofric.friction.curves",
     "ThermalProperties": "viscofric.thermal",
+    "Heating": "viscofric.heat.heating",
+    "ContactHeating": "viscofric.heat.result",
+    "HeatedFrictionCurves": "viscofric.friction.heating",
     "MovingHeatSource": "viscofric.heat.sources",
     "surface_temperature": "viscofric.heat.maps",
     "track_temperature": "viscofric.heat.track",

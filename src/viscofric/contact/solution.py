@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.derivatives.friction import FrictionDerivatives
+    from viscofric.heat.result import ContactHeating
 
 #: Unit and long name of a number.
 Meaning: TypeAlias = tuple[str, str]
@@ -232,6 +233,8 @@ class ContactSolution:
         Of the friction coefficient, where requested.
     coulomb : float
         Coulomb friction coefficient whose shear changed the pressure, as given; not part of `friction_coefficient`.
+    heating : ContactHeating or None
+        Heat, rise of temperature and isothermal friction, where requested; `temperature` is that without the rise.
     """
 
     speed: float
@@ -257,6 +260,12 @@ class ContactSolution:
     lateral_friction_coefficient: float = 0.0
     derivatives: FrictionDerivatives | None = None
     coulomb: float = 0.0
+    heating: ContactHeating | None = None
+
+    @property
+    def temperature_rise(self) -> float:
+        """Rise of temperature by friction at which the contact was solved, K; zero without `heating`."""
+        return 0.0 if self.heating is None else self.heating.temperature_rise
 
     @property
     def centre_of_pressure(self) -> float:
@@ -309,4 +318,5 @@ class ContactSolution:
                 "coulomb": self.coulomb,
             },
         )
-        return fields.assign(self.numbers.data_vars)
+        found = fields.assign(self.numbers.data_vars)
+        return found if self.heating is None else found.assign(self.heating.to_dataset().data_vars)

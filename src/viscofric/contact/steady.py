@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arguments import flag
+from viscofric.arguments import flag, insist_on
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.derivatives.friction import differentiate
+from viscofric.contact.fields.dissipation import Modes
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.estimates import friction_estimate
 from viscofric.contact.free.nested import GivenGrid, find_window, refine
 from viscofric.contact.free.problem import COARSEST, Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
+from viscofric.contact.heated import ThermalContact, solve_heated
 from viscofric.contact.indenters.indenter import (
     SMALL_STRAIN,
     Indenter,
@@ -26,6 +28,7 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.settings import ContactSettings
 from viscofric.errors import InputError, brief
+from viscofric.heat.heating import Heating
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -71,6 +74,7 @@ def solve_steady(
     direction: Sequence[float] = (1.0, 0.0),
     coulomb: float = 0.0,
     derivatives: bool = False,
+    heating: Heating | None = None,
 ) -> ContactSolution:
     """Solve the steady contact of an indenter sliding or rolling over a viscoelastic half-space or layer.
 
@@ -123,6 +127,9 @@ def solve_steady(
     derivatives : bool
         Whether to differentiate the friction coefficient by every mode, the glassy modulus, the speed and the load or
         indentation, which doubles the time; not with `coulomb`.
+    heating : Heating, optional
+        Thermal properties and Coulomb heat: the contact is solved at the temperature to which its own friction heats
+        it, in about ten solves.  Not with `coulomb`, `derivatives` or a layer.
 
     Returns
     -------
@@ -171,9 +178,57 @@ def solve_steady(
     differentiated = flag(derivatives, "derivatives")
     if differentiated:
         _check_derivatives(velocity(speed), settings)
+    if heating is not None:
+        if differentiated:
+            raise InputError("derivatives = True: not with heating; leave out one of them.", code="not-with-heating")
+        held = {"load": load, "indentation": indentation}
+        contact = thermal_contact(material, indenter, heating, speed, temperature, settings, **held)
+        return solve_heated(contact, settings.accuracy)
     solved = _solve(material, indenter, speed, load, indentation, temperature, settings)
     solution = solved.solution()
     return replace(solution, derivatives=solved.derivatives()) if differentiated else solution
+
+
+def thermal_contact(
+    material: Material,
+    indenter: Indenter,
+    heating: Heating,
+    speed: Quantity,
+    temperature: Quantity | None,
+    settings: ContactSettings,
+    **held: Quantity | None,
+) -> ThermalContact:
+    """Return a contact that its own friction heats; `held` is its load or indentation.
+
+    Raises InputError if it cannot be: without α(T), a temperature or motion, with shear, or on a layer.
+    """
+    insist_on(heating, "heating", Heating)
+    insist_on_material(material)
+    law = material.shift
+    if law is None or temperature is None:
+        raise InputError("heating: needs a material with a shift, and a temperature.", code="no-shift")
+    moving = velocity(speed)
+    if moving == 0.0 or math.isinf(moving):
+        raise InputError(f"heating: an elastic limit, speed = {moving:g}, has no heat.", code="elastic-limit")
+    if settings.coulomb != 0.0 or settings.layer is not None:
+        raise InputError("heating: not with the shear of Coulomb friction or a layer.", code="not-with-heating")
+    insist_on_indenter(indenter)
+    if heating.passes > 0 and indenter.geometry.dimension == 1:
+        raise InputError("passes: a line contact leaves no circular track.", code="line-track")
+
+    def modes(kelvin: float) -> Modes:
+        spectrum = material.modes_at(kelvin)
+        return Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+
+    def solve(kelvin: float, accuracy: float) -> ContactSolution:
+        chosen = replace(settings, accuracy=accuracy)
+        return _solve(material, indenter, moving, held["load"], held["indentation"], kelvin, chosen).solution()
+
+    def log10_shift(kelvin: float) -> float:
+        return float(law.log10(kelvin))
+
+    kelvin = to_si(temperature, "K", "temperature")
+    return ThermalContact(heating, kelvin, material.poisson_ratio, log10_shift, modes, solve)
 
 
 @one_blas_thread

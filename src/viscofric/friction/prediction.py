@@ -13,6 +13,7 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.heating import predict_heated
 from viscofric.friction.interface.prediction import with_interface
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.processes import Workers, call_all
@@ -23,6 +24,7 @@ from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -41,6 +43,7 @@ def predict_friction(
     accuracy: float = 1e-3,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
+    heating: Heating | None = None,
     **settings: Unpack[ContactOptions],
 ) -> FrictionCurves:
     """Predict friction at every one of the speeds and temperatures by solving the contact.
@@ -74,6 +77,9 @@ def predict_friction(
         result is the same to the last digit.
     progress : callable, optional
         Called as ``progress(done, total)`` before the first and after every contact.
+    heating : Heating, optional
+        Thermal properties and Coulomb heat: each contact is at the temperature to which its own friction heats it, in
+        its cold and its hot state where it has two.  About three times the cost; not with samples or interface.
     **settings
         Of `solve_steady`, the same for all contacts: `layer`, `direction`, `indenter_modulus`,
         `indenter_poisson_ratio`, `tolerance`, `finest`, `window`, `grid`, `backend` and `coulomb` (not
@@ -83,7 +89,7 @@ def predict_friction(
     -------
     FrictionCurves
         Temperature after temperature in the order given, each with all speeds; with samples also `material_error`,
-        `viscoelastic_lower` and `viscoelastic_upper`.
+        `viscoelastic_lower` and `viscoelastic_upper`; with heating `HeatedFrictionCurves`.
 
     Raises
     ------
@@ -123,6 +129,8 @@ def predict_friction(
                 f"{name} must be above zero everywhere, but one is {shown_number(float(values.min()), 'g')} {unit}.",
                 code="not-positive",
             )
+    if heating is not None and (samples is not None or interface is not None):
+        raise InputError("heating: not with samples or interface; leave out one.", code="not-with-heating")
     drawn = None if samples is None else DrawnMaterials(samples, material)
     if interface is not None:
         insist_on_interface(interface)
@@ -144,9 +152,11 @@ def predict_friction(
 
     def report(done: int) -> None:
         if progress is not None:
-            progress(done, len(contacts))
+            progress(done, len(contacts) if heating is None else 2 * len(contacts))
 
     report(0)
+    if heating is not None:
+        return predict_heated(contacts, heating, workers, report)
     if drawn is None:
         curves = FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
     else:

@@ -22,6 +22,8 @@ import numpy as np
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from viscofric.arrays import Array
     from viscofric.thermal import ThermalProperties
 
@@ -54,24 +56,28 @@ class Diffusion:
                 code="no-steady-state",
             )
 
-    def influence(self, x: Array, y: Array, cell: tuple[float, float], depths: Array | None = None) -> Array:
+    def influence(
+        self, x: Array, y: Array, cell: tuple[float, float], depth: Callable[[Array], Array] | None = None
+    ) -> Array:
         """Return the rise (nx, ny), K m²/W, at offsets x (nx,) and y (ny,) from a cell of the size given, all in m.
 
-        With `depths` (nz,), m, the heat is released that deep in a half-space, and the rise is (nz, nx, ny).
+        With `depth`, which returns factors (k, n) of diffusion lengths (n,), such as exp(−z²/l²) for heat that is
+        released at a depth z in a half-space, the rise is (k, nx, ny).  A cell of infinite width is a strip.
         """
         half = 0.5 * cell[0], 0.5 * cell[1]
-        extent = float(np.abs(x).max() + np.abs(y).max()) + 2.0 * max(half)
+        if self.speed == 0.0 and math.isinf(half[1]):
+            raise InputError("A strip of heat at rest has no steady temperature.", code="no-steady-state")
+        extent = float(np.abs(x).max() + np.abs(y).max()) + 2.0 * max(one for one in half if math.isfinite(one))
         lengths, weights, last = self._lengths(half, extent)
         weights = weights * self.images(lengths)
         ahead = x[:, None] / lengths + self._sweep * lengths
         along = _between(ahead, half[0] / lengths)
         across = _between(y[:, None] / lengths, half[1] / lengths)
         rest = cell[0] * cell[1] / (math.pi * last) if math.isfinite(last) else 0.0
-        if depths is None:
+        if depth is None:
             summed = (along * weights) @ across.T + rest
         else:
-            buried = weights * np.exp(-np.square(depths[:, None] / lengths))
-            summed = np.stack([(along * one) @ across.T for one in buried]) + rest
+            summed = np.stack([(along * one) @ across.T for one in weights * depth(lengths)]) + rest
         return np.asarray(summed / (float(self.body.conductivity) * math.sqrt(math.pi)))
 
     @property

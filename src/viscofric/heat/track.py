@@ -76,7 +76,7 @@ def track_temperature(
     ------
     InputError
         If a value cannot be used, there is no steady state, or the disc is so slow that passes are no instants:
-        2πR v/κ below 1000.
+        2πR v/κ below 100.
 
     Notes
     -----
@@ -84,9 +84,9 @@ def track_temperature(
 
         ΔT = E/(4 ρc (πκt)^(3/2)) exp(−z) I0(z) · mean of exp(−d²/4κt)
 
-    d being the distances across the track from the heat to the points of the disc.  Earlier passes are t = n 2πR/v ago.
-    The rise grows like the logarithm of n until heat reaches across the track, κt ≈ R².  No heat leaves the surface:
-    that which goes to the air makes the rise smaller.
+    d being the distances across the track from the heat to the points of the disc.  Earlier passes are t = n 2πR/v ago;
+    taking each as an instant errs by about 4κ/(2πRv).  The rise grows like the logarithm of n until heat reaches across
+    the track, κt ≈ R².  No heat leaves the surface: that which goes to the air makes the rise smaller.
 
     Examples
     --------
@@ -107,10 +107,10 @@ def track_temperature(
     count = np.atleast_1d(numbers(passes, "passes", infinite=True))
     if count.ndim != 1 or not np.all((count >= 0.0) & (np.isinf(count) | (count == np.floor(count)))):
         raise InputError("passes must be a row of whole numbers from zero on, or math.inf.", code="out-of-range")
-    if size > 0.2 * ring or velocity * 2.0 * math.pi * ring < 1e3 * body.diffusivity:
+    if size > 0.2 * ring or velocity * 2.0 * math.pi * ring < 100.0 * body.diffusivity:
         raise InputError(
             f"radius = {size:g} m, track_radius = {ring:g} m, speed = {velocity:g} m/s: the track's radius must be at "
-            "least 5 times the disc's, and its length times the speed 1000 times the diffusivity.",
+            "least 5 times the disc's, and its length times the speed 100 times the diffusivity.",
             code="out-of-range",
         )
     endless = math.inf if np.isinf(count).any() else 1.0

@@ -1,0 +1,162 @@
+"""Rise of temperature of a solved contact by its own friction."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.fields.dissipation import dissipation
+from viscofric.heat.heating import ThermalResistances
+from viscofric.heat.influence import Diffusion
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.arrays import Array, Indices
+    from viscofric.contact.fields.dissipation import Dissipation, Modes
+    from viscofric.contact.solution import ContactSolution
+    from viscofric.heat.heating import Heating
+
+
+#: Cells along the contact, and room behind, ahead of and beside it, in half lengths of the contact.
+_CELLS = 18
+_BEHIND, _AHEAD, _BESIDE = 2.0, 0.6, 0.6
+
+
+def heats(solution: ContactSolution, heating: Heating) -> tuple[float, float]:
+    """Return the heat of Coulomb friction and that of the loss, W, or W/m of a line contact."""
+    loss = abs(solution.friction_force * solution.speed)
+    return heating.coulomb * solution.load * heating.sliding(solution.speed), loss
+
+
+def thermal_resistances(
+    solution: ContactSolution, modes: Modes, poisson_ratio: float, heating: Heating
+) -> ThermalResistances:
+    """Return rises of a contact per heat; `modes` are those at the temperature at which it was solved.
+
+    The mean over the face is over the contact.  Heat on the face is distributed like the pressure, and that of the loss
+    as it is released below (in a half-space); what is released farther behind does not reach the contact.
+    """
+    speed, (_, loss) = abs(solution.speed), heats(solution, heating)
+    cells = _Cells.of(solution)
+    radius = 0.5 * solution.contact_area if cells.is_line else math.sqrt(solution.contact_area / math.pi)
+    flux = cells.pressure[None] / cells.pressure.sum()
+    face = cells.inside[None]
+    released = dissipation(cells.x, cells.y, cells.pressure, modes, poisson_ratio, speed, radius)
+    found = float(released.power.sum())
+    # Coarse cells exaggerate the loss at the edge where all modes are fast; what is missing lies farther behind.
+    power = released.power / max(loss, found) if found > 0.0 else released.power
+    weight = released.power / found if found > 0.0 else released.power
+    other_speed = abs(speed - heating.sliding(speed))
+    other = math.inf
+    if not (cells.is_line and other_speed == 0.0):
+        other = cells.mean_rise(cells.influence(Diffusion(heating.counterface, other_speed)), flux, face)
+    layers, between = len(released.depth), _between_depths(released)
+
+    def factors(lengths: Array) -> Array:
+        """Return those of `Diffusion.influence`: on the face, from each depth to it or back, and between depths."""
+        to_face = np.exp(-np.square(released.depth[:, None] / lengths))
+        return np.concatenate([np.ones((1, len(lengths))), to_face, between(lengths)])
+
+    found_influence = cells.influence(Diffusion(heating.rubber, speed), factors)
+    on_face, to_face, below = np.split(found_influence, [1, 1 + layers])
+    return ThermalResistances(
+        surface=cells.mean_rise(on_face, flux, face),
+        loss=cells.mean_rise(to_face, power, face),
+        surface_below=cells.mean_rise(to_face, flux, weight),
+        loss_below=cells.mean_rise(below, power, weight),
+        track=heating.track_resistance(radius, speed),
+        counterface=other,
+    )
+
+
+def _between_depths(released: Dissipation) -> Callable[[Array], Array]:
+    """Return factors from layers, uniform across the depths that they stand for, to their nodes: all pairs.
+
+    The layers are far thicker than the heat of a fast contact spreads.
+    """
+    from scipy.special import erf
+
+    ends = np.concatenate([[0.0], np.cumsum(released.thickness)])
+    node = released.depth[:, None, None]
+    low, high, thickness = ends[:-1, None], ends[1:, None], released.thickness[:, None]
+
+    def factors(lengths: Array) -> Array:
+        inside = erf((node - low) / lengths) - erf((node - high) / lengths)
+        image = erf((node + high) / lengths) - erf((node + low) / lengths)
+        return np.asarray(0.25 * math.sqrt(math.pi) * lengths / thickness * (inside + image)).reshape(-1, len(lengths))
+
+    return factors
+
+
+class _Cells:
+    """Pressure (nx, ny) and weights of the mean over the contact on coarse cells, in motion towards +x."""
+
+    def __init__(self, x: Array, y: Array, pressure: Array, inside: Array) -> None:
+        self.x, self.y, self.pressure = x, y, pressure
+        self.inside = inside / inside.sum()
+        self.is_line = len(y) == 1
+        self.cell = x[1] - x[0], math.inf if self.is_line else y[1] - y[0]
+
+    @classmethod
+    def of(cls, solution: ContactSolution) -> _Cells:
+        pressure = solution.pressure[::-1] if solution.speed < 0.0 else solution.pressure
+        loaded = np.asarray(pressure > 0.0, dtype=np.float64)
+        step = float(solution.x[1] - solution.x[0])
+        rows = np.flatnonzero(loaded.any(axis=1))
+        length = int(rows[-1] - rows[0] + 1)
+        size = max(1, round(length / _CELLS))
+        half = 0.5 * length
+        along = cls._room(rows, size, _BEHIND * half, _AHEAD * half)
+        if pressure.shape[1] == 1:
+            blocks = [_blocks(one[:, 0], along, size)[:, None] / size for one in (pressure, loaded)]
+            return cls(_row(along[1], step * size), np.zeros(1), *blocks)
+        columns = np.flatnonzero(loaded.any(axis=0))
+        across = cls._room(columns, size, _BESIDE * half, _BESIDE * half)
+        both = [_blocks(_blocks(one, along, size).T, across, size).T / size**2 for one in (pressure, loaded)]
+        width = float(solution.y[1] - solution.y[0])
+        return cls(_row(along[1], step * size), _row(across[1], width * size), *both)
+
+    @staticmethod
+    def _room(loaded: Indices, size: int, before: float, after: float) -> tuple[int, int]:
+        """Return the first row of a grid of blocks around loaded rows, and the number of blocks."""
+        blocks = math.ceil((loaded[-1] - loaded[0] + 1) / size)
+        first = math.ceil(before / size)
+        return int(loaded[0]) - first * size, first + blocks + math.ceil(after / size)
+
+    def influence(self, diffusion: Diffusion, depth: Callable[[Array], Array] | None = None) -> Array:
+        """Return the rise (k, 2 nx − 1, ny), K/W, at all offsets from a cell, for each of the factors of depths."""
+        nx, ny = self.pressure.shape
+        x = self.cell[0] * np.arange(1.0 - nx, nx)
+        y = np.zeros(1) if self.is_line else self.cell[1] * np.arange(0.0, ny)
+        area = self.cell[0] if self.is_line else self.cell[0] * self.cell[1]
+        return np.asarray(diffusion.influence(x, y, self.cell, depth).reshape(-1, 2 * nx - 1, ny) / area)
+
+    def mean_rise(self, influence: Array, heat: Array, weight: Array) -> float:
+        """Return the rise, K, by heat (m, nx, ny), W, averaged with weights (n, nx, ny), over all pairs of layers."""
+        nx, ny = self.pressure.shape
+        padded = [scipy.fft.next_fast_len(size, real=True) for size in (3 * nx - 2, 2 * ny - 1)]
+        # Σ w(x) I(x − x') q(x'): offsets of each pair of layers by correlation, across to both sides.
+        pairs = np.conj(scipy.fft.rfft2(heat, padded)) * scipy.fft.rfft2(weight, padded)[:, None]
+        offsets = scipy.fft.irfft2(pairs, padded)
+        sides = offsets[..., :ny].copy()
+        if ny > 1:
+            sides[..., 1:] += offsets[..., -1:-ny:-1]
+        rows = np.arange(1 - nx, nx)
+        return float(np.sum(sides[..., rows, :].reshape(influence.shape) * influence))
+
+
+def _row(count: int, step: float) -> Array:
+    return np.asarray(step * np.arange(count), dtype=np.float64)
+
+
+def _blocks(values: Array, rows: tuple[int, int], size: int) -> Array:
+    """Return sums over blocks of rows, from a first row on that may lie before the array; there is nothing beyond."""
+    first, count = rows
+    room = np.zeros((count * size, *values.shape[1:]))
+    low, high = max(first, 0), min(first + count * size, len(values))
+    room[low - first : high - first] = values[low:high]
+    return np.asarray(room.reshape(count, size, *values.shape[1:]).sum(axis=1))

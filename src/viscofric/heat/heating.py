@@ -1,0 +1,145 @@
+"""How friction heats a contact: thermal properties of both bodies, Coulomb heat, and earlier passes on a track."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+from viscofric.arguments import insist_on, number
+from viscofric.errors import InputError, check_choice
+from viscofric.heat.track import track_temperature
+from viscofric.thermal import ThermalProperties
+from viscofric.units import Quantity, positive, to_si
+
+
+@dataclass(frozen=True, kw_only=True)
+class Heating:
+    """How friction heats a contact.
+
+    Parameters
+    ----------
+    rubber, counterface : ThermalProperties
+        Of the viscoelastic body, and of the indenter or rough surface; both are half-spaces for the heat.
+    coulomb : float
+        Coulomb friction coefficient, whose heat both bodies share.
+    slip : float, str or pint.Quantity, optional
+        Sliding velocity between the two surfaces, m/s.  The speed of the contact if not given: an indenter that slides
+        without rotation.
+    track_radius : float, str or pint.Quantity, optional
+        Of the circle on which the contact meets the rubber again and again, m; needed with `passes`.
+    passes : int
+        Earlier passes on that circle, whose heat is still in the rubber; `math.inf` for the final state.
+    average : {"contact", "loss"}
+        Which mean rise of temperature the rubber responds to: that of the face of the contact, or that of the rubber
+        weighted with the loss that is released there.  They differ where the heat of a passing contact reaches a thin
+        skin only, at Péclet numbers va/(2κ) well above one.
+    branch : {"cold", "hot"}
+        Where a contact has a cold and a hot state: the one that a rising speed reaches from slow sliding, or the one
+        that a falling speed reaches from fast sliding.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> rubber = vf.ThermalProperties("0.3 W/m/K", "1200 kg/m**3", "1500 J/kg/K", "rubber")
+    >>> steel = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")
+    >>> heating = vf.Heating(rubber=rubber, counterface=steel, coulomb=0.45, slip="0.1 m/s")
+    """
+
+    rubber: ThermalProperties
+    counterface: ThermalProperties
+    coulomb: float = 0.0
+    slip: Quantity | None = None
+    track_radius: Quantity | None = None
+    passes: float = 0
+    average: Literal["contact", "loss"] = "contact"
+    branch: Literal["cold", "hot"] = "cold"
+
+    def __post_init__(self) -> None:
+        for name in ("rubber", "counterface"):
+            insist_on(getattr(self, name), name, ThermalProperties)
+        check_choice(self.average, "average", "contact", "loss")
+        check_choice(self.branch, "branch", "cold", "hot")
+        coulomb = number(self.coulomb, "coulomb")
+        given: Any = self.passes
+        endless = isinstance(given, float) and given == math.inf
+        passes = math.inf if endless else number(given, "passes")
+        if not (0.0 <= coulomb < math.inf and passes >= 0.0 and (endless or passes == math.floor(passes))):
+            raise InputError(
+                f"coulomb = {coulomb:g}, passes = {passes:g}: neither may be below zero, and passes must be whole.",
+                code="out-of-range",
+            )
+        if self.slip is not None:
+            object.__setattr__(self, "slip", abs(to_si(self.slip, "m/s", "slip")))
+        if self.track_radius is not None:
+            object.__setattr__(self, "track_radius", positive(self.track_radius, "m", "track_radius"))
+        elif passes > 0.0:
+            raise InputError("passes: need the track_radius.", code="give-one")
+
+    def sliding(self, speed: float) -> float:
+        """Return the sliding velocity, m/s, of a contact that moves at a speed, m/s."""
+        return abs(speed) if self.slip is None else float(self.slip)
+
+    def rise(self, balance: HeatBalance) -> float:
+        """Return the rise that the rubber responds to, K."""
+        return balance.face_rise if self.average == "contact" else balance.loss_weighted_rise
+
+    def track_resistance(self, radius: float, speed: float) -> float:
+        """Return the rise by earlier passes per heat that the rubber takes up, K/W; the contact's radius in m."""
+        if self.passes == 0 or self.track_radius is None:
+            return 0.0
+        rise = track_temperature(
+            1.0, self.rubber, radius=radius, track_radius=self.track_radius, speed=speed, passes=[self.passes]
+        )
+        return float(rise[0])
+
+
+class ThermalResistances(NamedTuple):
+    """Rise of a contact per heat, K/W, or K m/W of a line contact.
+
+    Of the rubber's face, on average, by heat on it and by the loss below; of the rubber where the loss is released, on
+    average with it, by both; of all of the rubber by its heat in earlier passes; of the counterface's face, infinite
+    where it takes no heat.
+    """
+
+    surface: float
+    loss: float
+    surface_below: float
+    loss_below: float
+    track: float
+    counterface: float
+
+
+class HeatBalance(NamedTuple):
+    """Heat and rises of temperature of a contact whose faces are equally warm; K, and W, or W/m of a line contact."""
+
+    face_rise: float
+    loss_weighted_rise: float  # of the rubber where the loss is released
+    track_rise: float  # the part of either that earlier passes left
+    coulomb_heat: float
+    loss_heat: float
+    counterface_heat: float
+
+    @property
+    def rubber_heat(self) -> float:
+        """Heat that stays in the rubber, W or W/m."""
+        return self.coulomb_heat + self.loss_heat - self.counterface_heat
+
+    @classmethod
+    def of(cls, resistance: ThermalResistances, coulomb: float, loss: float) -> HeatBalance:
+        """Return the state in which both faces are equally warm on average.
+
+        The rubber's face rises by Rs (Qc − Q) + Rl Qv + Rt (Qc − Q + Qv), the counterface's by R Q: linear in Q.
+        """
+        one, other = resistance, resistance.counterface
+        share = 1.0 / (1.0 + (one.surface + one.track) / other)
+        face = share * ((one.surface + one.track) * coulomb + (one.loss + one.track) * loss)
+        taken = face / other
+        track = one.track * (coulomb + loss - taken)
+        below = one.surface_below * (coulomb - taken) + one.loss_below * loss + track
+        return cls(face, below, track, coulomb, loss, taken)

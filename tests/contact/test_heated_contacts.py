@@ -1,0 +1,140 @@
+"""Contacts that their own friction heats: where heat is released, what it warms, and states that agree with it."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.contact.fields.dissipation import Modes, dissipation
+from viscofric.contact.heating import thermal_resistances
+from viscofric.notes import codes
+
+RUBBER = vf.ThermalProperties(0.3, 1200.0, 1500.0, "rubber")
+PTFE = vf.ThermalProperties(0.25, 2170.0, 1010.0, "PTFE")
+SOLID = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+WARM = vf.Material(SOLID.spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))
+BALL, CYLINDER = vf.Ball("10 mm"), vf.Cylinder("10 mm")
+HEATING = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.5, slip="0.5 m/s")
+STATE: dict[str, Any] = {"speed": 1.0, "load": 100.0, "temperature": 300.0, "accuracy": 1e-2}
+
+
+@cache
+def line(**heating: Any) -> vf.ContactSolution:
+    given = {"rubber": RUBBER, "counterface": PTFE, "coulomb": 0.5, "slip": "0.5 m/s", **heating}
+    return vf.solve_steady(WARM, CYLINDER, **STATE, heating=vf.Heating(**given))
+
+
+def released(contact: vf.ContactSolution, material: vf.Material, room: float) -> float:
+    """Return the loss released below a line contact over μFv, with room beside it in half-widths."""
+    spectrum = material.spectrum
+    half, step = 0.5 * contact.contact_area, float(contact.x[1] - contact.x[0])
+    beside = round(room * half / step)
+    x = contact.x[0] + step * (np.arange(len(contact.x) + 2 * beside) - beside)
+    pressure = np.pad(contact.pressure, ((beside, beside), (0, 0)))
+    modes = Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+    found = dissipation(x, contact.y, pressure, modes, material.poisson_ratio, contact.speed, half)
+    return float(found.power.sum()) / (contact.friction_force * contact.speed)
+
+
+def test_the_loss_released_below_is_the_work_of_friction() -> None:
+    """In a window of 120 half-widths, beyond which lies 1/120; the pressure is accurate to 1e-3."""
+    contact = vf.solve_steady(SOLID, CYLINDER, speed=1.0, load=100.0)
+    near, far = released(contact, SOLID, 10.0), released(contact, SOLID, 60.0)
+    assert far == pytest.approx(1.0, abs=1e-2)
+    assert 0.9 < near < 1.03
+
+
+def test_few_modes_lose_what_many_do() -> None:
+    """A quarter of a decade between modes, merged to a factor 4: loss at vτ ≈ a within 5 %, its limits exactly."""
+    many = Modes(np.full(13, 1e-8), np.geomspace(1e-6, 1.0, 13))
+    few = many.merged(1e-4, 1e-2)
+    assert len(few.C) < 6
+    for omega, tolerance in ((1.0, 0.05), (1e3, 0.05), (1e8, 0.05)):
+        loss = [np.sum(C * tau * omega**2 / (1.0 + (omega * tau) ** 2)) for C, tau in (many, few)]
+        if 1e2 <= omega <= 1e4:
+            assert loss[1] == pytest.approx(loss[0], rel=tolerance)
+    assert np.sum(few.C) < np.sum(many.C)
+
+
+def test_a_ball_warms_like_a_disc_of_its_area() -> None:
+    """Hertz's pressure nearly, on 18 cells along the contact: 1 % of the rise of discs on both bodies."""
+    contact = vf.solve_steady(SOLID, BALL, speed=0.02, load=1.0, accuracy=1e-2)
+    modes = Modes(np.array([9e-7]), np.array([1e-3]))
+    found = thermal_resistances(contact, modes, 0.5, vf.Heating(rubber=RUBBER, counterface=PTFE, slip=0.015))
+    radius = np.sqrt(contact.contact_area / np.pi)
+    rubber, other = (vf.MovingHeatSource(1.0, radius, v, body) for v, body in ((0.02, RUBBER), (0.005, PTFE)))
+    assert found.surface == pytest.approx(rubber.mean_temperature, rel=0.01)
+    assert found.counterface == pytest.approx(other.mean_temperature, rel=0.01)
+    assert 0.0 < found.loss < found.loss_below < found.surface
+    # The mean response between two depths is the same both ways where motion does not matter.
+    assert found.loss == pytest.approx(found.surface_below, rel=0.2)
+
+
+def test_the_contact_is_that_at_its_own_temperature() -> None:
+    """The isothermal contact at the temperature reached is the same one, to all digits."""
+    contact = line()
+    heat = contact.heating
+    assert heat is not None
+    again = vf.solve_steady(WARM, CYLINDER, **STATE | {"temperature": 300.0 + contact.temperature_rise})
+    assert contact.friction_coefficient == pytest.approx(again.friction_coefficient, rel=1e-12)
+    assert contact.temperature == pytest.approx(300.0)
+    assert contact.temperature_rise == heat.temperature_rise > 0.2
+    assert abs(heat.residual) <= 0.01 * heat.temperature_rise
+    assert heat.coulomb_rise + heat.loss_rise == pytest.approx(heat.temperature_rise + heat.residual)
+    assert heat.isothermal_friction == vf.solve_steady(WARM, CYLINDER, **STATE).friction_coefficient
+
+
+def test_all_heat_is_accounted_for() -> None:
+    heat = line().heating
+    assert heat is not None
+    assert heat.coulomb_heat == pytest.approx(0.5 * 100.0 * 0.5)
+    assert heat.loss_heat == pytest.approx(line().friction_force * 1.0)
+    assert heat.rubber_heat + heat.counterface_heat == pytest.approx(heat.coulomb_heat + heat.loss_heat, rel=1e-14)
+    assert heat.other_rise is None
+
+
+@pytest.mark.slow
+def test_the_skin_is_warmer_than_the_rubber_that_dissipates() -> None:
+    """At a Péclet number of some thousands: said in a note, and the other mean can be chosen."""
+    face, inner = line(), line(average="loss")
+    assert face.heating is not None
+    assert inner.heating is not None
+    assert face.heating.face_rise > 20.0 * face.heating.loss_weighted_rise > 0.0
+    assert inner.temperature_rise == pytest.approx(inner.heating.loss_weighted_rise, rel=1e-2)
+    assert "thin-skin" in codes(face.warnings)
+    assert "thin-skin" not in codes(inner.warnings)
+    isothermal = face.heating.isothermal_friction
+    assert abs(inner.friction_coefficient / isothermal - 1.0) < 0.1 * abs(face.friction_coefficient / isothermal - 1.0)
+
+
+def test_a_data_set_holds_the_heat() -> None:
+    data = line().to_dataset()
+    assert float(data.temperature_rise) == line().temperature_rise
+    assert data.counterface_heat.attrs["units"] == "W"
+    assert "other_rise" not in data
+
+
+@pytest.mark.parametrize(
+    ("given", "code"),
+    [
+        ({"speed": 0.0}, "elastic-limit"),
+        ({"temperature": None}, "no-shift"),
+        ({"layer": vf.Layer("5 mm")}, "not-with-heating"),
+        ({"derivatives": True}, "not-with-heating"),
+        ({"heating": vf.Heating(rubber=RUBBER, counterface=PTFE, track_radius=0.02, passes=3)}, "line-track"),
+    ],
+)
+def test_what_has_no_heated_state_is_refused(given: dict[str, Any], code: str) -> None:
+    with refused(code):
+        vf.solve_steady(WARM, CYLINDER, **{**STATE, "heating": HEATING, **given})
+
+
+def test_a_contact_hotter_than_the_shift_is_known_is_refused() -> None:
+    known = vf.ShiftFactors([295.0, 300.0, 301.0], [0.3, 0.0, -0.06], 300.0)
+    with refused("beyond-shift"):
+        vf.solve_steady(vf.Material(SOLID.spectrum, shift=known), CYLINDER, **STATE, heating=HEATING)

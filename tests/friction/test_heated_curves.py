@@ -1,0 +1,78 @@
+"""Friction curves of contacts that their own friction heats."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+
+RUBBER = vf.ThermalProperties(0.2, 1200.0, 1500.0, "rubber")
+PTFE = vf.ThermalProperties(0.25, 2170.0, 1010.0, "PTFE")
+SOLID = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+WARM = vf.Material(SOLID.spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))
+CYLINDER = vf.Cylinder("10 mm")
+SPEEDS = [0.5, 2.0]
+HEATING = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.3, slip="0.5 m/s")
+
+
+@pytest.fixture(scope="module")
+def curves() -> vf.HeatedFrictionCurves:
+    found = vf.predict_friction(
+        WARM, CYLINDER, speeds=SPEEDS, temperatures=300.0, load=100.0, accuracy=1e-2, heating=HEATING
+    )
+    assert isinstance(found, vf.HeatedFrictionCurves)
+    return found
+
+
+def test_a_curve_has_the_states_of_its_contacts(curves: vf.HeatedFrictionCurves) -> None:
+    """The isothermal contact at the temperature reached is the same one, to all digits."""
+    assert curves.temperature_rise is not None
+    rise = float(curves.temperature_rise[1])
+    one, cold = (
+        vf.solve_steady(WARM, CYLINDER, speed=2.0, temperature=kelvin, load=100.0, accuracy=1e-2)
+        for kelvin in (300.0 + rise, 300.0)
+    )
+    assert rise > 0.2
+    assert curves.viscoelastic[1] == pytest.approx(one.friction_coefficient, rel=1e-12)
+    assert curves.isothermal[1] == cold.friction_coefficient
+    assert curves.temperature == pytest.approx(300.0)
+    assert curves.coulomb_rise + curves.loss_rise == pytest.approx(curves.temperature_rise, rel=1e-2)
+
+
+def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.HeatedFrictionCurves) -> None:
+    assert np.array_equal(curves.cold_viscoelastic, curves.hot_viscoelastic)
+    assert np.array_equal(curves.cold_viscoelastic, curves.viscoelastic)
+    second = curves.select([1])
+    assert isinstance(second, vf.HeatedFrictionCurves)
+    assert second.face_rise == curves.face_rise[1]
+    data = curves.to_dataset()
+    assert data.hot_rise.attrs["units"] == "K"
+    assert data.isothermal.dims == data.viscoelastic.dims
+
+
+def test_heating_is_refused_with_samples_and_columns_are_checked(curves: vf.HeatedFrictionCurves) -> None:
+    with refused("not-with-heating"):
+        vf.predict_friction(WARM, CYLINDER, speeds=1.0, temperatures=300.0, load=1.0, samples=object(), heating=HEATING)
+    plain = vf.FrictionCurves(**{name: getattr(curves, name) for name in vf.FrictionCurves.__dataclass_fields__})
+    with refused("wrong-length"):
+        vf.HeatedFrictionCurves(**{name: getattr(plain, name) for name in vf.FrictionCurves.__dataclass_fields__})
+
+
+@pytest.mark.apart
+def test_a_ramp_of_speed_shows_hysteresis() -> None:
+    """Cold rubber on the glassy side of its peak: on a track, its loss can keep it warm enough to lose as much."""
+    glassy = vf.Material.standard_linear_solid("1 MPa", "1 GPa", "1 s")
+    material = vf.Material(glassy.spectrum, shift=vf.WLF(C1=15.0, C2=60.0, reference="0 degC"))
+    heating = vf.Heating(rubber=RUBBER, counterface=PTFE, slip=0.0, track_radius="23 mm", passes=1000, average="loss")
+    found = vf.predict_friction(
+        material, vf.Ball("10 mm"), speeds=[0.5, 4.0, 16.0], temperatures="-5 degC", load="5 N", accuracy=2e-2,
+        heating=heating,
+    )  # fmt: skip
+    assert isinstance(found, vf.HeatedFrictionCurves)
+    hotter = found.hot_rise > found.cold_rise + 1.0
+    assert hotter.tolist() == [False, True, True]
+    assert np.all(found.hot_viscoelastic[1:] > 100.0 * found.cold_viscoelastic[1:])
+    assert np.all(found.track_rise <= found.temperature_rise)
+    assert found.cold_viscoelastic == pytest.approx(found.isothermal, rel=0.05)

@@ -1,0 +1,87 @@
+"""Sharing of heat between two bodies, and the states in which heat and temperature agree."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+from viscofric.errors import ConvergenceError
+from viscofric.heat.branches import State, settled, stable_states
+from viscofric.heat.heating import HeatBalance, ThermalResistances
+
+RUBBER = vf.ThermalProperties(0.3, 1200.0, 1500.0, "rubber")
+STEEL = vf.ThermalProperties(46.0, 7810.0, 475.0, "steel")
+RESISTANCES = ThermalResistances(surface=20.0, loss=3.0, surface_below=2.0, loss_below=5.0, track=7.0, counterface=1.5)
+
+
+def test_both_faces_are_equally_warm_and_no_heat_is_lost() -> None:
+    found = HeatBalance.of(RESISTANCES, coulomb=0.4, loss=0.25)
+    into_rubber = 0.4 - found.counterface_heat
+    rubber = 20.0 * into_rubber + 3.0 * 0.25 + 7.0 * (into_rubber + 0.25)
+    assert found.face_rise == pytest.approx(rubber)
+    assert found.face_rise == pytest.approx(1.5 * found.counterface_heat)
+    assert found.track_rise == pytest.approx(7.0 * found.rubber_heat)
+    assert found.loss_weighted_rise == pytest.approx(2.0 * into_rubber + 5.0 * 0.25 + found.track_rise)
+    assert found.rubber_heat + found.counterface_heat == pytest.approx(0.65, rel=1e-15)
+
+
+def test_a_counterface_may_take_no_heat_or_more_than_there_is_on_the_face() -> None:
+    alone = HeatBalance.of(RESISTANCES._replace(counterface=math.inf), 0.4, 0.25)
+    assert (alone.counterface_heat, alone.rubber_heat) == (0.0, 0.65)
+    assert alone.face_rise == pytest.approx(27.0 * 0.4 + 10.0 * 0.25)
+    cooled = HeatBalance.of(RESISTANCES, 0.0, 0.25)  # the loss alone: the counterface cools the rubber
+    assert 0.0 < cooled.counterface_heat < 0.25
+
+
+def test_a_contact_with_two_states_has_a_cold_and_a_hot_one() -> None:
+    """G = 1 + 20/(1 + exp(10 − ΔT)): three crossings, the middle one unstable; dG/dΔT < 1 at the others."""
+    rise = np.linspace(0.0, 40.0, 2001)
+    states = stable_states(rise, 1.0 + 20.0 / (1.0 + np.exp(10.0 - rise)))
+    assert [state.rise for state in states] == pytest.approx([1.0025, 20.9996], abs=1e-3)
+    assert all(abs(state.slope) < 0.01 for state in states)
+    (single,) = stable_states(rise, 30.0 - 0.5 * rise)
+    assert single == pytest.approx((20.0, -0.5))
+
+
+def test_a_state_is_settled_in_few_solves() -> None:
+    solved = []
+
+    def produced(rise: float) -> float:
+        solved.append(rise)
+        return 10.0 + 2.0 * math.tanh(rise - 11.0)
+
+    rise, excess = settled(State(11.3, 0.5), produced, lambda _: 1e-8)
+    assert excess == pytest.approx(produced(rise) - rise)
+    assert abs(excess) < 1e-8
+    assert len(solved) < 10
+    with pytest.raises(ConvergenceError):
+        settled(State(1.0, 0.0), lambda rise: 2.0 * rise + 1.0, lambda _: 1e-12)
+
+
+def test_resistance_of_a_track_is_that_of_its_passes() -> None:
+    heating = vf.Heating(rubber=RUBBER, counterface=STEEL, track_radius="23 mm", passes=100)
+    expected = vf.track_temperature(1.0, RUBBER, radius=1e-3, track_radius=0.023, speed=0.1, passes=[100])
+    assert heating.track_resistance(1e-3, 0.1) == expected[0]
+    assert vf.Heating(rubber=RUBBER, counterface=STEEL).track_resistance(1e-3, 0.1) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("given", "code"),
+    [
+        ({"rubber": 0.3}, "rubber"),
+        ({"coulomb": -0.1}, "out-of-range"),
+        ({"passes": 3}, "give-one"),
+        ({"passes": 0.5, "track_radius": 0.02}, "out-of-range"),
+        ({"branch": "warm"}, "branch"),
+        ({"average": "mean"}, "average"),
+        ({"slip": "1 m"}, "wrong-unit"),
+    ],
+)
+def test_wrong_heating_is_refused(given: dict[str, Any], code: str) -> None:
+    with refused(code):
+        vf.Heating(**{"rubber": RUBBER, "counterface": STEEL, **given})
