@@ -179,9 +179,6 @@ class Setting:
     def shortest_time(self, spacing: float, times: Sequence[float] | None) -> float:
         """Return the least time, s of the clock, in which the pressure at a point changes noticeably on a grid."""
         least = self.schedule.duration
-        if any(self._begins_with_jump(self.schedule.at(float(time))) for time in self.schedule.kinks[:-1]):
-            # What a fast mode dissipates after a jump of the load does not depend on its time.
-            least = min(least, _FIRST_TICK * float(self.body.times.min(initial=least)))
         stops = np.unique(np.concatenate([self.schedule.kinks, np.asarray(times or [], dtype=float)]))
         for start, end in itertools.pairwise(stops):
             first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
