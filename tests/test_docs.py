@@ -118,6 +118,7 @@ def test_every_key_of_a_run_file_is_in_the_reference(extensions: dict[str, Modul
         "conditions": run_file.ConditionsTable,
         "sweep": run_file.SweepTable,
         "history": run_file.HistoryTable,
+        "impact": run_file.ImpactTable,
         "measurement": run_file.MeasurementTable,
         "interface": run_file.InterfaceTable,
         "solver": run_file.SolverTable,

@@ -180,7 +180,8 @@ def test_a_repeated_history_has_its_periodic_state(tmp_path: Path) -> None:
     assert float(said["loss tangent"]) == pytest.approx(cycle.loss_tangent, rel=1e-3)
     assert float(said["energy per cycle"].split()[0]) > 0.0
     assert (tmp_path / "cycle.svg").stat().st_size > 0
-    for option in (("--times", "1 ms"), ("--resume", "a.npz"), ("--pressures", "a.png")):
+    assert len(record(*words, "--points", 15)["results"]["time"]) == 15
+    for option in (("--save-state", "a.npz"), ("--resume", "a.npz")):
         assert refusal(*words, *option).status == 2, option
     assert refusal("transient", *PRESS, "--load-time", "1 ms", "--cycle")[:2] == (1, "not-a-period")
 

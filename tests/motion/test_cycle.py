@@ -113,6 +113,23 @@ def test_reciprocation_of_a_cylinder() -> None:
     assert cycle.run.friction_force[-1] == pytest.approx(cycle.run.friction_force[0], rel=2e-3)
 
 
+def test_a_period_of_given_depth_begins_as_it_ends() -> None:
+    # Of a broad spectrum, whose fast modes answer a memory that does not fit by many times the load.
+    phase = np.linspace(0.0, 2.0 * np.pi, 13)
+    period = vf.History(phase / 100.0, indentation=1e-4 + 5e-6 * np.sin(phase), temperature="30 degC")
+    rubber = vf.synthetic_fluoroelastomer()
+    cycle = vf.solve_cycle(rubber, BALL, period, accuracy=0.1)
+    assert cycle.run.load[0] == pytest.approx(cycle.run.load[-1], rel=1e-2)
+    # The storage stiffness of a small oscillation, 2 a E*, is that of the modulus within the amplitude.
+    radius = float(np.mean(cycle.run.contact_radius))
+    modulus = complex(rubber.complex_modulus(2.0 * np.pi * 100.0, temperature="30 degC")).real
+    assert cycle.storage_stiffness == pytest.approx(2.0 * radius * modulus / 0.75, rel=0.1)
+    few = vf.solve_cycle(rubber, BALL, period, times=[0.0, 2.5e-3, 0.01], accuracy=0.1)
+    assert few.run.time.tolist() == [0.0, 2.5e-3, 0.01]
+    assert few.run.pressure_at(2.5e-3).max() > 0.0
+    assert few.loss_stiffness == cycle.loss_stiffness  # of every step
+
+
 def test_what_does_not_repeat_itself_is_refused() -> None:
     with refused("not-a-period"):
         vf.solve_cycle(SLS, BALL, vf.History([0.0, 1.0], load=[1.0, 2.0]))

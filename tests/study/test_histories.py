@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from importlib.resources import files
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,7 @@ from refusals import refused
 from viscofric.errors import StudyError
 from viscofric.notes import codes
 from viscofric.report.captions import captions
-from viscofric.report.figures.histories import histories_figure
+from viscofric.report.figures.histories import histories_figure, impacts_figure
 from viscofric.study.cases import history as cases
 from viscofric.study.checking import check_study
 from viscofric.study.run_file.study import parse_study
@@ -164,9 +165,131 @@ def test_contradictions_are_reported_at_their_key(tmp_path: Path, key: str, hist
     assert key in (caught.value.field, *(one.where for one in caught.value.mistakes))
 
 
-def test_a_rough_surface_has_no_history(tmp_path: Path) -> None:
-    text = BASE.replace('[indenter]\nradius = "10 mm"', '[surface]\nfile = "scan.csv"')
-    text = text.replace('load = "2 N"', 'pressure = "50 kPa"')
+ROUGH = """
+[material]
+catalogue = "synthetic fluoroelastomer"
+[surface]
+hurst = 0.8
+rms_slope = 0.1
+points = [16, 1]
+spacing = "40 um"
+shortest = "320 um"
+seed = 1
+[conditions]
+pressure = "0.2 MPa"
+direction = "180 deg"
+speed = "50 mm/s"
+temperature = "60 degC"
+[solver]
+accuracy = 0.1
+cases = "each"
+[outputs]
+fields = "none"
+"""
+
+
+@pytest.mark.slow
+def test_a_rough_surface_slides_from_rest(tmp_path: Path) -> None:
+    path = written(tmp_path, '[history]\ndwell = "1 ms"\nslide = "20 um"\npoints = 8\n', ROUGH)
+    tree = vf.run_study(path).tree
+    data = tree["history"].to_dataset()
+    surface = vf.self_affine(0.8, shape=(16, 1), rms_slope=0.1, spacing="40 um", shortest="320 um", seed=1)
+    history = vf.History(
+        [0.0, 1e-3, 1e-3, 1.4e-3], pressure=2e5, speed=[0.0, 0.0, 0.05, 0.05], direction=(-1.0, 0.0),
+        temperature="60 degC",
+    )  # fmt: skip
+    run = vf.solve_transient(
+        vf.synthetic_fluoroelastomer(), surface.to_surface(), history, times=data["time"].values, accuracy=0.1
+    )
+    np.testing.assert_allclose(data["friction_force"], run.friction_force, rtol=1e-6, atol=1e-6 * 2e5)
+    assert data["position_x"].values[-1] == pytest.approx(-2e-5)
+    assert data["load_over_time"].attrs == {"units": "Pa", "long_name": "mean pressure"}
+    figure = histories_figure(tree)
+    assert figure is not None
+    assert len(figure.axes) == 2
+    (tmp_path / "h.csv").write_text("t (s),p (kPa),x (um)\n0,200,0\n1e-3,200,50\n", encoding="utf-8")
+    columns = 'columns = { pressure = "p (kPa)", position = "x (um)" }\n'
+    table = written(tmp_path, f"[history]\n{TABLE}{columns}", ROUGH)
+    assert check_study(vf.load_study(table), table).singles["histories"][0] == 1
+    many = written(tmp_path, f"[history]\n{TABLE}{columns}", ROUGH.replace('"0.2 MPa"', '["0.2 MPa", "0.3 MPa"]'))
+    with refused("swept-in-file", StudyError):
+        check_study(vf.load_study(many), many)
+
+
+FALLING = """
+[history]
+dwell = "10 ms"
+points = 3
+[impact]
+mass = "4 g"
+speed = "1 m/s"
+"""
+
+
+@pytest.mark.slow
+def test_samples_of_the_material_are_solved_over_time_and_fall(tmp_path: Path) -> None:
+    sweeps = files("viscofric") / "example" / "dma.csv"
+    source = f'dma = "{sweeps}"\nreference_temperature = "30 degC"'
+    base = ONE.replace('catalogue = "synthetic fluoroelastomer"', source) + "[uncertainty]\nmembers = 2\ndraws = 0\n"
+    path = written(tmp_path, FALLING, base.replace('"2 N"', '["1 N", "2 N"]'))
+    expected = check_study(vf.load_study(path), path)
+    assert {name: count for name, (count, _) in expected.singles.items()} == {"histories": 6, "impacts": 3}
+    assert expected.seconds > expected.expected.seconds
+    tree = vf.run_study(path).tree
+    data, hits = tree["history"].to_dataset(), tree["impact"].to_dataset()
+    assert dict(data.sizes) == {"sample": 3, "load": 2, "instant": 3}
+    assert dict(hits.sizes) == {"sample": 3, "impact_speed": 1}
+    # other samples, other results, near the best estimate
+    depths, rebounds = data["indentation"].values[..., -1], hits["restitution"].values
+    for values in (depths, rebounds):
+        spread = np.abs(values[1:] / values[0] - 1.0)
+        assert np.all((spread > 0.0) & (spread < 0.05))
+    figure = histories_figure(tree)
+    assert figure is not None
+    assert len(figure.axes[0].collections) == 2  # a band of each line
+    fallen = impacts_figure(tree)
+    assert fallen is not None
+    (axes,) = fallen.axes
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), rebounds[0])
+    said = captions(tree)
+    assert "95 %" in said["contacts_over_time"]
+    assert "4 g" in said["impacts"]
+
+
+@pytest.mark.slow
+def test_the_periodic_state_of_a_table_is_solved(tmp_path: Path) -> None:
+    phase = np.linspace(0.0, 2.0 * np.pi, 13)
+    rows = "".join(f"{t},{d}\n" for t, d in zip(phase / 100.0, 100.0 + 5.0 * np.sin(phase), strict=True))
+    (tmp_path / "h.csv").write_text("t (s),depth (um)\n" + rows, encoding="utf-8")
+    path = written(tmp_path, f"[history]\n{TABLE}cycle = true\n".replace("points = 3", "points = 20"), ONE)
+    results = vf.run_study(path)
+    data = results.tree["history"].to_dataset()
+    history = vf.read_history(tmp_path / "h.csv", temperature="30 degC")
+    cycle = vf.solve_cycle(
+        vf.synthetic_fluoroelastomer(), vf.Ball("10 mm"), history, times=data["time"].values, accuracy=0.1
+    )
+    assert float(data["loss_stiffness"]) == pytest.approx(cycle.loss_stiffness, rel=1e-6)
+    assert data["loss_stiffness"].attrs["units"] == "N/m"
+    assert data["load_over_time"].values == pytest.approx(cycle.run.load, rel=1e-6)
+    assert "periodic state" in captions(results.tree)["contacts_over_time"]
+
+
+@pytest.mark.parametrize(
+    ("field", "text"),
+    [
+        ("history.before", '[history]\ndwell = "1 s"\ncycle = true\nbefore = "at rest"\n'),
+        ("history.strokes", '[history]\nslide = "1 mm"\ncycle = true\n'),
+        ("impact.mass", '[impact]\nmass = "4 s"\nspeed = "1 m/s"\n'),
+        ("impact", '[impact]\nmass = "4 g"\nspeed = "1 m/s"\n[layer]\nthickness = "1 mm"\n'),
+    ],
+)
+def test_what_a_cycle_and_an_impact_cannot_have(tmp_path: Path, field: str, text: str) -> None:
     with refused("", StudyError) as caught:
-        parse_study(text + DWELL, tmp_path / "study.toml")
-    assert caught.value.field == "history"
+        parse_study(BASE + text, tmp_path / "study.toml")
+    assert field in (caught.value.field, *(one.where for one in caught.value.mistakes))
+
+
+def test_a_rough_surface_does_not_fall(tmp_path: Path) -> None:
+    with refused("", StudyError) as caught:
+        parse_study(ROUGH + '[impact]\nmass = "4 g"\nspeed = "1 m/s"\n', tmp_path / "study.toml")
+    assert caught.value.field == "impact"

@@ -115,6 +115,7 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
             "seconds": found.expected.seconds,
             "memory": found.expected.memory,
             "memory_per_process": found.expected.memory_per_process,
+            **{name: {"contacts": count, "seconds": seconds} for name, (count, seconds) in found.singles.items()},
         },
         "outputs": ["netcdf", "figures", "report", *extra],
         **listed("notes", found.notes),
@@ -164,6 +165,10 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     expected = record["expected"]
     effort = f"{duration(expected['seconds'])} on one core, {_bytes(expected['memory_per_process'])} for each process"
     lines.append(("to solve", f"about {_rounded(expected['solves'])} contacts: {effort}"))
+    for name, noun in (("histories", "contacts over time"), ("impacts", "impacts")):
+        if name in expected:
+            one = expected[name]
+            lines.append(("also", f"{one['contacts']:,} {noun}: {duration(one['seconds'])} on one core"))
     if (cluster := found.study.cluster) is not None:
         lines.append(("cluster", f"{cluster.jobs} jobs of {cluster.cores} cores and {_bytes(cluster.memory)}"))
     files = ["results.nc", "figures", "report.html"]

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
-_MOST_POINTS = 10_000
 _INDENTER = (
     click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
     click.option(
@@ -193,41 +192,6 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})
 
 
-def speed_options(speed: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return a decorator that adds the options of several speeds, named by `speed`, and temperatures."""
-    options = (
-        click.option(
-            "--speed",
-            "speeds",
-            required=True,
-            multiple=True,
-            metavar="V",
-            help=f"{speed}, list ('20 mm/s, 50 mm/s') or range ('1 mm/s to 1 m/s').",
-        ),
-        click.option(
-            "--points",
-            type=click.IntRange(2, _MOST_POINTS),
-            default=13,
-            show_default=True,
-            help="Number of speeds of a range, evenly spaced in log v.",
-        ),
-        click.option(
-            "--temperature",
-            "temperatures",
-            multiple=True,
-            metavar="T",
-            help="Temperature or list, e.g. '30 degC, 60 degC' [default: the material's reference].",
-        ),
-    )
-
-    def add(function: Callable[..., Any]) -> Callable[..., Any]:
-        for one in reversed(options):
-            function = one(function)
-        return function
-
-    return add
-
-
 #: The direction of the motion.
 direction_option = click.option(
     "--direction",
@@ -320,35 +284,6 @@ def elastic_record(parameters: dict[str, Any]) -> dict[str, Any] | None:
         "modulus": to_si(settings["indenter_modulus"], "Pa"),
         "poisson_ratio": settings["indenter_poisson_ratio"],
     }
-
-
-def chosen_speeds(parameters: dict[str, Any]) -> list[float]:
-    """Return the speeds (m/s) of the options."""
-    return [speed for text in parameters["speeds"] for speed in _speeds(text, parameters["points"])]
-
-
-def chosen_temperatures(parameters: dict[str, Any]) -> list[float]:
-    """Return the temperatures (K) of the options."""
-    from viscofric.units import positive
-
-    return [
-        positive(one.strip(), "K", "--temperature") for text in parameters["temperatures"] for one in text.split(",")
-    ]
-
-
-def _speeds(text: str, points: int) -> list[float]:
-    """Return the speeds that a list or a range names."""
-    from viscofric.units import positive
-
-    ends = [end.strip() for end in text.split(" to ")]
-    if len(ends) == 1:
-        return [positive(one.strip(), "m/s", "--speed") for one in text.split(",")]
-    if len(ends) > 2:
-        raise click.BadParameter(f"{text!r}: a range has two ends: '1 mm/s to 1 m/s'.", param_hint="--speed")
-    first, last = (positive(end, "m/s", "--speed") for end in ends)
-    if first == last:
-        raise click.BadParameter(f"{text!r}: the range has one speed only; give it alone.", param_hint="--speed")
-    return [float(speed) for speed in np.geomspace(first, last, points)]
 
 
 def chosen_direction(text: str) -> tuple[float, float]:

@@ -10,17 +10,15 @@ import click
 
 from viscofric.cli.contact_options import (
     chosen_indenter,
-    chosen_speeds,
-    chosen_temperatures,
     contact_options,
     contact_settings,
     indenter_options,
     inputs_of,
-    speed_options,
 )
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, DASH, FILE, OUT, PICTURES, check_ending, refuse_to_overwrite, write_curves
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
     from pathlib import Path

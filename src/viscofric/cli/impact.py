@@ -11,18 +11,16 @@ import click
 
 from viscofric.cli.contact_options import (
     chosen_indenter,
-    chosen_speeds,
-    chosen_temperatures,
     elastic_options,
     elastic_record,
     elastic_settings,
     indenter_options,
     inputs_of,
-    speed_options,
 )
 from viscofric.cli.errors import reported_errors
 from viscofric.cli.files import DASH, DATA, FILE, OUT, PICTURES, check_ending, refuse_to_overwrite, write_dataset
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
+from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -26,6 +26,7 @@ _WORDS = {
     "shift": "Measurement: one friction curve of all temperatures",
     "contacts": "Contacts: requested, measured, along the master curve",
     "histories": "Contacts over time",
+    "impacts": "Impacts",
     "report": "Figures and report",
 }
 #: What is not watched gets a line so often.

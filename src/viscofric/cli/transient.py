@@ -93,7 +93,9 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """
     drawings = {name: parameters.pop(name) for name in ("picture", "pressures", "animation")}
     _check_targets(parameters, out, drawings)
-    _check_cycle(parameters, drawings)
+    for name, typed in (("resume", "--resume"), ("state", "--save-state")):
+        if parameters["cycle"] and parameters[name] is not None:
+            raise click.UsageError(f"--cycle and {typed} are both given; a periodic state has no end to go on from.")
     with reported_errors():
         from viscofric.motion.cycle_solution import CycleSolution
 
@@ -103,8 +105,10 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
         line = geometry is not None and geometry.dimension == 1
         history = chosen_history(parameters, line, rubber.material.reference)
         began = time.perf_counter()
-        film = drawings["animation"] is not None
-        result = _solved(parameters, rubber.material, shape.indenter, history, layer, film=film, quiet=as_json)
+        film, drawn = drawings["animation"] is not None, any(drawings.values())
+        result = _solved(
+            parameters, rubber.material, shape.indenter, history, layer, film=film, drawn=drawn, quiet=as_json
+        )
         seconds = time.perf_counter() - began
         run = result.run if isinstance(result, CycleSolution) else result
         if not len(run.time):  # nothing was reached
@@ -139,6 +143,7 @@ def _solved(
     layer: Layer | None,
     *,
     film: bool,
+    drawn: bool,
     quiet: bool,
 ) -> TransientSolution | CycleSolution:
     """Solve the history, or its periodic state."""
@@ -147,26 +152,18 @@ def _solved(
     from viscofric.motion.solve import checked_problem, needs_grid, solve_transient
 
     contact = {"accuracy": parameters["accuracy"], "layer": layer, **elastic_settings(parameters)}
+    pictures = film or (drawn and parameters["cycle"])  # of a cycle, only the pressures asked for are kept
+    times = chosen_times(parameters, history, film=pictures)
     if parameters["cycle"]:
         shown = "{:.0f} periods, {:.2g} away from the periodic state"
         with time_bar("Periodic state", quiet=quiet, shown=shown) as bar:
-            return solve_cycle(material, body, history, progress=bar, **contact)
+            return solve_cycle(material, body, history, times=times, progress=bar, **contact)
     if parameters["state"] is not None and needs_grid(checked_problem(material, body, history, **contact), history):
         raise click.UsageError("--save-state is for rough surfaces, and bodies of revolution in normal motion.")
-    times = chosen_times(parameters, history, film=film)
     with time_bar("Contact over time", quiet=quiet) as bar:
         return solve_transient(
             material, body, history, times=times, progress=bar, resume=parameters["resume"], **contact
         )
-
-
-def _check_cycle(parameters: dict[str, Any], drawings: dict[str, Path | None]) -> None:
-    """Refuse what the periodic state does not have: other times than the steps, pressures, a state."""
-    if parameters["cycle"]:
-        for name, value in (parameters | drawings).items():
-            if name in ("times", "points", "resume", "state", "pressures", "animation") and value is not None:
-                typed = "--save-state" if name == "state" else f"--{name}"
-                raise click.UsageError(f"--cycle and {typed} are both given; leave out one of them.")
 
 
 def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[str, Path | None]) -> None:

@@ -10,7 +10,7 @@ is iterated with Anderson acceleration [1]_ to convergence.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
@@ -21,11 +21,11 @@ from viscofric.motion.chains import Link, Pair, Reached
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.march import march
 from viscofric.motion.mover import Mover, State
-from viscofric.motion.solve import assemble, checked_problem, mover_of, needs_grid
+from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_of, needs_grid
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from viscofric.motion.problem import Problem
     from viscofric.motion.schedule import Instant, Schedule
     from viscofric.rheology.material import Material
-    from viscofric.units import Quantity
+    from viscofric.units import Quantities, Quantity
 
 # Allowed distance from the periodic state, relative to the accuracy, in the norm of the stored energy.
 _CLOSE = 0.3
@@ -70,6 +70,7 @@ def solve_cycle(
     indenter: Indenter | PeriodicSurface,
     one_period: History,
     *,
+    times: Quantities | None = None,
     accuracy: float = 1e-3,
     layer: Layer | None = None,
     indenter_modulus: Quantity | None = None,
@@ -87,6 +88,8 @@ def solve_cycle(
     one_period : History
         History of load or depth, path and temperature over one period.  It must end as it begins, except for the
         position of a periodic surface.
+    times : (m,) array of float, str or pint.Quantity, optional
+        Times to return, ascending, within the period, s, with their pressures.  All steps without pressures if omitted.
     accuracy : float
         As for `solve_transient`; also the accuracy of the periodic state, in stored energy.
     layer : Layer, optional
@@ -130,17 +133,21 @@ def solve_cycle(
     whole_number(most_periods, "most_periods", 1)
     problem = checked_problem(material, indenter, one_period, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     _insist_on_period(one_period, problem.kind)
+    asked = checked_times(times, problem.schedule)
     search = _Search(_damping(problem), most_periods, progress)
     if needs_grid(problem, one_period):
         from viscofric.motion.free.solve import solve_free
 
-        track, notes = solve_free(problem, None, None, search.follow)
+        track, notes = solve_free(problem, asked, None, search.follow)
         method = "grid"
     else:
-        found, method = mover_of(problem, one_period)
-        track, notes = search.follow(cast("RepeatingMover[Any]", found), problem.schedule, accuracy=accuracy), ()
-    run = assemble(track, problem, one_period, method, notes=notes)
-    return CycleSolution.of(run, problem.schedule.control, search.periods, search.change)
+        mover, method = mover_of(problem, one_period)
+        repeating = cast("RepeatingMover[Any]", mover)
+        track, notes = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked), ()
+    assert search.whole is not None
+    whole = assemble(search.whole, problem, one_period, method, notes=notes)
+    found = CycleSolution.of(whole, problem.schedule.control, search.periods, search.change)
+    return found if asked is None else replace(found, run=assemble(track, problem, one_period, method, notes=notes))
 
 
 @dataclass(eq=False)
@@ -152,6 +159,7 @@ class _Search:
     progress: Callable[[int, float], object] | None
     periods: int = 0
     change: float = np.inf
+    whole: Track[Any] | None = None  # every step of the period in the periodic state
 
     def follow(
         self,
@@ -160,7 +168,7 @@ class _Search:
         *,
         accuracy: float,
         extrapolate: bool = False,
-        times: None = None,
+        times: Sequence[float] | None = None,
         progress: None = None,
     ) -> Track[Any]:
         """Return one period in the periodic state."""
@@ -168,20 +176,14 @@ class _Search:
         state = mover.begin()
         if schedule.before == "untouched":
             state = mover.step(state, schedule.at(schedule.start, after=False), first)
-        mixing = _Anderson(self.damping)
+        mixing, plain = _Anderson(self.damping), False
         for _ in range(self.most_periods):
             memory = mover.memory_of(state)
             # The instantaneous pressure that belongs to this memory.
             begun = mover.settle(mover.step(mover.with_memory(state, memory), first, first), first)
             link = Link(begun, mover.observe(begun), 0.0)
-            track = march(
-                mover,
-                schedule,
-                accuracy=accuracy,
-                fields=False,
-                begin=Reached(Pair(link, link)),
-                extrapolate=extrapolate,
-            )
+            begin = Reached(Pair(link, link))
+            track = march(mover, schedule, accuracy=accuracy, fields=False, begin=begin, extrapolate=extrapolate)
             if track.interrupted:
                 raise KeyboardInterrupt
             state = track.reached.pair.fine.state
@@ -194,9 +196,17 @@ class _Search:
             self.periods += 1
             if self.progress is not None:
                 self.progress(self.periods, self.change)
-            if self.change <= _CLOSE * accuracy:
-                return track
-            state = mover.with_memory(state, mixing.next(memory, change))
+            if self.change > _CLOSE * accuracy:
+                plain, state = False, mover.with_memory(state, mixing.next(memory, change))
+            elif plain:
+                self.whole = track
+                if times is None:
+                    return track
+                return march(mover, schedule, accuracy=accuracy, times=times, begin=begin, extrapolate=extrapolate)
+            else:
+                # A memory that was extrapolated does not fit the pressure: at a given depth its fast modes begin with a
+                # glassy response.  The period that is returned goes on from the end of another one.
+                plain = True
         raise ConvergenceError(
             f"no periodic state within {self.most_periods} periods: the memory is still {self.change:.2g} of its "
             "size away from it; allow more periods (most_periods=).",

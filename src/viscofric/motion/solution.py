@@ -216,7 +216,7 @@ class TransientSolution:
         """Return forces, depth, extents, energies and errors along ``time`` (s)."""
         force, energy, area = _UNITS[self.geometry]
         columns: dict[str, Any] = {
-            "load": (self.load, force, "normal load"),
+            "load": (self.load, force, "mean pressure" if self.geometry == "periodic" else "normal load"),
             "indentation": (self.indentation, "m", "indentation"),
             "position_x": (self.position[:, 0], "m", "position along x"),
             "position_y": (self.position[:, 1], "m", "position along y"),

@@ -125,7 +125,7 @@ def solve_transient(
     """
     insist_on_function(progress, "progress")
     problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
-    asked = _checked_times(times, problem.schedule)
+    asked = checked_times(times, problem.schedule)
     if resume is not None:
         return _resumed(resume, problem, history, asked, progress)
     notes: tuple[Note, ...] = ()
@@ -246,7 +246,8 @@ def needs_grid(problem: Problem, history: History) -> bool:
     return history.moves or problem.layer is not None or not is_body_of_revolution(indenter)
 
 
-def _checked_times(times: Quantities | None, schedule: Schedule) -> list[float] | None:
+def checked_times(times: Quantities | None, schedule: Schedule) -> list[float] | None:
+    """Return the times asked for, s; InputError where they cannot be met."""
     if times is None:
         return None
     seconds = to_si_array(times, "s", "times")

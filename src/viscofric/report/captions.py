@@ -30,7 +30,7 @@ from viscofric.report.sweeps import (
     solved_cases,
     sweep_axes,
 )
-from viscofric.report.texts.numbers import degrees
+from viscofric.report.texts.numbers import degrees, prefixed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,6 +85,7 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         "isotherms": f"Storage and loss modulus {'of the synthetic sweeps' if made else 'as measured'}, one curve "
         "for each temperature.",
         "contacts_over_time": _of_histories(tree),
+        "impacts": _of_impacts(tree),
         "contacts": _of_contacts(tree),
         "recovery_trail": "Surface on the centre line, seen from the side; the indenter moves to the right. "
         "Behind the contact the material has not yet recovered: the surface lies below the mirror image of the surface "
@@ -127,10 +128,28 @@ def _of_histories(tree: xr.DataTree) -> str:
     data = group(tree, "history")
     if data is None:
         return ""
-    count = data["time"].size // data.sizes["instant"]
-    some = f" ({HISTORIES} of {count} cases are drawn)" if count > HISTORIES else ""
     before = {"untouched": "untouched material", "at rest": "a contact at rest", "sliding": "steady sliding"}
-    return f"Contacts over time, from {before[str(data.attrs['before'])]}{some}."
+    begun = before.get(str(data.attrs["before"]))
+    words = "One period of contacts in their periodic state" if begun is None else f"Contacts over time, from {begun}"
+    return words + _some(data, "time", data.sizes["instant"])
+
+
+def _of_impacts(tree: xr.DataTree) -> str:
+    """Say what falls, and how many lines are left out."""
+    data = group(tree, "impact")
+    if data is None:
+        return ""
+    each = max(data.sizes["impact_speed"], data.sizes.get("temperature", 1))
+    mass = prefixed(1e3 * float(data.attrs["mass"]), None, "g")
+    return f"Restitution of impacts of {mass}{_some(data, 'restitution', each)}"
+
+
+def _some(data: xr.Dataset, name: str, each: int) -> str:
+    """Say how many of the cases are drawn, and what their bands are; ends the sentence."""
+    samples = data.sizes.get("sample", 1)
+    count = data[name].size // each // samples
+    some = f" ({HISTORIES} of {count} cases are drawn)" if count > HISTORIES else ""
+    return f"{some}{'; bands: 95 % of the uncertainty samples of the material' if samples > 1 else ''}."
 
 
 def _of_map(tree: xr.DataTree) -> str:

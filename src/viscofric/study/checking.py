@@ -11,10 +11,11 @@ import numpy as np
 from viscofric.errors import InputError, StudyError
 from viscofric.study.cases.case import moved
 from viscofric.study.cases.surfaces import surface_of
-from viscofric.study.histories import checked_table
+from viscofric.study.histories import case_histories, checked_table
+from viscofric.study.impacts import impacts_of
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.measurement import read_measurement
-from viscofric.study.planning.estimates import estimate
+from viscofric.study.planning.estimates import SECONDS_OF_IMPACT, estimate, seconds_over_time
 from viscofric.study.rubber import shift_of
 
 if TYPE_CHECKING:
@@ -56,6 +57,27 @@ class CheckedStudy:
             each=study.solver.cases == "each",
         )
 
+    @cached_property
+    def singles(self) -> dict[str, tuple[int, float]]:
+        """Number and estimated processor time, s, of the contacts over time and of the impacts, if there are any."""
+        history, impact, cases = self.study.history, self.study.impact, self.sweep.cases
+        found = {}
+        if history is not None:
+            dwells = len(history.dwell)
+            moves = case_histories(self.study, history)(cases[0], history.dwell[0]).moves
+            about = {"moves": moves, "cycle": history.cycle}
+            seconds = sum(seconds_over_time(one, history.points, **about) for one in cases)
+            found["histories"] = (dwells * len(cases), dwells * seconds)
+        if impact is not None:
+            count = impacts_of(self.sweep).size * len(impact.speed)
+            found["impacts"] = (count, count * SECONDS_OF_IMPACT)
+        return found
+
+    @property
+    def seconds(self) -> float:
+        """Estimated processor time of all contacts, s."""
+        return self.expected.seconds + sum(seconds for _, seconds in self.singles.values())
+
     @property
     def master_curve_points(self) -> int:
         """Points along the friction master curve; 0 if there is none."""
@@ -83,7 +105,7 @@ class CheckedStudy:
                 f"A job has {cluster.memory / 1e9:.3g} GB, but its {cluster.cores} processes may take "
                 f"{needed / 1e9:.2g} GB together; give it more memory or fewer cores."
             )
-        together = self.expected.seconds / (cluster.jobs * cluster.cores)
+        together = self.seconds / (cluster.jobs * cluster.cores)
         if together > cluster.walltime:
             yield (
                 f"All jobs together may take {together / 3600.0:.2g} hours, longer than the walltime; the next "

@@ -16,6 +16,7 @@ from viscofric.study.assumptions import assumption_checks, assumption_warnings, 
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.histories import Histories
+from viscofric.study.impacts import Impacts
 from viscofric.study.interface import interface_results
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import save_results
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
     import xarray
 
+    from viscofric.study.planning.singles import Singles
     from viscofric.study.run_file.study import Study
     from viscofric.study.running.running import Progress
 
@@ -124,11 +126,12 @@ def run_study(
         hashes = input_hashes(study.inputs, path.parent)
         rubbers, measured = _inputs(study, _staged(progress))
         contacts = Contacts(study, rubbers, measured)
-        histories = Histories.of(study, contacts.sweep, contacts.plan.rubbers)
+        arguments = study, contacts.sweep, contacts.plan.rubbers
+        singles = [one for one in (Histories.of(*arguments), Impacts.of(*arguments)) if one is not None]
         damaged = run_plan(contacts.plan, store, executor, progress)
-        if histories is not None:
-            damaged += run_plan(histories, store, executor, _as_stage(progress, "histories"))
-        tree = tree_of(contacts, _damage(damaged, finished_only), histories)
+        for one in singles:
+            damaged += run_plan(one, store, executor, _as_stage(progress, one.STAGE))
+        tree = tree_of(contacts, _damage(damaged, finished_only), singles)
         tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)
         results = StudyResults(tree, folder)
@@ -189,14 +192,14 @@ def _damage(labels: Sequence[str], finished_only: bool) -> list[str]:
     return [Note("damaged-cases", f"{many} not match the checksum) and {done}: {shown}.")]
 
 
-def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), histories: Histories | None = None) -> xarray.DataTree:
+def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), singles: Sequence[Singles] = ()) -> xarray.DataTree:
     """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved."""
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
     requested, at_points, along = contacts.results()
     failures = list(dict.fromkeys(one.note for part in (requested, at_points, along) for one in part.failures))
-    failures += histories.failures if histories is not None else []
+    failures += [note for one in singles for note in one.failures]
     if not requested.records:
         raise StudyError(f"no case could be solved; the first one failed: {failures[0]}", code="nothing-solved")
     groups, about = material_groups(
@@ -225,9 +228,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), histories: Histori
             pairs = zip(at_points.cases, points, strict=True)
             inside = [one is not None and rubbers[0].is_within(case, one) for case, one in pairs]
             groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
-    over_time = None if histories is None else histories.dataset()
-    if over_time is not None:
-        groups["/history"] = over_time
+    groups |= {one.GROUP: found for one in singles if (found := one.dataset()) is not None}
     checked = assumption_checks(contacts, requested, at_points)
     groups |= assumptions(checked)
     tree = xarray.DataTree.from_dict(groups)
@@ -245,7 +246,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), histories: Histori
                 *doubts((requested, at_points, along), rubbers),
                 *assumption_warnings(checked),
                 *_missed_accuracy(groups["/prediction"], study),
-                *(histories.warnings if histories is not None else ()),
+                *(note for one in singles for note in one.warnings),
             ]
         ),
         "failures": _listed(failures),

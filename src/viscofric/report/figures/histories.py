@@ -1,61 +1,123 @@
-"""The figure of a study's cases over time: indentation and friction of a few of them."""
+"""The figures of a study's cases over time, and of its impacts: a few of them, with the band of the samples."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.report.figures.style import GREY, legend_above, looks, new_figure, unit_for
+from viscofric.report.figures.style import GREY, legend_above, looks, new_figure, speed_ticks, unit_for
 from viscofric.report.results import group
-from viscofric.report.sweeps import axis_of
+from viscofric.report.sweeps import SAMPLE, axis_of, best_estimate
+from viscofric.units import celsius
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
 
 #: More lines cannot be told apart.
 MOST_LINES = 6
 _ALONG = "instant"
+#: Relative change of a load that is constant up to rounding and the solver's tolerance.
+_CONSTANT = 1e-3
+
+
+class _Line(NamedTuple):
+    """One case: what tells it apart, in words, and its results, also with samples of the material."""
+
+    words: str
+    best: xr.Dataset
+    samples: xr.Dataset | None
+
+    def band(self, name: str) -> tuple[Array, Array] | None:
+        """Return the ends of the central 95 % of the samples; None without samples."""
+        if self.samples is None:
+            return None
+        values = self.samples[name].transpose(SAMPLE, ...).values
+        low, high = np.quantile(values[np.isfinite(values).all(axis=1)], [0.025, 0.975], axis=0)
+        return low, high
 
 
 def histories_figure(tree: xr.DataTree) -> Figure | None:
-    """Return indentation and, where it slides, friction against time, of at most six cases spread over the study."""
+    """Return load where it varies, indentation, and friction where it slides, against time, of at most six cases."""
     data = group(tree, "history")
     if data is None:
         return None
-    lines = _lines(data)
-    slides = any(np.any(one["friction_force"].values != 0.0) for _, one in lines)
-    shown = [("indentation", r"indentation $\delta$", "m"), *([_FRICTION] if slides else [])]
+    lines = _lines(data, "time", _ALONG)
+    slides = any(np.any(one.best["friction_force"].values != 0.0) for one in lines)
+    varies = any(
+        np.ptp(one.best["load_over_time"].values) > _CONSTANT * one.best["load_over_time"].max() for one in lines
+    )
+    load = "mean pressure $\\bar p$" if data.attrs["geometry"] == "rough" else "normal load $F$"
+    force = str(data["load_over_time"].attrs["units"])
+    shown = [
+        *([("load_over_time", load, force)] if varies else []),
+        ("indentation", r"indentation $\delta$", "m"),
+        *([_FRICTION] if slides else []),
+    ]
     figure = new_figure(6.2, 2.6 * len(shown) + 1.0)
     panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False)[:, 0]
-    seconds = unit_for(max(float(one["time"].values[-1]) for _, one in lines), "s")
+    seconds = unit_for(max(float(one.best["time"].values[-1]) for one in lines), "s")
     for panel, (name, label, base) in zip(panels, shown, strict=True):
-        unit = unit_for(max(float(np.abs(one[name].values).max()) for _, one in lines), base)
+        unit = unit_for(max(float(np.abs(one.best[name].values).max()) for one in lines), base)
         size = unit.size if base else 1.0
-        handles = []
-        for (words, one), look in zip(lines, looks(len(lines)), strict=True):
-            x, y = one["time"].values / seconds.size, one[name].values / size
-            handles += panel.plot(x, y, color=look.colour, linestyle=look.dashes, label=words)
+        _plot(panel, lines, name, [one.best["time"].values / seconds.size for one in lines], size, panel is panels[0])
         panel.axhline(0.0, color=GREY, linewidth=0.8)
         panel.set_ylabel(f"{label} ({unit.name})" if base else label)
-        if panel is panels[0] and any(words for words, _ in lines):
-            legend_above(panel, handles, columns=2)
     panels[-1].set_xlabel(f"time $t$ ({seconds.name})")
+    return figure
+
+
+def impacts_figure(tree: xr.DataTree) -> Figure | None:
+    """Return the restitution of impacts against temperature or speed, whichever has more values."""
+    data = group(tree, "impact")
+    if data is None:
+        return None
+    along = "temperature" if data.sizes.get("temperature", 1) > data.sizes["impact_speed"] else "impact_speed"
+    lines = _lines(data, "restitution", along)
+    figure = new_figure()
+    axes = figure.subplots()
+    x = data[along].values if along == "impact_speed" else np.array([celsius(one) for one in data[along].values])
+    _plot(axes, lines, "restitution", [x] * len(lines), 1.0, True, marked=True)
+    if along == "impact_speed" and len(x) > 1:
+        axes.set_xscale("log")
+        speed_ticks(axes.xaxis)
+    axes.set_xlabel("speed of the impact (m/s)" if along == "impact_speed" else "temperature (°C)")
+    axes.set_ylabel("coefficient of restitution $e$")
+    axes.set_ylim(0.0, 1.05)
     return figure
 
 
 _FRICTION = ("friction_coefficient", r"friction coefficient $\mu$", "")
 
 
-def _lines(data: xr.Dataset) -> list[tuple[str, xr.Dataset]]:
-    """Return at most six solved cases with what tells them apart, in words."""
-    dimensions = [str(name) for name in data["time"].dims if name != _ALONG]
-    axes = [axis_of(data, name) for name in dimensions]
-    solved = np.argwhere(np.isfinite(data["time"].transpose(*dimensions, _ALONG).values).all(axis=-1))
+def _plot(
+    axes: Axes, lines: list[_Line], name: str, x: list[Array], size: float, named: bool, *, marked: bool = False
+) -> None:
+    """Draw a quantity of some cases with their bands, and their legend above if it is to be `named`."""
+    handles = []
+    for one, places, look in zip(lines, x, looks(len(lines)), strict=True):
+        dashes = {"marker": look.marker} if marked else {"linestyle": look.dashes}
+        handles += axes.plot(places, one.best[name].values / size, color=look.colour, label=one.words, **dashes)
+        if (band := one.band(name)) is not None:
+            axes.fill_between(places, band[0] / size, band[1] / size, color=look.colour, alpha=0.2, linewidth=0.0)
+    if named and any(one.words for one in lines):
+        legend_above(axes, handles, columns=2)
+
+
+def _lines(data: xr.Dataset, name: str, along: str) -> list[_Line]:
+    """Return at most six solved cases, spread over all."""
+    best = best_estimate(data)
+    dimensions = [str(one) for one in best[name].dims if one != along]
+    axes = [axis_of(best, one) for one in dimensions]
+    solved = np.argwhere(np.isfinite(best[name].transpose(*dimensions, along).values).all(axis=-1))
     chosen = np.unique(np.linspace(0, len(solved) - 1, min(MOST_LINES, len(solved))).round().astype(int))
     found = []
     for place in solved[chosen].tolist():
         words = ", ".join(axis.labels[index] for axis, index in zip(axes, place, strict=True))
-        found.append((words, data.isel(dict(zip(dimensions, place, strict=True)))))
+        at = dict(zip(dimensions, place, strict=True))
+        found.append(_Line(words, best.isel(at), data.isel(at) if SAMPLE in data.dims else None))
     return found

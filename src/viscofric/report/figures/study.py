@@ -19,7 +19,7 @@ from viscofric.report.figures.friction import (
     plot_friction_master_curve,
     plot_friction_master_curves,
 )
-from viscofric.report.figures.histories import histories_figure
+from viscofric.report.figures.histories import histories_figure, impacts_figure
 from viscofric.report.figures.interface import parts_figure, stress_figure
 from viscofric.report.figures.maps import known_shifts, map_figure
 from viscofric.report.figures.ramps import plot_temperature_ramps
@@ -266,6 +266,7 @@ FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "friction_parts": parts_figure,
     "friction_shift_factors": _friction_shift_factors,
     "contacts_over_time": histories_figure,
+    "impacts": impacts_figure,
     "contacts": contacts,
     "recovery_trail": recovery_trail,
     "convergence": convergence,

@@ -1,17 +1,41 @@
-"""One case of a study over time: what is solved, and the stored part of it."""
+"""One case of a study over time, or as an impact: what is solved, and the stored part of it."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from viscofric.motion.cycle import solve_cycle
 from viscofric.motion.history import dense_times
+from viscofric.motion.impact import solve_impact
 from viscofric.motion.solve import solve_transient
 from viscofric.rheology.material import Material
 from viscofric.study.cases.record import Column, HistoryRecord
+from viscofric.study.cases.surfaces import surface_of
 
 if TYPE_CHECKING:
+    import xarray
+
     from viscofric.motion.history import History
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+
+#: Number of a cycle -> its meaning; units by that of the load.
+_OF_CYCLE = {
+    "energy_per_cycle": "energy dissipated in a cycle",
+    "storage_stiffness": "storage stiffness",
+    "loss_stiffness": "loss stiffness",
+    "mean_friction_coefficient": "work of friction over that of a friction force as large as the load",
+    "periods": "periods computed to find the periodic state",
+    "change": "distance from the periodic state",
+}
+_STIFFNESS = {"N": "N/m", "N/m": "Pa", "Pa": "Pa/m"}
+#: Number of an impact -> its unit and meaning.
+_OF_IMPACT = {
+    "restitution": ("1", "speed after the contact over that before it"),
+    "restitution_error": ("1", "estimated error of the restitution"),
+    "contact_time": ("s", "contact time"),
+    "peak_force": ("N", "largest force"),
+    "largest_indentation": ("m", "largest indentation"),
+}
 
 
 def solve_history(
@@ -20,10 +44,11 @@ def solve_history(
     *,
     history: History,
     points: int,
+    cycle: bool = False,
     fields: bool = False,
     **contact: Any,
 ) -> HistoryRecord:
-    """Solve the contact of an indenter over time.
+    """Solve a contact over time.
 
     Parameters
     ----------
@@ -33,18 +58,49 @@ def solve_history(
         Without a temperature.
     points : int
         Number of times, see `dense_times`.
+    cycle : bool
+        Whether the history is one period of a motion in its periodic state.
     fields : bool
         Not used: there are none.
     **contact
-        Further arguments of `solve_transient`, SI.
+        Further arguments of `solve_transient`, SI; `surface`, a description of one, instead of `indenter`.
     """
-    times = dense_times(history, points)
-    run = solve_transient(Material(modes, poisson_ratio=poisson_ratio), history=history, times=times, **contact)
+    rubber, times = Material(modes, poisson_ratio=poisson_ratio), dense_times(history, points)
+    if "surface" in contact:
+        contact["indenter"] = surface_of(contact.pop("surface"))
+    if cycle:
+        body = contact.pop("indenter")
+        found = solve_cycle(rubber, body, history, times=times, **contact)
+        data = found.to_dataset()
+        return HistoryRecord({}, tuple(map(str, found.warnings)), columns=_columns(data) | _of_cycle(data))
+    run = solve_transient(rubber, history=history, times=times, **contact)
     if run.interrupted:  # a part of a history is no result
         raise KeyboardInterrupt
-    data = run.to_dataset()
-    columns = {
+    return HistoryRecord({}, tuple(map(str, run.warnings)), columns=_columns(run.to_dataset()))
+
+
+def solve_hit(
+    modes: RetardationSpectrum, poisson_ratio: float, *, fields: bool = False, **impact: Any
+) -> HistoryRecord:
+    """Solve an impact by `solve_impact`, whose further arguments are `impact`, SI; see `solve_history`."""
+    hit = solve_impact(Material(modes, poisson_ratio=poisson_ratio), **impact)
+    columns = {name: Column([float(getattr(hit, name))], *about) for name, about in _OF_IMPACT.items()}
+    return HistoryRecord({}, tuple(map(str, hit.warnings)), columns=columns)
+
+
+def _columns(data: xarray.Dataset) -> dict[str, Column]:
+    return {
         str(name): Column(one.values.tolist(), str(one.attrs["units"]), str(one.attrs["long_name"]))
         for name, one in data.variables.items()
     }
-    return HistoryRecord({}, tuple(map(str, run.warnings)), columns=columns)
+
+
+def _of_cycle(data: xarray.Dataset) -> dict[str, Column]:
+    """Return the numbers of a cycle, which are attributes of its data set."""
+    units = {"energy_per_cycle": str(data["dissipated"].attrs["units"])}
+    units |= dict.fromkeys(("storage_stiffness", "loss_stiffness"), _STIFFNESS[str(data["load"].attrs["units"])])
+    return {
+        name: Column([float(data.attrs[name])], units.get(name, "1"), words)
+        for name, words in _OF_CYCLE.items()
+        if name in data.attrs
+    }

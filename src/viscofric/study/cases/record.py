@@ -191,12 +191,12 @@ class Column(NamedTuple):
 
 @dataclass(frozen=True)
 class HistoryRecord(Record):
-    """Stored part of one contact over time.
+    """Stored part of one contact over time, or of one impact.
 
     Attributes
     ----------
     columns : dict of str to Column
-        Over the stored times, SI.
+        Over the stored times, or one value of the whole, SI.
     """
 
     columns: dict[str, Column] = field(default_factory=dict)
@@ -209,9 +209,14 @@ class HistoryRecord(Record):
     def stored(cls, values: dict[str, Any]) -> Self:
         """Return a record from `values`; raise ValueError, TypeError or KeyError if it is invalid."""
         columns = {name: Column(*one) for name, one in values["history"].items()}
-        lengths = {len(one.values) for one in columns.values()}
-        sound = all(is_number(value) for one in columns.values() for value in one.values)
-        if len(lengths) != 1 or not sound or not all(isinstance(text, str) for text in values["warnings"]):
+        lengths = {len(one.values) for one in columns.values()} - {1}
+        sound = all(is_number(value) or value == math.inf for one in columns.values() for value in one.values)
+        if (
+            len(lengths) > 1
+            or not columns
+            or not sound
+            or not all(isinstance(text, str) for text in values["warnings"])
+        ):
             raise ValueError("a history is invalid.")
         return cls({}, tuple(values["warnings"]), columns=columns)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.motion.springs import is_body_of_revolution
 from viscofric.study.cases.case import Rubbers
 from viscofric.study.planning.curve import Curve
 
@@ -38,6 +39,9 @@ _PROCESS, _PER_CELL, _RECORD, _SENSITIVITY = 1.1e8, 240.0, 2.5e3, 3e3
 _CELLS, _MOST_CELLS, _FIELD_CELLS = 512.0, 2048.0, 256.0
 _FIELD = 16.0  # bytes of pressure and displacement in a cell
 _LINE_CELLS = 65536.0
+# Of contacts over time, s, within a factor of three: of each stored time, on springs and on cells; of each stored time
+# and point of a rough surface; the periods of a periodic state.  Of an impact.  Means over 30 and 90 °C.
+_SPRINGS, _ON_CELLS, _ON_WAVES, _PERIODS, SECONDS_OF_IMPACT = 1.4e-3, 0.035, 2.5e-6, 12, 0.3
 
 
 @dataclass(frozen=True)
@@ -96,6 +100,13 @@ def estimate(
         memory=_PROCESS + record * len(cases) + _FIELD * (points or _FIELD_CELLS**2) * len(kept),
         memory_per_process=float(_PROCESS + (_BYTES_PER_POINT * points if points else working)),
     )
+
+
+def seconds_over_time(case: Case, points: int, *, moves: bool, cycle: bool) -> float:
+    """Return the estimated processor time of a case at so many times, s, within a factor of about three."""
+    on_springs = not moves and case.cost in ("paraboloid", "other") and is_body_of_revolution(case.indenter)  # type: ignore[attr-defined]
+    each = _ON_WAVES * case.points if case.points else _SPRINGS if on_springs else _ON_CELLS
+    return each * points * (_PERIODS if cycle else 1)
 
 
 def _curves(

@@ -5,6 +5,7 @@
                                  solution, whose numbers are NaN, with the reasons in the root's attribute `failures`
 ``/prediction_master``           friction at the reference temperature over the reduced speeds α(T)·v
 ``/history``                     the cases over time: also over the dwell, where there are several, and over `instant`
+``/impact``                      impacts of the indenters, over shapes, temperatures and `impact_speed`
 ``/fields/<n>``                  pressure and displacement of case n, where they are kept
 ``/measurement``                 separated measurement, and the prediction at the same points (if measured)
 ``/measurement_master``          measured friction over the reduced speed, at the load of the master curve

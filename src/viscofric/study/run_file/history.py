@@ -1,4 +1,4 @@
-"""[history] of a run file: every case also over time, from a load put on to sliding, or through a table."""
+"""[history] and [impact] of a run file: every case also over time, and every indenter as a falling mass."""
 
 from __future__ import annotations
 
@@ -12,8 +12,11 @@ from viscofric.study.run_file.tables import (
     VALUE,
     Count,
     FileName,
+    Gravity,
     Headings,
     Length,
+    Mass,
+    Speeds,
     Table,
     Words,
     as_text,
@@ -52,9 +55,9 @@ _STAGES = ("load_time", "dwell", "slide", "strokes")
 
 
 class HistoryTable(Table):
-    """[history]: every case of an indenter also over time, at its load, speed and temperature."""
+    """[history]: every case also over time, at its load or pressure, speed and temperature."""
 
-    load_time: Duration = Field(0.0, description="Time in which the load rises from zero; 0 s: at once.")
+    load_time: Duration = Field(0.0, description="Time in which the load or pressure rises from zero; 0 s: at once.")
     dwell: Durations = Field((0.0,), description="Time at rest under the load before the sliding; several are an axis.")
     slide: Length | None = Field(None, description="Length of the path at the speed of the case; default: no sliding.")
     strokes: Count = Field(1, ge=1, le=10_000, description="Times the path is followed, forth and back.")
@@ -62,11 +65,17 @@ class HistoryTable(Table):
         "untouched",
         description="State before the start: untouched, under the first load for ever, or sliding steadily.",
     )
+    cycle: bool = Field(
+        False,
+        strict=True,
+        description="Whether this is one period of a motion that repeats itself, to solve its periodic state.",
+    )
     points: Count = Field(
         200, ge=2, le=MOST_POINTS, description="Number of stored times, dense after each change of load or speed."
     )
     file: FileName | None = Field(
-        None, description="Instead: table of the history; without a load or indentation in it, the load of the case."
+        None,
+        description="Instead: table of the history; without a load or depth in it, the load or pressure of the case.",
     )
     columns: Headings = Field(
         default_factory=dict, description="Headings of the table that are not understood: { load = 'Fz (N)' }."
@@ -75,6 +84,10 @@ class HistoryTable(Table):
 
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
+        if self.cycle:
+            for name in ("before", "load_time"):
+                if name in self.model_fields_set:
+                    yield name, "is given besides cycle = true, whose period ends as it begins"
         if self.file is not None:
             for name in _STAGES:
                 if name in self.model_fields_set:
@@ -96,3 +109,11 @@ class HistoryTable(Table):
     def relative_to(self, folder: Path) -> HistoryTable:
         """Return the table with its path relative to a folder."""
         return self if self.file is None else self.model_copy(update={"file": folder / self.file})
+
+
+class ImpactTable(Table):
+    """[impact]: every ball or cone also falls on the rubber, at every temperature."""
+
+    mass: Mass = Field(description="Mass of the indenter.")
+    speed: Speeds = Field(description="Speed at the first touch; several are an axis.")
+    gravity: Gravity | None = Field(None, description="Acceleration towards the rubber; default: none.")

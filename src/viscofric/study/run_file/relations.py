@@ -169,8 +169,22 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
 
 
 def _history(tables: Tables) -> Iterator[Problem]:
-    if tables.get("history") is not None and tables.get("surface") is not None:
-        yield "history", "needs an [indenter], but there is a rough [surface]"
+    history = tables.get("history")
+    returns = history is None or not history.cycle or history.slide is None or history.strokes % 2 == 0
+    if history is not None and not returns and tables.get("indenter") is not None:
+        yield (
+            "history.strokes",
+            f"is {history.strokes}, but the period of a cycle ends where it begins; give an even number",
+        )
+    if tables.get("impact") is None:
+        return
+    indenter = tables.get("indenter")
+    if tables.get("surface") is not None:
+        yield "impact", "needs an [indenter], but there is a rough [surface]"
+    elif indenter is not None and indenter.shape not in ("ball", "cone"):
+        yield "impact", f"needs a ball or a cone, but the indenter is a {indenter.shape}"
+    if tables.get("layer") is not None:
+        yield "impact", "needs a half-space, but there is a [layer]"
 
 
 def _interface(tables: Tables) -> Iterator[Problem]:

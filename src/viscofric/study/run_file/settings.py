@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
+from viscofric.notes import Note
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
 from viscofric.study.run_file.tables import BIGGEST_SEED, MOST_POINTS, VALUE, Count, Number, Table, with_unit
 from viscofric.units import positive
@@ -72,6 +73,19 @@ def _enough(value: int) -> int:
     return value
 
 
+_NO_BANDS = Note(
+    "no-bands",
+    "Friction on a rough surface has no linearised 95 % bands, which are found for indenters only; [uncertainty] "
+    "members solves every case with rubbers drawn from the sweeps, and several seeds show how friction scatters from "
+    "surface to surface.",
+)
+_NO_BANDS_OVER_TIME = Note(
+    "no-bands",
+    "Contacts over time and impacts have no linearised 95 % bands; [uncertainty] members solves them also with rubbers "
+    "drawn from the sweeps, whose scatter is the band.",
+)
+
+
 class UncertaintyTable(Table):
     """[uncertainty]: bootstrap samples of the material."""
 
@@ -87,6 +101,11 @@ class UncertaintyTable(Table):
     seed: Count = Field(
         0, ge=0, le=BIGGEST_SEED, description="Seed of the random numbers; the same seed gives the same samples."
     )
+
+    def notes(self, *, rough: bool, over_time: bool) -> tuple[Note, ...]:
+        """Return what has no linearised bands: friction of a rough surface, contacts over time without members."""
+        found = [(_NO_BANDS, rough), (_NO_BANDS_OVER_TIME, over_time and not self.members)]
+        return tuple(note for note, so in found if so and self.draws)
 
 
 class OutputsTable(Table):

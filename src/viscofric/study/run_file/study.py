@@ -10,7 +10,6 @@ from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationE
 
 from viscofric.errors import InputError, StudyError
 from viscofric.files import file_path, parse_toml
-from viscofric.notes import Note
 from viscofric.study.cases.sweep import Sweep, sweep_of
 from viscofric.study.run_file.contact import (
     SHAPES,
@@ -19,7 +18,7 @@ from viscofric.study.run_file.contact import (
     LayerTable,
 )
 from viscofric.study.run_file.errors import place, problems, wrong, wrong_tables
-from viscofric.study.run_file.history import HistoryTable
+from viscofric.study.run_file.history import HistoryTable, ImpactTable
 from viscofric.study.run_file.interface import InterfaceTable
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.measurement import MeasurementTable
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from viscofric.notes import Note
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.tables import Problem
 
@@ -45,14 +45,6 @@ _MOST_MATERIALS = 100
 
 def _several(value: object) -> object:
     return [value] if isinstance(value, dict | MaterialTable) else value
-
-
-_NO_BANDS = Note(
-    "no-bands",
-    "Friction on a rough surface has no linearised 95 % bands, which are found for indenters only; [uncertainty] "
-    "members solves every case with rubbers drawn from the sweeps, and several seeds show how friction scatters from "
-    "surface to surface.",
-)
 
 
 class Study(Table):
@@ -75,6 +67,8 @@ class Study(Table):
         [sweep].
     history : HistoryTable or None
         Every case also over time.
+    impact : ImpactTable or None
+        Every indenter also as a falling mass.
     measurement : MeasurementTable or None
     interface : InterfaceTable or None
         The friction of a dry interface too.
@@ -100,7 +94,8 @@ class Study(Table):
     )
     conditions: ConditionsTable = Field(description="Loads, speeds and temperatures of the prediction.")
     sweep_table: SweepTable = Field(SweepTable(), alias="sweep", description="Axes that vary together.")
-    history: HistoryTable | None = Field(None, description="Every case of an indenter also over time.")
+    history: HistoryTable | None = Field(None, description="Every case also over time.")
+    impact: ImpactTable | None = Field(None, description="Every ball or cone also falls on the rubber.")
     measurement: MeasurementTable | None = Field(None, description="Measured friction to compare with the prediction.")
     interface: InterfaceTable | None = Field(None, description="Friction of the dry interface, added to the rubber's.")
     solver: SolverTable = Field(SolverTable(), description="Accuracy of the predicted friction.")
@@ -143,7 +138,9 @@ class Study(Table):
     @property
     def notes(self) -> tuple[Note, ...]:
         """Requests of the study that have no effect."""
-        return () if self.indenter or self.uncertainty.draws == 0 else (_NO_BANDS,)
+        sampled = any(material.dma or material.steps for material in self.materials)
+        over_time = sampled and (self.history is not None or self.impact is not None)
+        return self.uncertainty.notes(rough=self.indenter is None, over_time=over_time)
 
     def sweep(self) -> Sweep:
         """Return all cases of the study, with their axes."""
@@ -164,6 +161,7 @@ TABLES: dict[str, type[BaseModel]] = {
     SEED_RANGE: SeedRange,
     "sweep": SweepTable,
     "history": HistoryTable,
+    "impact": ImpactTable,
     "measurement": MeasurementTable,
     "interface": InterfaceTable,
     "solver": SolverTable,

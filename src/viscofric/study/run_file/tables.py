@@ -128,6 +128,8 @@ Speed = Annotated[float, _positive("m/s"), as_text("100 mm/s")]
 Angle = Annotated[float, _positive("rad"), as_text("5 deg")]
 Modulus = Annotated[float, _positive("Pa"), as_text("200 GPa")]
 Pressure = Annotated[float, _positive("Pa"), as_text("50 kPa")]
+Mass = Annotated[float, _positive("kg"), as_text("4 g")]
+Gravity = Annotated[float, _positive("m/s**2"), as_text("9.81 m/s^2")]
 Direction = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "rad", VALUE)), as_text("30 deg")]
 # Plain, or pydantic would convert a load per length to a plain float.
 Load = Annotated[float, PlainValidator(_load), as_text("25 N", "2 N/mm")]

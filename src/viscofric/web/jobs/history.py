@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 #: Name of the table of a history that is none of stages.
 TABLE = "history_of_the_page.csv"
 _DIGITS = 9
-_UNITS = {"load": "N", "indentation": "m"}
+_UNITS = {"load": "N", "indentation": "m", "pressure": "Pa", "gap": "m"}
 
 
 class Options(Rows):
@@ -48,8 +48,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     if not options.rows:
         return _of_study(study_of(study, context.files)[1])
-    if options.control not in _UNITS:
-        raise JobError("In a study, an indenter has a history, no rough surface.", "surface", code="rough-surface")
     history = options.history()
     stages = _stages(history)
     if stages is not None:
@@ -92,9 +90,10 @@ def _of_study(study: Study) -> dict[str, Any]:
 
 def _stages(history: History) -> dict[str, Any] | None:
     """Return a history as stages: load put on, dwell, equal strokes forth and back; None if it is another."""
-    if history.load is None:
+    load = history.load if history.pressure is None else history.pressure
+    if load is None:
         return None
-    time, load, position = history.time, history.load, history.position[:, 0]
+    time, position = history.time, history.position[:, 0]
     speed = history.speed[:, 0] if history.speed is not None else None
     parts = []  # duration, loads and speeds at both ends
     for one in np.flatnonzero(np.diff(time) > 0.0):

@@ -1,0 +1,100 @@
+"""A plan of contacts that are solved one by one, beside those that share curves: cases over time, and impacts."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from viscofric.notes import Note
+from viscofric.study.cases.record import Failure, HistoryRecord
+from viscofric.study.cases.solving import Task
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray
+
+    from viscofric.study.cases.record import Record
+
+
+class Singles:
+    """Contacts of one kind with their results; see `viscofric.study.running.running.Plan`.
+
+    Attributes
+    ----------
+    tasks : sequence of Task or Failure
+        Of each contact.
+    """
+
+    #: Its stage in events, its group in the results, and its contacts in a sentence.
+    STAGE: ClassVar[str]
+    GROUP: ClassVar[str]
+    NOUN: ClassVar[str]
+
+    def __init__(self, tasks: Sequence[Task | Failure]) -> None:
+        self.tasks = tasks
+        self._known: dict[str, Record | Failure] = {}
+
+    @property
+    def total(self) -> int:
+        """Number of contacts."""
+        return len(self.tasks)
+
+    @property
+    def done(self) -> int:
+        """Contacts with a result."""
+        return sum(1 for one in self.tasks if isinstance(one, Failure) or one.key in self._known)
+
+    def wanted(self) -> list[Task]:
+        """Return the tasks without a result."""
+        return [one for one in self.tasks if isinstance(one, Task) and one.key not in self._known]
+
+    def receive(self, key: str, outcome: Record | Failure) -> None:
+        """Take the result of a task."""
+        self._known[key] = outcome
+
+    @property
+    def outcomes(self) -> list[Any]:
+        """Record or failure of each task."""
+        return [one if isinstance(one, Failure) else self._known[one.key] for one in self.tasks]
+
+    @property
+    def failures(self) -> list[Note]:
+        """Reasons of the contacts without a result."""
+        return [one.note for one in self.outcomes if isinstance(one, Failure)]
+
+    @property
+    def warnings(self) -> list[Note]:
+        """Notes on assumptions, each with the number of contacts."""
+        records = [one for one in self.outcomes if isinstance(one, HistoryRecord)]
+        said = dict.fromkeys(text for one in records for text in one.warnings)
+        return [
+            Note(
+                "doubtful-histories",
+                f"In {sum(text in one.warnings for one in records)} of {len(records)} {self.NOUN}: {text}",
+            )
+            for text in said
+        ]
+
+    def dataset(self) -> xarray.Dataset | None:
+        """Return all results along their axes; None if all failed."""
+        raise NotImplementedError
+
+    def columns(self, dimensions: dict[str, int], along: str = "") -> dict[str, Any]:
+        """Return the results as variables along dimensions, those of several values each also along `along`.
+
+        Contacts without a result are NaN; empty if all failed.
+        """
+        outcomes = self.outcomes
+        records = [one for one in outcomes if isinstance(one, HistoryRecord)]
+        found: dict[str, Any] = {}
+        for name, (values, unit, words) in records[0].columns.items() if records else ():
+            missing = [math.nan] * len(values)
+            rows = [one.columns[name].values if isinstance(one, HistoryRecord) else missing for one in outcomes]
+            inner = {along: len(values)} if len(values) > 1 else {}
+            shape = [*dimensions.values(), *inner.values()]
+            about = {"units": unit, "long_name": words}
+            found[name] = ([*dimensions, *inner], np.reshape(np.array(rows, dtype=float), shape), about)
+        return found
