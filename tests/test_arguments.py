@@ -251,6 +251,9 @@ def written():
     vf.write_friction_curves(curves(), at / "friction.csv")
     (at / "history.csv").write_text("time (s),position (mm)\n0,0\n1,20\n", encoding="utf-8")
     rows = "".join(f"{n},1,{100 + n}\n" for n in range(6))
+    (at / "rebound.csv").write_text("speed (m/s),restitution (1)\n1,0.6\n2,0.5\n", encoding="utf-8")
+    stiffness = "frequency (Hz),storage stiffness (N/m),loss stiffness (N/m)\n1,9e3,1e3\n10,1e4,2e3\n"
+    (at / "oscillation.csv").write_text(stiffness, encoding="utf-8")
     (at / "indentation.csv").write_text("time (s),load (N),indentation (um)\n" + rows, encoding="utf-8")
     factors().save(at / "alpha.csv")
     rows = "".join(f"20,1,{0.1 * 2**n},{5 - 0.3 * n},0.5\n" for n in range(10))
@@ -445,8 +448,18 @@ CALLS: dict[str, Any] = {
     "read_indentation": lambda: {"path": at("indentation.csv"), "control": "load", "temperature": 300.0, "error": 1e-6,
         "start": 0.0, "columns": {}, "sheet": None},
     "identify_from_indentation": lambda: {"records": record(), "indenter": vf.Ball(1e-2), "shift": None, "reference":
-        300.0, "poisson_ratio": 0.5, "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "modes": 8, "limit": 0.05,
-        "samples": 20, "seed": 0, "name": ""},
+        300.0, "poisson_ratio": 0.5, "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "radius_error": 0.01,
+        "load_error": 0.01, "zero_error": 1e-7, "modes": 8, "limit": 0.05, "samples": 20, "seed": 0, "name": ""},
+    "ReboundRecord": lambda: {"speed": np.array([1.0, 2.0]), "temperature": 300.0, "mass": 0.03, "error": 0.01,
+        "restitution": np.array([0.6, 0.5]), "contact_time": np.array([1e-3, 9e-4]), "peak_force": np.array([9.0, 9.9]),
+        "indentation": np.array([1e-4, 2e-4]), "gravity": 0.0, "source": ""},
+    "OscillationRecord": lambda: {"angular_frequency": np.array([1.0, 2.0]), "storage_stiffness": np.array([9e3, 1e4]),
+        "loss_stiffness": np.array([1e3, 2e3]), "temperature": 300.0, "indentation": 1e-4, "amplitude": 1e-6, "error":
+        0.01, "source": ""},
+    "read_rebound": lambda: {"path": at("rebound.csv"), "mass": 0.03, "error": 0.01, "temperature": 300.0, "gravity":
+        0.0, "columns": {}, "sheet": None},
+    "read_oscillation": lambda: {"path": at("oscillation.csv"), "indentation": 1e-4, "amplitude": 1e-6, "error": 0.01,
+        "temperature": 300.0, "columns": {}, "sheet": None},
     "Identified.standard_error": lambda: (from_indentation(), {"angular_frequency": np.array([1.0]), "relative": None}),
     "Identified.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
     "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":

@@ -62,10 +62,14 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.indentation.identify import (
         identify_from_indentation as identify_from_indentation,
     )
+    from viscofric.friction.identification.indentation.reading import read_oscillation as read_oscillation
+    from viscofric.friction.identification.indentation.reading import read_rebound as read_rebound
     from viscofric.friction.identification.indentation.record import IndentationRecord as IndentationRecord
     from viscofric.friction.identification.indentation.record import read_indentation as read_indentation
     from viscofric.friction.identification.indentation.result import FittedRecord as FittedRecord
     from viscofric.friction.identification.indentation.result import MaterialFromIndentation as MaterialFromIndentation
+    from viscofric.friction.identification.indentation.tables import OscillationRecord as OscillationRecord
+    from viscofric.friction.identification.indentation.tables import ReboundRecord as ReboundRecord
     from viscofric.friction.identification.result import IdentifiedMaterial as IdentifiedMaterial
     from viscofric.friction.interface.shear_stress import ShearStress as ShearStress
     from viscofric.friction.interface.shear_stress import shear_stress as shear_stress
@@ -269,6 +273,10 @@ _HOME = {
     "identify_from_indentation": "viscofric.friction.identification.indentation.identify",
     "IndentationRecord": "viscofric.friction.identification.indentation.record",
     "read_indentation": "viscofric.friction.identification.indentation.record",
+    "OscillationRecord": "viscofric.friction.identification.indentation.tables",
+    "ReboundRecord": "viscofric.friction.identification.indentation.tables",
+    "read_oscillation": "viscofric.friction.identification.indentation.reading",
+    "read_rebound": "viscofric.friction.identification.indentation.reading",
     "FittedRecord": "viscofric.friction.identification.indentation.result",
     "MaterialFromIndentation": "viscofric.friction.identification.indentation.result",
     "ShearStress": "viscofric.friction.interface.shear_stress",

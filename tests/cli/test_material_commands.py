@@ -287,3 +287,21 @@ def test_a_material_is_identified_from_indentation(tmp_path: Path) -> None:
     assert refusal(call(*said))
     twice = call(*said, "--temperature", "23 degC", "--temperature", "30 degC")
     assert twice.exit_code == 2
+
+
+def test_a_material_is_identified_from_rebounds_and_stiffness(tmp_path: Path) -> None:
+    rows = "speed (m/s),contact time (ms),restitution (1)\n0.5,3.1,0.6\n1.5,2.5,0.62\n"
+    (tmp_path / "rebound.csv").write_text(rows, encoding="utf-8")
+    rows = "frequency (Hz),storage stiffness (N/mm),loss stiffness (N/mm)\n1,9.3,1\n3,9.9,1.2\n10,10.7,1.5\n"
+    (tmp_path / "stiffness.csv").write_text(rows, encoding="utf-8")
+    common = ("--ball", "10 mm", "--modes", 8, "--samples", 20, "--temperature", "23 degC", "--error", "0.01")
+    rebound = ("indentation", tmp_path / "rebound.csv", "--mass", "33 g")
+    done = call(*rebound, *common, "--radius-error", 0.01)
+    assert done.exit_code == 0, done.output
+    assert "Found error of the radius" in done.output
+    stiffness = ("indentation", tmp_path / "stiffness.csv", "--depth", "100 um", "--amplitude", "2 um")
+    done = call(*stiffness, *common, "--picture", tmp_path / "E.svg", "--beside", "synthetic fluoroelastomer")
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "E.svg").stat().st_size > 0
+    assert call(*stiffness, *common, "--mass", "33 g").exit_code == 2
+    assert call(*rebound, "--ball", "10 mm").exit_code == 2

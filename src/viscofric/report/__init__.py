@@ -15,7 +15,7 @@ if TYPE_CHECKING:
         plot_friction_curves,
         plot_friction_master_curve,
     )
-    from viscofric.report.figures.identified import plot_identified_modulus
+    from viscofric.report.figures.identified import plot_fitted_records, plot_identified_modulus
     from viscofric.report.figures.interface import plot_friction_parts, plot_shear_stress
     from viscofric.report.figures.motion import (
         plot_force_depth,
@@ -60,6 +60,7 @@ _HOME = {
     "plot_friction_master_curve": "viscofric.report.figures.friction",
     "plot_friction_parts": "viscofric.report.figures.interface",
     "plot_shear_stress": "viscofric.report.figures.interface",
+    "plot_fitted_records": "viscofric.report.figures.identified",
     "plot_identified_modulus": "viscofric.report.figures.identified",
     "plot_isotherms": "viscofric.report.figures.rubber",
     "plot_kramers_kronig": "viscofric.report.figures.superposition",
@@ -91,6 +92,7 @@ __all__ = [
     "plot_booij_thoone_palmen",
     "plot_cole_cole",
     "plot_coulomb_friction",
+    "plot_fitted_records",
     "plot_force_depth",
     "plot_friction_curves",
     "plot_friction_loop",

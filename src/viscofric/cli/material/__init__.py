@@ -12,7 +12,7 @@ _COMMANDS = {
     "fit": "Fit a material to DMA files: shift factors, master curve, spectrum, figures.",
     "ramp": "Read temperature ramps: glass transition, and a material by superposition.",
     "amplitude": "Read an amplitude sweep: linear range, Kraus's law, a material at a strain.",
-    "indentation": "Identify a material from indentation tests: creep, relaxation, ramps.",
+    "indentation": "Identify a material from indentation tests and rebounds.",
     "show": "Print the modulus of a material at a temperature.",
     "convert": "Write a material card of another program.",
     "list": "List the materials of the catalogue.",

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.files import CSV, FILE, JSON, PICTURES, Source, check_ending, refuse_to_overwrite
 from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from viscofric.friction.identification.indentation.record import Control
 
 _EXAMPLE = """\b
 Example:
@@ -29,9 +28,13 @@ Example:
 @click.option(
     "--control",
     type=click.Choice(["load", "indentation"]),
-    required=True,
-    help="Prescribed quantity: load (creep) or indentation (relaxation).",
+    help="Prescribed quantity of load and indentation over time.",
 )
+@click.option(
+    "--depth", metavar="DEPTH", help="Mean depth; FILES are tables of frequency and stiffness, e.g. '100 um'."
+)
+@click.option("--amplitude", metavar="DEPTH", help="Amplitude of the depth about --depth, e.g. '2 um'.")
+@click.option("--mass", metavar="MASS", help="Mass of the indenter; FILES are tables of rebounds, e.g. '33 g'.")
 @indenter_options
 @elastic_options
 @click.option(
@@ -42,8 +45,26 @@ Example:
     help="Temperature of a file without this column, e.g. '23 degC'; one for all files, or repeated for each.",
 )
 @column_options("'load=Fz (N)'")
-@click.option("--error", metavar="SIZE", help="Standard error of the response, e.g. '0.1 um' [default: found].")
+@click.option(
+    "--error",
+    metavar="SIZE",
+    help="Standard error of the response, e.g. '0.1 um' [default: found]; relative, e.g. 0.01, with --mass or --depth.",
+)
 @click.option("--start", metavar="TIME", help="Time of the first contact [default: that of the first row].")
+@click.option(
+    "--radius-error",
+    type=float,
+    default=0.0,
+    show_default=True,
+    help="Standard error of the indenter's radius, relative.",
+)
+@click.option(
+    "--load-error", type=float, default=0.0, show_default=True, help="Relative standard error of the load cell's gain."
+)
+@click.option(
+    "--zero-error", metavar="DEPTH", default="0 m", help="Standard error of the zero of the depth [default: 0]."
+)
+@click.option("--shift", metavar="FILE|NAME", help="Shift factors: a table, a material file or a catalogue name.")
 @click.option("--reference", metavar="T", help="Reference temperature of the material, e.g. '30 degC'.")
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option("--modes", type=int, default=30, show_default=True, help="Least number of retardation times.")
@@ -52,51 +73,50 @@ Example:
 @click.option("--name", default="identified from indentation", show_default=True, help="Name of the material.")
 @click.option("--out", type=FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
 @click.option("--csv", "table", type=FILE, help="Write the moduli with their 95 % limits (CSV).")
+@click.option("--picture", type=FILE, help="Draw the moduli with their limits, and every fit (PNG, SVG or PDF).")
+@click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
+@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
 @click.option("--json", "as_json", is_flag=True, help="Print the moduli and the notes as JSON, in SI units.")
 def command(
     files: tuple[Path, ...],
-    control: Control,
     temperatures: tuple[str, ...],
-    columns: dict[str, str],
-    sheet: str | None,
-    error: str | None,
-    start: str | None,
     out: Path | None,
     table: Path | None,
+    picture: Path | None,
+    beside: str | None,
+    synthetic: bool,
     as_json: bool,
     **parameters: Any,
 ) -> None:
-    """Identify a material from indentation tests in FILES: creep, relaxation, ramps and holds.
+    """Identify a material from indentation tests and rebounds in FILES.
 
-    FILES are tables of time, load and indentation, with units in the headings.
+    FILES are tables with units in the headings: of time, load and indentation (--control); of frequency, storage and
+    loss stiffness (--depth); or of speed, and restitution, contact time, peak force or indentation (--mass).
     """
     check_ending(out, "--out", JSON)
     check_ending(table, "--csv", CSV)
-    for target in (out, table):
+    check_ending(picture, "--picture", PICTURES)
+    for target in (out, table, picture):
         if target is not None:
             refuse_to_overwrite(target, files)
     if len(temperatures) not in (0, 1, len(files)):
         raise click.UsageError(f"--temperature is given {len(temperatures)} times for {len(files)} files.")
+    if sum(parameters[name] is not None for name in ("control", "depth", "mass")) != 1:
+        raise click.UsageError("give one of --control, --depth and --mass.")
+    if beside is not None and picture is None:
+        raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
     with reported_errors():
+        from viscofric.cli.rubber_options import find_rubber
         from viscofric.datasets import record
         from viscofric.friction.identification.indentation.identify import identify_from_indentation
-        from viscofric.friction.identification.indentation.record import read_indentation
         from viscofric.notes import listed
         from viscofric.rheology.cards import write_card
 
         shape = chosen_indenter(parameters)
+        known = None if beside is None else find_rubber(beside)
         kelvin = temperatures if len(temperatures) == len(files) else (temperatures or (None,)) * len(files)
-        records = [
-            read_indentation(
-                path, control=control, temperature=at, error=error, start=start, columns=columns, sheet=sheet
-            )
-            for path, at in zip(files, kelvin, strict=True)
-        ]
-        names = ("reference", "poisson_ratio", "indenter_modulus", "modes", "samples", "seed", "name")
-        settings = {name: parameters[name] for name in names}
-        if parameters["indenter_poisson_ratio"] is not None:
-            settings["indenter_poisson_ratio"] = parameters["indenter_poisson_ratio"]
-        found = identify_from_indentation(records, shape.indenter, **settings)
+        records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
+        found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
         data = found.to_dataset()
         if as_json:
             said = {"results": record(data), **listed("notes", found.notes)}
@@ -109,3 +129,43 @@ def command(
         if table is not None:
             data.to_dataframe().to_csv(table)
             click.echo(f"table    {table}", err=as_json)
+        if picture is not None:
+            from viscofric.report.figures.identified import indentation_figure
+            from viscofric.report.figures.saving import save_picture
+
+            draw = partial(indentation_figure, found, known)
+            save_picture(picture, draw, name="identified modulus", synthetic=synthetic)
+            click.echo(f"picture  {picture}", err=as_json)
+
+
+def _records(path: Path, temperature: str | None, parameters: dict[str, Any]) -> list[Any]:
+    """Return the records of a file."""
+    from viscofric.friction.identification.indentation.reading import read_oscillation, read_rebound
+    from viscofric.friction.identification.indentation.record import read_indentation
+
+    common = {name: parameters[name] for name in ("columns", "sheet")} | {"temperature": temperature}
+    if parameters["control"] is not None:
+        return [read_indentation(path, **common, **{name: parameters[name] for name in ("control", "error", "start")})]
+    if parameters["error"] is None:
+        raise click.UsageError("--error is the relative standard error of the values, e.g. 0.01; give it.")
+    if parameters["mass"] is not None:
+        return read_rebound(path, mass=parameters["mass"], error=parameters["error"], **common)
+    if parameters["amplitude"] is None:
+        raise click.UsageError("--depth needs the --amplitude of the oscillation.")
+    return read_oscillation(
+        path, indentation=parameters["depth"], amplitude=parameters["amplitude"], error=parameters["error"], **common
+    )
+
+
+def _settings(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the arguments of `identify_from_indentation`."""
+    names = ("reference", "poisson_ratio", "indenter_modulus", "radius_error", "load_error", "zero_error", "modes",
+             "samples", "seed", "name")  # fmt: skip
+    settings = {name: parameters[name] for name in names}
+    if parameters["indenter_poisson_ratio"] is not None:
+        settings["indenter_poisson_ratio"] = parameters["indenter_poisson_ratio"]
+    if parameters["shift"] is not None:
+        from viscofric.cli.friction_sources import shifts
+
+        settings["shift"], _ = shifts(parameters["shift"])
+    return settings

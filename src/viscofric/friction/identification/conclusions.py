@@ -255,8 +255,8 @@ def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCu
     """Return the friction of the identified material at the points, and the residuals over the standard errors."""
     problem, place = posterior.best.problem, posterior.best.minimum.place
     points = problem.observations.points
-    value, _ = problem.log_friction(place)
-    drawn = np.array([problem.log_friction(row)[0] for row in posterior.drawn])
+    value, _ = problem.modelled(place)
+    drawn = np.array([problem.modelled(row)[0] for row in posterior.drawn])
     lower, upper = np.exp(limits(drawn) + points.raised)
     friction = np.exp(value + points.raised)
     measured = outcome.curves.select(points.rows)

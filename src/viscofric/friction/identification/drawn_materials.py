@@ -86,7 +86,8 @@ class MaterialOf:
         if len(log_alpha) == 1:
             return Material(spectrum, None, self.poisson_ratio, self.name)
         size = len(log_alpha)
-        spread = np.zeros((size, size)) if covariance is None else covariance[-size:, -size:]
+        rows = slice(problem.modes, problem.modes + size)
+        spread = np.zeros((size, size)) if covariance is None else covariance[rows, rows]
         return Material(spectrum, problem.shifts.table(log_alpha, spread), self.poisson_ratio, self.name)
 
     def samples(self, drawn: Array, frequency_range: tuple[float, float]) -> MaterialSamples:
@@ -197,7 +198,7 @@ def level_family(
                 break
             last = factor
             points = problem.observations.points
-            away = problem.log_friction(place)[0] - points.log_friction
+            away = problem.modelled(place)[0] - points.log_friction
             everything, _ = replace(problem, observations=best.problem.observations)(place)
             found[factor] = LevelFit(
                 factor=float(factor),

@@ -149,14 +149,14 @@ class Identified:
         wanted = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
         omega = np.ravel(wanted)
         modulus, band = np.asarray(self.material.complex_modulus(omega)), self.samples.modulus_band(omega)
-        columns = {"modulus_error": (self.standard_error(omega), "1", "relative standard error of |E|")}
-        if not self.anchored:
-            columns["modulus_error"] = (*columns["modulus_error"][:2], "relative standard error of |E| over its level")
+        columns = {}
         for name, part in (("storage", "real"), ("loss", "imag")):
             columns[f"{name}_modulus"] = (getattr(modulus, part), "Pa", f"{name} modulus")
             for side in ("lower", "upper"):
                 limit, words = getattr(getattr(band, side), part), f"{side} end of the 95 % band of the {name} modulus"
                 columns[f"{name}_modulus_{side}"] = (limit, "Pa", words)
+        of = "|E|" if self.anchored else "|E| over its level"
+        columns["modulus_error"] = (self.standard_error(omega), "1", f"relative standard error of {of}")
         return dataset(
             "angular_frequency",
             columns,

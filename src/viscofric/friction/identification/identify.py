@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from viscofric.arguments import insist_on_function, text, whole_number
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.errors import InputError, brief
@@ -175,8 +173,7 @@ def identify_material(
     with Workers(workers) as processes:
         contacts = Contacts(indenter, poisson_ratio, points.load, accuracy, processes, sizes, progress)
         problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
-        start = np.concatenate([problem.smoothness.middle, shifts.middle])
-        fits, iterations = identify(problem, contacts, start)
+        fits, iterations = identify(problem, contacts, problem.start)
         outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name, bool(moduli or sizes))
         return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=tuple(levels))
 

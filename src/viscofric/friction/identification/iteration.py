@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -14,8 +14,6 @@ from viscofric.friction.identification.problem import ROUGHNESS, SpectrumProblem
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.identification.posterior import Residuals
-    from viscofric.friction.identification.problem import Problem
-    from viscofric.friction.identification.solving import Contacts
 
 
 #: Largest number of materials for which contacts are solved.
@@ -85,16 +83,33 @@ def freedom_of(best: Weighed[Any], count: int) -> float:
     return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
 
 
-class Here(NamedTuple):
+class Solver(Protocol[AnyProblem]):
+    """Contacts of some accuracy, to be solved for a material."""
+
+    @property
+    def accuracy(self) -> float:
+        """Relative error of the solved contacts that is aimed at."""
+        ...
+
+    def solved(self, problem: AnyProblem, unknowns: Array, step: int) -> AnyProblem:
+        """Return the problem with its contacts solved for the material of the unknowns; `step` is for progress."""
+        ...
+
+    def with_accuracy(self, accuracy: float) -> Self:
+        """Return the same with another accuracy."""
+        ...
+
+
+class Here(NamedTuple, Generic[AnyProblem]):
     """Unknowns (p,), the problem with contacts solved for their material, and the accuracy of these."""
 
     place: Array
-    problem: Problem
+    problem: AnyProblem
     accuracy: float
 
 
-def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[Weighed[Problem]], int]:
-    """Iterate until the friction converges; return the fits under every roughness, and the number of iterations.
+def identify(problem: AnyProblem, contacts: Solver[AnyProblem], start: Array) -> tuple[list[Weighed[AnyProblem]], int]:
+    """Iterate until the modelled points converge; return the fits under every roughness, and the number of iterations.
 
     Each step leads to the predicted minimum in the neighbourhood of the solved contacts.  Where contacts solved there
     do not confirm the prediction, a shorter step is tried: a trust region, with the step damped in the metric of the
@@ -103,17 +118,17 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
 
     Raises ConvergenceError if it does not converge, or contacts fail at every step tried.
     """
-    observations = problem.observations
-    typical = float(np.median(observations.points.error))
+    errors = problem.point_errors
+    typical = float(np.median(errors))
     floors = iter([error for error in FIRST_STEPS if error > typical])
-    now = replace(contacts, accuracy=max(FIRST_ACCURACY, contacts.accuracy))
+    now = contacts.with_accuracy(max(FIRST_ACCURACY, contacts.accuracy))
     here, number, damping = _first_solved(problem, now, start), 1, 0.0
     while True:
         floor = next(floors, 0.0)
         fits = weighed(here.problem.blurred(floor), here.place)
         best = most_evident(fits)
-        change = here.problem.log_friction(best.minimum.place)[0] - here.problem.log_friction(here.place)[0]
-        small = np.hypot(SETTLED * observations.points.error, KNOWN_TO * here.accuracy)
+        change = here.problem.modelled(best.minimum.place)[0] - here.problem.modelled(here.place)[0]
+        small = np.hypot(SETTLED * errors, KNOWN_TO * here.accuracy)
         settled = floor == 0.0 and float(np.sqrt(np.mean((change / small) ** 2))) < 1.0
         if settled and here.accuracy == contacts.accuracy:
             return fits, number
@@ -122,17 +137,17 @@ def identify(problem: Problem, contacts: Contacts, start: Array) -> tuple[list[W
         moved, number, damping = _stepped(here, best, now, number, damping)
         if moved is None:
             raise ConvergenceError(
-                f"the identification did not settle with contacts solved for {number} rubbers: the friction should "
-                f"still change by {100.0 * float(np.sqrt(np.mean(change**2))):.2g} %; give an anchor, a prior or fewer "
+                f"the identification did not settle with contacts solved for {number} rubbers: the fit should still "
+                f"change by {100.0 * float(np.sqrt(np.mean(change**2))):.2g} %; give an anchor, a prior or fewer "
                 "modes.",
                 code="not-converged",
             )
-        here = moved._replace(problem=replace(moved.problem, observations=observations))
+        here = moved._replace(problem=moved.problem.with_errors(errors))
 
 
 def _stepped(
-    here: Here, best: Weighed[Problem], contacts: Contacts, number: int, damping: float
-) -> tuple[Here | None, int, float]:
+    here: Here[AnyProblem], best: Weighed[AnyProblem], contacts: Solver[AnyProblem], number: int, damping: float
+) -> tuple[Here[AnyProblem] | None, int, float]:
     """Return the result of a step (None without one), the number of materials solved so far, and the next damping."""
     target, near = best.problem, here.place
     before = _squares(target, near)
@@ -164,14 +179,14 @@ def _squares(residuals: Residuals, place: Array) -> float:
     return float(values @ values)
 
 
-def _allowance(problem: Problem, place: Array, accuracy: float) -> float:
+def _allowance(problem: SpectrumProblem, place: Array, accuracy: float) -> float:
     """Return the error of the misfit due to the accuracy of the contacts."""
-    error = problem.observations.points.error
+    error = problem.point_errors
     away = problem.measured(place)[0][: len(error)]
     return 2.0 * KNOWN_TO * accuracy * float(np.linalg.norm(away) * np.linalg.norm(1.0 / error))
 
 
-def _damped(problem: Problem, near: Array, damping: float) -> Residuals:
+def _damped(problem: SpectrumProblem, near: Array, damping: float) -> Residuals:
     """Return the residuals of a problem, with the distance from a point added as residuals."""
     root = np.sqrt(damping) * np.linalg.cholesky(problem.metric).T
 
@@ -182,7 +197,7 @@ def _damped(problem: Problem, near: Array, damping: float) -> Residuals:
     return together
 
 
-def _first_solved(problem: Problem, contacts: Contacts, start: Array) -> Here:
+def _first_solved(problem: AnyProblem, contacts: Solver[AnyProblem], start: Array) -> Here[AnyProblem]:
     """Return the roughly fitted material with its contacts solved, or a solvable one between it and the start."""
     place = first_fit(problem, start)
     for halving in range(HALVINGS + 1):
@@ -195,7 +210,7 @@ def _first_solved(problem: Problem, contacts: Contacts, start: Array) -> Here:
     raise AssertionError
 
 
-def first_fit(problem: Problem, start: Array) -> Array:
+def first_fit(problem: SpectrumProblem, start: Array) -> Array:
     """Return unknowns that fit roughly, found with errors that are large at first and then smaller.
 
     A fit with small errors from a distant start would end in a local minimum, where some points fit and others do not,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
@@ -169,10 +169,18 @@ class Observations:
 
 @dataclass(frozen=True, eq=False)
 class SpectrumProblem(ABC):
-    """Residuals of standard deviation one in the unknowns: compliances (1 + m,), then ln α (t,)."""
+    """Residuals of standard deviation one in the unknowns: compliances (1 + m,), then ln α (t,), then other ones.
+
+    The other unknowns are errors that measured values have in common, in their standard deviations.
+    """
 
     shifts: Shifts
     smoothness: Smoothness
+
+    @property
+    def others(self) -> int:
+        """Number of other unknowns."""
+        return 0
 
     @property
     def modes(self) -> int:
@@ -183,14 +191,36 @@ class SpectrumProblem(ABC):
     def metric(self) -> Array:
         """Normal matrix of the prior of the unknowns (p, p); it damps steps (`descend`)."""
         A, W = self.smoothness.matrix, self.shifts.whitening
-        size = self.modes + len(self.shifts.middle)
-        result = np.zeros((size, size))
-        result[: self.modes, : self.modes], result[self.modes :, self.modes :] = A.T @ A, W.T @ W
+        first, last = self.modes, self.modes + len(self.shifts.middle)
+        result = np.eye(last + self.others)
+        result[:first, :first], result[first:last, first:last] = A.T @ A, W.T @ W
         return result
+
+    @property
+    def start(self) -> Array:
+        """Prior mean of the unknowns."""
+        return np.concatenate([self.smoothness.middle, self.shifts.middle, np.zeros(self.others)])
 
     def split(self, unknowns: Array) -> tuple[Array, Array]:
         """Return compliances and ln α."""
-        return unknowns[: self.modes], unknowns[self.modes :]
+        return unknowns[: self.modes], unknowns[self.modes : self.modes + len(self.shifts.middle)]
+
+    @property
+    @abstractmethod
+    def point_errors(self) -> Array:
+        """Standard errors of the logarithms of the measured points (n,)."""
+
+    @abstractmethod
+    def with_errors(self, errors: Array) -> Self:
+        """Return the problem with other standard errors (n,) of the points."""
+
+    @abstractmethod
+    def modelled(self, unknowns: Array) -> tuple[Array, Array]:
+        """Return the modelled logarithm of every point (n,), and its derivatives (n, p)."""
+
+    def blurred(self, error: float) -> Self:
+        """Return the problem with an additional error of every point."""
+        return self.with_errors(np.hypot(self.point_errors, error))
 
     @abstractmethod
     def measured(self, unknowns: Array) -> tuple[Array, Array]:
@@ -201,9 +231,12 @@ class SpectrumProblem(ABC):
         compliances, log_alpha = self.split(unknowns)
         values, changes = self.measured(unknowns)
         A, W = self.smoothness.matrix, self.shifts.whitening
-        expected = np.zeros((len(A) + len(W), len(unknowns)))
-        expected[: len(A), : self.modes], expected[len(A) :, self.modes :] = A, W
-        away = np.concatenate([A @ (compliances - self.smoothness.middle), W @ (log_alpha - self.shifts.middle)])
+        last = self.modes + len(log_alpha)
+        expected = np.zeros((len(A) + len(W) + self.others, len(unknowns)))
+        expected[: len(A), : self.modes], expected[len(A) : len(A) + len(W), self.modes : last] = A, W
+        expected[len(A) + len(W) :, last:] = np.eye(self.others)
+        parts = A @ (compliances - self.smoothness.middle), W @ (log_alpha - self.shifts.middle), unknowns[last:]
+        away = np.concatenate(parts)
         return np.concatenate([values, away]), np.concatenate([changes, expected])
 
 
@@ -215,12 +248,17 @@ class Problem(SpectrumProblem):
     observations: Observations
     contacts: tuple[SolvedContact, ...] = ()  # contacts whose size was measured
 
-    def blurred(self, error: float) -> Problem:
-        """Return the problem with an additional error of ln μ at every point."""
-        points = replace(self.observations.points, error=np.hypot(self.observations.points.error, error))
+    @property
+    def point_errors(self) -> Array:
+        """Standard errors of ln μ (n,)."""
+        return self.observations.points.error
+
+    def with_errors(self, errors: Array) -> Self:
+        """Return the problem with other standard errors of ln μ (n,)."""
+        points = replace(self.observations.points, error=errors)
         return replace(self, observations=replace(self.observations, points=points))
 
-    def log_friction(self, unknowns: Array) -> tuple[Array, Array]:
+    def modelled(self, unknowns: Array) -> tuple[Array, Array]:
         """Return the modelled ln μ of every point (n,), and its derivatives (n, p)."""
         compliances, log_alpha = self.split(unknowns)
         points = self.observations.points
@@ -233,7 +271,7 @@ class Problem(SpectrumProblem):
         """Return the residuals of the measurements (r,), friction first, and their derivatives (r, p)."""
         compliances, log_alpha = self.split(unknowns)
         points = self.observations.points
-        value, change = self.log_friction(unknowns)
+        value, change = self.modelled(unknowns)
         values = [(value - points.log_friction) / points.error]
         changes = [change / points.error[:, None]]
         for together, whitening in self.observations.moduli:

@@ -159,6 +159,10 @@ class Contacts:
     # called with the number of the step, the contacts solved in it, and how many it has
     progress: Callable[[int, int, int], object] | None = None
 
+    def with_accuracy(self, accuracy: float) -> Contacts:
+        """Return the settings with another accuracy."""
+        return replace(self, accuracy=accuracy)
+
     def solved(self, problem: Problem, unknowns: Array, step: int) -> Problem:
         """Return the problem with contacts solved for the material of the unknowns; ConvergenceError if one is not."""
         compliances, log_alpha = problem.split(unknowns)

@@ -1,4 +1,4 @@
-"""Figure of the modulus identified from friction."""
+"""Figures of the modulus identified from friction or indentation, and of the records behind it."""
 
 from __future__ import annotations
 
@@ -19,30 +19,32 @@ from viscofric.report.figures.style import (
 )
 from viscofric.report.results import number, values
 from viscofric.rheology.material import Material
+from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from viscofric.arrays import Array
-    from viscofric.friction.identification.result import IdentifiedMaterial
+    from viscofric.friction.identification.identified import Identified
+    from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
     from viscofric.report.data import Master
 
 
 _MEGAPASCAL = 1e6
 
 
-def plot_identified_modulus(
-    axes: Axes, found: IdentifiedMaterial | xr.Dataset, known: Material | Master | None = None
-) -> None:
-    """Draw the modulus identified from friction with its 95 % band, the identified frequencies marked.
+def plot_identified_modulus(axes: Axes, found: Identified | xr.Dataset, known: Material | Master | None = None) -> None:
+    """Draw an identified modulus with its 95 % band, the identified frequencies marked.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    found : IdentifiedMaterial or xarray.Dataset
-        From `viscofric.identify_material`, or its `to_dataset`.
+    found : Identified or xarray.Dataset
+        From `viscofric.identify_material` or `viscofric.identify_from_indentation`, or its `to_dataset`.
     known : Material, MasterCurve, Superposition or xarray.Dataset, optional
         The same material from a DMA, at the same reference temperature: a line, or points.
     """
@@ -93,17 +95,78 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
     return list(handles)
 
 
-def identified_figure(found: IdentifiedMaterial, known: Material | None = None) -> Figure:
-    """Return a figure of the modulus identified from friction.
+def identified_figure(found: Identified, known: Material | None = None) -> Figure:
+    """Return a figure of an identified modulus.
 
     Parameters
     ----------
-    found : IdentifiedMaterial
+    found : Identified
     known : Material, optional
         To compare with, at the reference temperature of the other.
     """
-    if known is not None and known.shift is not None and found.material.reference is not None:
-        known = known.at_reference(found.material.reference)
     figure = new_figure()
-    plot_identified_modulus(figure.subplots(), found, known)
+    plot_identified_modulus(figure.subplots(), found, _at_reference(known, found))
     return figure
+
+
+def _at_reference(known: Material | None, found: Identified) -> Material | None:
+    if known is not None and known.shift is not None and found.material.reference is not None:
+        return known.at_reference(found.material.reference)
+    return known
+
+
+def indentation_figure(found: MaterialFromIndentation, known: Material | None = None) -> Figure:
+    """Return a figure of a modulus identified from indentation, the fits of its records, and their residuals.
+
+    Parameters
+    ----------
+    found : MaterialFromIndentation
+    known : Material, optional
+        To compare with, such as one of sweeps, at the reference temperature of the other.
+    """
+    kinds = list(dict.fromkeys(one.quantity for one in found.records))
+    figure = new_figure(height=3.4 * (1 + len(kinds)))
+    rows = figure.subplots(1 + len(kinds), 2, squeeze=False, width_ratios=(3, 2))
+    whole = rows[0][0].get_gridspec()
+    for axes in rows[0]:
+        axes.remove()
+    plot_identified_modulus(figure.add_subplot(whole[0, :]), found, _at_reference(known, found))
+    for (fit, residuals), quantity in zip(rows[1:], kinds, strict=True):
+        plot_fitted_records(fit, residuals, [one for one in found.records if one.quantity == quantity])
+    return figure
+
+
+def plot_fitted_records(axes: Axes, below: Axes, records: Sequence[FittedRecord]) -> None:
+    """Draw one measured quantity of records with its fit and 95 % limits, and the residuals on other axes.
+
+    Parameters
+    ----------
+    axes, below : matplotlib.axes.Axes
+    records : sequence of FittedRecord
+        All of one quantity.
+    """
+    for place, one in enumerate(records):
+        colour = f"C{place}"
+        order = np.argsort(one.along, kind="stable")
+        along = one.along[order]
+        axes.errorbar(
+            along, one.response[order], one.error[order] * one.response[order], fmt="o", color=colour, markersize=2.5,
+            elinewidth=0.6, label=f"{shown_celsius(float(one.record.temperature))} °C",
+        )  # fmt: skip
+        axes.plot(along, one.fitted[order], color=colour, linewidth=0.9)
+        axes.fill_between(along, one.lower[order], one.upper[order], color=colour, alpha=0.25, linewidth=0.0)
+        below.plot(along, one.residuals[order], "o", color=colour, markersize=2.5)
+    data = records[0].to_dataset()
+    unit = next(one.attrs for name, one in data.variables.items() if name in _ALONG)
+    label = f"{unit['long_name']} ({unit['units']})"
+    units = data["response"].attrs["units"]
+    axes.set(xscale="log", yscale="log", xlabel=label)
+    axes.set_ylabel(records[0].words + ("" if units == "1" else f" ({units.replace('m2', 'm²')})"))
+    below.axhspan(-1.96, 1.96, color=GREY, alpha=0.15, linewidth=0.0)
+    below.set(xscale="log", xlabel=label, ylabel="residual over its error")
+    for axis in (axes.xaxis, axes.yaxis, below.xaxis):
+        decade_ticks(axis)
+    axes.legend()
+
+
+_ALONG = ("time", "angular_frequency", "speed")

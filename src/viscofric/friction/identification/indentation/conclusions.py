@@ -8,15 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band, limits, prior_materials
+from viscofric.friction.identification.identified import IdentifiedBand
 from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
+from viscofric.friction.identification.indentation.setting_up import LEAST_POINTS
+from viscofric.friction.identification.indentation.tables import ReboundRecord
 from viscofric.friction.identification.iteration import freedom_of
 from viscofric.friction.identification.posterior import correlation
+from viscofric.friction.identification.problem import ROUGHNESS
 from viscofric.notes import Note
 from viscofric.rheology.spectra.quality import FROM_INDENTATION, SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.spectra.step_misfit import REACH
 
 if TYPE_CHECKING:
+    from viscofric.arrays import Array
     from viscofric.friction.identification.indentation.problem import IndentationProblem
     from viscofric.friction.identification.indentation.setting_up import Usable
     from viscofric.friction.identification.iteration import Weighed
@@ -51,11 +55,7 @@ def conclude(
     problem, shifts = best.problem, best.problem.shifts
     law = shift.at_reference(shifts.reference) if shift is not None and shifts.exact else None
     material_of = MaterialOf(problem, law, poisson_ratio, name)
-    log_alpha = problem.split(best.minimum.place)[1][list(problem.number)]
-    reduced = [np.array(one.lags) / np.exp(by) for one, by in zip(problem.contacts, log_alpha, strict=True)]
-    low, fastest = 1.0 / max(one[1] for one in reduced), 1.0 / min(one[0] for one in reduced)
-    kinds = ["creep" if one.creep else "relaxation" for one in problem.contacts]
-    high = max(*(REACH[kind] / one[0] for kind, one in zip(kinds, reduced, strict=True)), low)
+    low, high, fastest = _ends(problem, best.minimum.place)
     middle = float(np.sqrt(low * high))
     drawn = material_of.samples(posterior.drawn, (low, high))
     expected = prior_materials(material_of, best, samples, random)
@@ -66,6 +66,9 @@ def conclude(
     material = material_of(best.minimum.place, posterior.covariance)
     residuals = -problem.measured(best.minimum.place)[0]
     fitted = _fitted(usable, posterior)
+    narrow = _narrow(problem)
+    if narrow:
+        bands[2] = IdentifiedBand(middle, middle, limit, relative=False)
     found = MaterialFromIndentation(
         material=material,
         samples=drawn,
@@ -79,36 +82,56 @@ def conclude(
         frequency_range=(low, high),
         records=fitted,
         chi2=float(residuals @ residuals),
-        freedom=freedom_of(best, problem.count),
-        rms=float(np.sqrt(np.mean((residuals * np.concatenate(problem.errors)) ** 2))),
+        freedom=freedom_of(best, len(problem.errors)),
+        rms=float(np.sqrt(np.mean((residuals * problem.errors) ** 2))),
         error_scale=error_scale,
         roughness=problem.smoothness.roughness,
-        notes=(*usable.notes, *_doubts(fitted, error_scale)),
+        common_errors=_common_errors(usable, posterior),
+        notes=(*usable.notes, *_doubts(fitted, error_scale), *narrow),
     )
     return replace(found, material=_with_origin(found))
+
+
+def _ends(problem: IndentationProblem, place: Array) -> tuple[float, float, float]:
+    """Return the lowest angular frequency at the reference, rad/s, and the highest ones of E'' and of |E|."""
+    found = []
+    for number, contact in enumerate(problem.contacts):
+        trial = problem.trial(number, place)
+        found.append(np.exp(trial.log_alpha) * np.array(contact.ends(trial)))
+    low, high, fastest = np.array(found).T
+    return float(low.min()), float(max(high.max(), low.min())), float(fastest.max())
+
+
+def _common_errors(usable: Usable, posterior: Posterior[IndentationProblem]) -> dict[str, tuple[float, float]]:
+    """Return the errors in common that were given a standard deviation: what was found, and its standard error."""
+    problem = posterior.best.problem
+    if not problem.others:
+        return {}
+    first = len(posterior.best.minimum.place) - problem.others
+    named = {"radius": (0, problem.shared.radius), "load": (1, problem.shared.gain)}
+    for number, record in enumerate(usable.records):
+        if hasattr(record, "indentation") and not isinstance(record, ReboundRecord):
+            named[f"zero {number + 1}"] = 2 + number, problem.shared.zero
+    place, covariance = posterior.best.minimum.place, posterior.covariance
+    return {
+        name: (size * float(place[first + at]), size * float(np.sqrt(covariance[first + at, first + at])))
+        for name, (at, size) in named.items()
+        if size > 0.0
+    }
 
 
 def _fitted(usable: Usable, posterior: Posterior[IndentationProblem]) -> tuple[FittedRecord, ...]:
     """Return the measured and fitted responses of every record, with 95 % limits of the fit."""
     problem, place = posterior.best.problem, posterior.best.minimum.place
-    value, _ = problem.fitted(place)
-    lower, upper = limits(np.array([problem.fitted(row)[0] for row in posterior.drawn]))
-    found, first = [], 0
-    for record, contact, error in zip(usable.records, problem.contacts, problem.errors, strict=True):
-        rows = slice(first, first + len(contact))
-        first += len(contact)
-        found.append(
-            FittedRecord(
-                record,
-                contact.time,
-                contact.response,
-                np.exp(value[rows]),
-                np.exp(lower[rows]),
-                np.exp(upper[rows]),
-                error,
-                contact.count,
-            )
-        )
+    value, _ = problem.modelled(place)
+    lower, upper = limits(np.array([problem.modelled(row)[0] for row in posterior.drawn]))
+    found = []
+    for record, contact, rows in zip(usable.records, problem.contacts, problem.rows, strict=True):
+        for quantity, part in contact.parts:
+            own = slice(rows.start + part.start, rows.start + part.stop)
+            fit = (np.exp(one[own]) for one in (value, lower, upper))
+            points = contact.along[part], contact.response[part], *fit, problem.errors[own], contact.count[part]
+            found.append(FittedRecord(record, quantity, *points))
     return tuple(found)
 
 
@@ -124,13 +147,15 @@ def _doubts(records: tuple[FittedRecord, ...], error_scale: float) -> list[Note]
                 values={"factor": error_scale},
             )
         )
-    for number, one in enumerate(records, 1):
+    each = list(dict.fromkeys(id(one.record) for one in records))
+    for one in records:
+        number = 1 + each.index(id(one.record))
         size = float(np.sqrt(np.mean((one.residuals * one.error) ** 2)))
-        if size > WORTH_A_NOTE and correlation(one.residuals) > FOLLOWING:
+        if size > WORTH_A_NOTE and len(one.along) > LEAST_POINTS and correlation(one.residuals) > FOLLOWING:
             notes.append(
                 Note(
                     "structured-residuals",
-                    f"Record {number}: the residuals, {100.0 * size:.2g} % of the response, are correlated over time: "
+                    f"Record {number}: the residuals of {one.words}, {100.0 * size:.2g} % of it, are correlated: "
                     "they are not scatter, and the bands are too narrow; check the zero of the depth, the beginning of "
                     "the test, and whether the material is linear.",
                     values={"record": number, "rms": size},
@@ -139,13 +164,25 @@ def _doubts(records: tuple[FittedRecord, ...], error_scale: float) -> list[Note]
     return notes
 
 
+def _narrow(problem: IndentationProblem) -> list[Note]:
+    """Return a note on a spectrum that is less smooth than the prior has it."""
+    if problem.smoothness.roughness < ROUGHNESS[-1]:
+        return []
+    said = (
+        "The spectrum is not smooth: the material has almost a single retardation time, or a few. The fit misses the "
+        "response by up to 1 or 2 %, the 95 % bands are too narrow, and E'' does not count as identified; fit a few "
+        "modes to the response instead."
+    )
+    return [Note("narrow-spectrum", said, values={"roughness": problem.smoothness.roughness})]
+
+
 def _with_origin(found: MaterialFromIndentation) -> Material:
     """Return the material with its origin, for its file."""
     spectrum, ends = found.material.spectrum, found.identified
     if not isinstance(spectrum, RetardationSpectrum):
         raise TypeError("an identified material is one of retardation modes.")
     reach = (ends.low, ends.high) if ends.high > ends.low else (found.middle, found.middle)
-    behind = ", ".join(dict.fromkeys(one.record.source for one in found.records if one.record.source))
+    behind = ", ".join(dict.fromkeys(source for one in found.records if (source := getattr(one.record, "source", ""))))
     origin = Note(
         "identified-from-indentation",
         f"The material was identified from indentation{f' ({behind})' if behind else ''}; none of its moduli was "

@@ -17,195 +17,146 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.motion.springs import elastic_radius, profile
+from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial
+from viscofric.friction.identification.indentation.rows import RowsContact, changes
+from viscofric.rheology.spectra.step_misfit import contour
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.identification.indentation.record import IndentationRecord
+    from numpy.typing import NDArray
+
+    from viscofric.arrays import Array
+    from viscofric.friction.identification.indentation.rows import Reduced, Rows
 
 
 #: Points per decade of time at which J or E is evaluated; interpolation by cubics is then good to 1e-5 of it.
 GRID = 20
-#: Rows are averaged over so many equal parts of each decade of time since the last kink of the prescribed quantity.
-PARTS = 20
-#: … or since the first row, if there are more kinks than this.
-MOST_KINKS = 12
-#: Allowed error of omitting knots of the prescribed quantity, relative to its largest value; for many rows also their
-#: scatter, up to a part of the largest value.
-SIMPLIFIED, MANY_ROWS, SCATTERS, MOST_SIMPLIFIED = 1e-6, 400, 3.0, 1e-3
-#: A smaller fall of the depth, relative to the largest depth, does not count as shrinking.
-LEAST_FALL = 1e-4
 #: Ratio of prescribed depths between which X is taken as linear, good to 1.5e-4 of it, and the least depth over the
 #: largest one at which that is so.
 FINE, LEAST_DEPTH = 1.04, 1e-4
-#: A response below this many standard errors is left out: the error of its logarithm is not normal.
-CLEAR = 5.0
 #: Times below this fraction of the first row's time are not resolved.
 SHORTEST = 1e-5
-#: X is tabulated up to this multiple of the contact radius at the largest depth, as errors extend beyond it.
-BEYOND, _RADII = 2.0, 400
 BLOCK = 500_000  # lags at once
-
-
-class Reduced:
-    """X(δ) of a body of revolution, m²: the load over the plane-strain modulus E/(1−ν²)."""
-
-    def __init__(self, indenter: Indenter, largest: float) -> None:
-        self._radius = elastic_radius(indenter, largest, None, 1.0)
-        self._depths = self._values = None
-        if not indenter.has_walls:
-            nodes, weights = np.polynomial.legendre.leggauss(20)
-            radii = self._radius * np.geomspace(1e-6, BEYOND, _RADII)
-            self._depths = profile(indenter, radii)
-            inner = profile(indenter, 0.5 * radii[:, None] * (nodes + 1.0)) @ (0.5 * weights)
-            self._values = 2.0 * radii * (self._depths - inner)
-
-    def __call__(self, depth: Array) -> Array:
-        """Return X, m², zero above the surface."""
-        pressed = np.maximum(depth, 0.0)
-        if self._depths is None or self._values is None:
-            return np.asarray(2.0 * self._radius * pressed)
-        least = float(self._depths[0])
-        logs = np.interp(np.log(np.maximum(pressed, least)), np.log(self._depths), np.log(self._values))
-        return np.asarray(np.where(pressed > least, np.exp(logs), 0.0))
-
-    @property
-    def radius(self) -> float:
-        """Contact radius at the largest depth, m."""
-        return self._radius
+#: Negligible change of ln α: where α is known, it is held to 1e-7.
+SAME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Growing:
+class Growing(RowsContact):
     """The usable rows of a record, averaged, as linear functionals of J (load prescribed) or E (depth prescribed)."""
 
-    creep: bool
-    time: Array  # (n,), since the start, mean of the rows averaged, s
-    lags: tuple[float, float]  # shortest and longest time since a change of what was prescribed, s
-    response: Array  # (n,), X in m², or load in N
-    error: Array | None  # (n,), relative standard error; None where it is not known
-    count: Array  # (n,), rows averaged
     grid: Array  # (G,), times at which R and M are evaluated, s
     weights: Array  # (n, 2G), of M and of R: their product with both is the response times E/(1−ν²), or its inverse
-    shrinking: int  # rows left out from where the contact shrinks
-    unclear: int  # rows of the contact left out, as the response is not clearly above its scatter
+    # relative changes of X by the radius and, in creep, by the zero of the depth (n,), by one standard deviation
+    by_radius: float
+    by_zero: Array | float
+    # in relaxation: the same weights of the change of X by one standard deviation of the zero
+    zero_weights: Array | None
+    gain: float  # standard deviation of the load cell's gain
+    by_springs: bool = False
 
-    def __len__(self) -> int:
-        return len(self.time)
+    @property
+    def log_elastic(self) -> float:
+        """Ln of the plane-strain compliance of an elastic contact."""
+        of_elastic = np.maximum(self.weights @ np.ones(self.weights.shape[1]), 1e-300)
+        elastic = float(np.median(np.log(self.response / of_elastic)))
+        return elastic if self.rows.creep else -elastic
+
+    def functional(self, tau: Array) -> Functional:
+        """Return the response as a function of the material, for retardation times (m,) at the reference."""
+        return Functional(self, tau)
 
 
-def growing(record: IndentationRecord, reduced: Reduced, *, has_walls: bool) -> Growing:
-    """Return the usable rows of a record, up to where the contact begins to shrink."""
-    end = len(record) if has_walls else _shrinks(record)
-    time = record.time[:end] - record.start
-    creep = record.control == "load"
-    load, depth = (np.maximum(column[:end], 0.0) for column in (record.load, record.indentation))
-    prescribed, measured = (load, depth) if creep else (depth, load)
-    prescribed[: _contact(prescribed)] = 0.0
-    response = reduced(depth) if creep else load
-    error = None
-    if record.error is not None:
-        up = record.indentation[:end] + record.error[:end]
-        moved = reduced(up) - response if creep else record.error[:end]
-        error = moved / np.maximum(response, 1e-300)
-    knots, values = _knots(time, prescribed)
-    changes, jumps = _changes(knots, values)
-    kinks = knots[(changes != 0.0) | (jumps != 0.0)]
-    if not creep:
+class _Kernel(NamedTuple):
+    """Matrices that depend on the retardation times only, for one shift factor."""
+
+    log_alpha: float
+    relaxed: NDArray[Any]  # (G K, m), 1/(1 + s τ) at the nodes
+    creep: Array  # (n, m), weighted, if the load was prescribed
+
+
+class Functional:
+    """Response of a growing contact to compliances, by its Laplace transform along a contour (`step_misfit`)."""
+
+    def __init__(self, contact: Growing, tau: Array) -> None:
+        self.contact, self.tau = contact, tau
+        nodes, weights = contour()
+        self._s = (nodes / contact.grid[:, None]).ravel()
+        self._rows = np.stack([weights / nodes, weights])  # of the mean, and of the value
+        self._kernel: _Kernel | None = None
+        self._total = contact.weights @ np.ones(2 * len(contact.grid))
+
+    def __call__(self, trial: Trial) -> Answer:
+        """Return the response of a material."""
+        strengths, contact = np.exp(trial.compliances), self.contact
+        glass, C = float(strengths[0]), strengths[1:]
+        value, changes, moved = self._response(glass, C, trial.log_alpha, trial.extra)
+        sign = 1.0 if contact.rows.creep else -1.0
+        shared = np.zeros((len(contact), 3))
+        shared[:, 0], shared[:, 1], shared[:, 2] = -sign * contact.by_radius, sign * contact.gain, -contact.by_zero
+        if contact.zero_weights is not None:
+            compliance = glass + trial.extra + self._at(trial.log_alpha).relaxed @ C
+            shared[:, 2] = (contact.zero_weights @ self._both(1.0 / compliance))[:, 0] / value
+        log_value = np.log(value) + sign * np.log(trial.plane_strain)
+        return Answer(log_value, changes / value[:, None], moved / value, shared)
+
+    def _response(self, glass: float, C: Array, log_alpha: float, extra: float) -> tuple[Array, Array, Array]:
+        """Return ∫ J dI, or ∫ E dI, (n,), with its changes by ln of the compliances (n, 1 + m) and by ln α (n,).
+
+        `glass` and `C` (m,) are compliances at the reference, `extra` that of an elastic indenter, 1/Pa.
+        """
+        kernel = self._at(log_alpha)
+        if self.contact.rows.creep:
+            changes = np.concatenate([(self._total * glass)[:, None], kernel.creep * C], axis=1)
+            value = changes.sum(axis=1) + self._total * extra
+            moved = self._weighted((C * kernel.relaxed * (kernel.relaxed - 1.0)).sum(axis=1)[:, None])[:, 0]
+            return value, changes, moved
+        modes = kernel.relaxed * C
+        compliance = glass + extra + modes.sum(axis=1)
+        slope = -1.0 / compliance**2
+        value = self._weighted((1.0 / compliance)[:, None])[:, 0]
+        by_alpha = (modes * (kernel.relaxed - 1.0)).sum(axis=1)
+        columns = np.concatenate([np.full((len(modes), 1), glass), modes, by_alpha[:, None]], axis=1)
+        changes = self._weighted(slope[:, None] * columns)
+        return value, changes[:, :-1], changes[:, -1]
+
+    def _at(self, log_alpha: float) -> _Kernel:
+        if self._kernel is None or abs(self._kernel.log_alpha - log_alpha) > SAME:
+            relaxed = 1.0 / (1.0 + np.outer(self._s, np.exp(log_alpha) * self.tau))
+            creep = self._weighted(relaxed) if self.contact.rows.creep else np.zeros((0, 0))
+            self._kernel = _Kernel(log_alpha, relaxed, creep)
+        return self._kernel
+
+    def _weighted(self, transform: NDArray[Any]) -> Array:
+        """Return the response (n, k) of functions of s at the nodes of every time on the grid, (G K, k)."""
+        return np.asarray(self.contact.weights @ self._both(transform))
+
+    def _both(self, transform: NDArray[Any]) -> Array:
+        """Return M and R on the grid (2G, k)."""
+        shaped = transform.reshape(len(self.contact.grid), self._rows.shape[1], -1)
+        both = (self._rows @ shaped).real.swapaxes(0, 1)
+        return np.asarray(both.reshape(2 * len(self.contact.grid), -1))
+
+
+def growing(rows: Rows, reduced: Reduced, shared: Shared = EXACT, by_radius: float = 0.0) -> Growing:
+    """Return a record whose contact grows; `by_radius` is d ln X/d ln R at a given depth."""
+    knots, values, moved = rows.knots, rows.values, None
+    if not rows.creep:
         knots, depths = _subdivided(knots, values)
         values = reduced(depths)
-        changes, jumps = _changes(knots, values)
-    starts = float(knots[max(int(np.argmax(values > 0.0)) - 1, 0)])
-    after = (time > starts) & ~np.isin(time, knots[jumps != 0.0])
-    clear = after & (response > 0.0)
-    clear &= measured > CLEAR * _scatter(measured) if error is None else error < 1.0 / CLEAR
-    left_out = len(record) - end, int(np.count_nonzero(after & ~clear))
-    if not (len(kinks) and np.any(clear)):
-        none = np.zeros(0)
-        return Growing(creep, none, (np.inf, 0.0), none, None, none, none, np.zeros((0, 0)), *left_out)
-    time, response = time[clear], response[clear]
-    last = np.searchsorted(kinks, time, side="left") - 1 if len(kinks) <= MOST_KINKS else np.zeros(len(time), int)
-    since = time - kinks[last]
-    number = _parts(since, last)
-    grid, weights = _weights(time, knots, changes, jumps)
-    count = np.bincount(number).astype(float)
-    average = np.zeros((len(count), len(number)))
-    average[number, np.arange(len(number))] = 1.0 / count[number]
-    mean = average @ response
-    spread = None
-    if error is not None:
-        spread = np.sqrt((average**2) @ (error[clear] * response) ** 2) / mean
-    lags = float(since.min()), float(time.max() - kinks[0])
-    return Growing(creep, average @ time, lags, mean, spread, count, grid, average @ weights, *left_out)
-
-
-def _contact(prescribed: Array) -> int:
-    """Return the row before which a record shows no more than scatter: the approach to the surface."""
-    return int(np.argmax(prescribed > SCATTERS * _scatter(prescribed)))
-
-
-def _shrinks(record: IndentationRecord) -> int:
-    """Return the row from which the contact shrinks; the number of rows if it does not.
-
-    It may shrink once the prescribed quantity falls by more than its scatter.  Under a falling load the depth may still
-    grow for a while.
-    """
-    prescribed = record.load if record.control == "load" else record.indentation
-    largest = np.maximum.accumulate(prescribed)
-    scatter, least = _scatter(prescribed), LEAST_FALL * float(np.max(prescribed))
-    fallen = np.flatnonzero(largest - prescribed > max(8.0 * scatter, least))
-    if not len(fallen):
-        return len(prescribed)
-    peak = largest[fallen[0]]
-    begins = int(np.flatnonzero(prescribed[: fallen[0]] >= peak - max(3.0 * scatter, 0.1 * least))[-1]) + 1
-    if record.control == "indentation":
-        return begins
-    depth = record.indentation
-    allowed = max(3.0 * _scatter(depth), LEAST_FALL * float(np.max(depth)))
-    shrunk = np.flatnonzero((np.maximum.accumulate(depth) - depth > allowed)[begins:])
-    return begins + int(shrunk[0]) if len(shrunk) else len(depth)
-
-
-def _scatter(values: Array) -> float:
-    """Return the scatter of rows about a smooth curve from the median of their second differences."""
-    return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6.0))
-
-
-def _knots(time: Array, values: Array) -> tuple[Array, Array]:
-    """Return the fewest knots between which the prescribed quantity is linear, to its scatter; zero before."""
-    most = float(np.max(values))
-    tolerance = SIMPLIFIED * most
-    if len(values) > MANY_ROWS:
-        tolerance = max(tolerance, min(SCATTERS * _scatter(values), MOST_SIMPLIFIED * most))
-    keep = np.zeros(len(time), dtype=bool)
-    keep[[0, -1]] = True
-    keep[1:] |= np.diff(time) == 0.0  # jumps
-    keep[:-1] |= np.diff(time) == 0.0
-    places = np.flatnonzero(keep)
-    pieces = list(pairwise(places))
-    while pieces:  # D. H. Douglas, T. K. Peucker, Cartographica 10 (1973) 112
-        low, high = pieces.pop()
-        if high - low < 2 or time[high] == time[low]:
-            continue
-        share = (time[low : high + 1] - time[low]) / (time[high] - time[low])
-        away = np.abs(values[low : high + 1] - values[low] - share * (values[high] - values[low]))
-        worst = low + int(np.argmax(away))
-        if away[worst - low] > tolerance:
-            keep[worst] = True
-            pieces += [(low, worst), (worst, high)]
-    knots, chosen = time[keep], values[keep]
-    level = np.isclose(np.diff(chosen), 0.0, rtol=0.0, atol=tolerance)
-    chosen = chosen.copy()
-    for place in np.flatnonzero(level):  # a hold is level
-        chosen[place + 1] = chosen[place]
-    # Before the start nothing acts; the first value acts from there on.
-    early = 2 if knots[0] > 0.0 else 1
-    return np.append(np.zeros(early), knots), np.concatenate([[0.0], np.repeat(chosen[0], early - 1), chosen])
+        moved = changes(knots, shared.zero * reduced.slope(depths))
+    bends, jumps = changes(knots, values)
+    grid, weights = _weights(rows.time, knots, bends, jumps)
+    by_zero, zero_weights = np.zeros(len(rows)), None
+    if shared.zero > 0.0 and rows.creep:
+        by_zero = rows.average @ (shared.zero * reduced.slope(rows.depth)) / rows.response
+    elif shared.zero > 0.0 and moved is not None:
+        zero_weights = rows.average @ _weights(rows.time, knots, *moved, grid)[1]
+    weights = rows.average @ weights
+    return Growing(rows, grid, weights, shared.radius * by_radius, by_zero, zero_weights, shared.gain)
 
 
 def _subdivided(knots: Array, depths: Array) -> tuple[Array, Array]:
@@ -223,32 +174,16 @@ def _subdivided(knots: Array, depths: Array) -> tuple[Array, Array]:
     return np.concatenate(times), np.concatenate(values)
 
 
-def _changes(knots: Array, values: Array) -> tuple[Array, Array]:
-    """Return the change of slope and the jump at each knot."""
-    steps, rises = np.diff(knots), np.diff(values)
-    slopes = np.divide(rises, steps, out=np.zeros_like(rises), where=steps > 0.0)
-    changes = np.zeros(len(knots))
-    changes[:-1] += slopes
-    changes[1:] -= slopes
-    jumps = np.zeros(len(knots))
-    jumps[1:] = np.where(steps == 0.0, rises, 0.0)
-    return changes, jumps
-
-
-def _parts(since: Array, kink: Integers) -> Integers:
-    """Return the number of the average that each row belongs to."""
-    part = np.floor(np.log10(np.maximum(since, 1e-300)) * PARTS + 1e-9).astype(np.int64)
-    return np.asarray(np.unique(np.stack([kink, part], axis=1), axis=0, return_inverse=True)[1]).ravel()
-
-
-def _weights(time: Array, knots: Array, changes: Array, jumps: Array) -> tuple[Array, Array]:
+def _weights(time: Array, knots: Array, bends: Array, jumps: Array, grid: Array | None = None) -> tuple[Array, Array]:
     """Return the grid of times (G,) and the weights (n, 2G) of M and of R on it; `time` (n,) lies after a knot."""
-    acting = (changes != 0.0) | (jumps != 0.0)
-    knots, changes, jumps = knots[acting], changes[acting], jumps[acting]
+    acting = (bends != 0.0) | (jumps != 0.0)
+    knots, bends, jumps = knots[acting], bends[acting], jumps[acting]
     low = float(np.min(time - knots[np.searchsorted(knots, time, side="left") - 1]))
     low = max(low, SHORTEST * float(time.min() - knots[0]))
     high = float(time.max() - knots[0])
-    count = max(4, int(np.ceil(GRID * np.log10(high / low))) + 1)
+    if grid is not None:
+        low, high = float(grid[0]), float(grid[-1])
+    count = max(4, int(np.ceil(GRID * np.log10(high / low))) + 1) if grid is None else len(grid)
     spacing = max(np.log(high / low) / (count - 1), 1e-3)
     weights = np.zeros(len(time) * 2 * count)
     for block in np.array_split(np.arange(len(time)), max(1, len(time) * len(knots) // BLOCK)):
@@ -262,6 +197,6 @@ def _weights(time: Array, knots: Array, changes: Array, jumps: Array) -> tuple[A
             others = [other for other in range(4) if other != node]
             share = np.prod([(x - other) / (node - other) for other in others], axis=0)
             of_mean, of_value = block[rows] * 2 * count + cell + node, (block[rows] * 2 + 1) * count + cell + node
-            weights += np.bincount(of_mean, share * changes[columns] * lag, len(weights))
+            weights += np.bincount(of_mean, share * bends[columns] * lag, len(weights))
             weights += np.bincount(of_value, share * jumps[columns], len(weights))
     return low * np.exp(spacing * np.arange(count)), weights.reshape(len(time), -1)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 
@@ -12,19 +11,20 @@ from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError
 from viscofric.friction.identification.indentation.conclusions import conclude
-from viscofric.friction.identification.indentation.record import IndentationRecord
-from viscofric.friction.identification.indentation.setting_up import problem_of, shifts_of, usable_records
-from viscofric.friction.identification.iteration import freedom_of, most_evident, weighed
+from viscofric.friction.identification.indentation.contact import Shared
+from viscofric.friction.identification.indentation.problem import BySprings
+from viscofric.friction.identification.indentation.setting_up import Record, problem_of, shifts_of, usable_records
+from viscofric.friction.identification.iteration import freedom_of, identify, most_evident, weighed
 from viscofric.friction.identification.posterior import descend
 from viscofric.motion.springs import is_body_of_revolution
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, positive
+from viscofric.units import checked_poisson_ratio, positive, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.arrays import Array
+    from viscofric.arrays import Array, Mask
     from viscofric.friction.identification.indentation.problem import IndentationProblem
     from viscofric.friction.identification.indentation.result import MaterialFromIndentation
     from viscofric.friction.identification.iteration import Weighed
@@ -35,13 +35,15 @@ FEWEST_SAMPLES, FEWEST_MODES = 20, 8
 SETTLED, PASSES = 0.05, 4
 #: Smallest relative error of a response, from discretisation in time.
 LEAST_ERROR = 1e-4
+#: Largest relative errors in common: their effect is taken to first order.
+LARGEST_SHARED = 0.2
 #: Residuals this many standard deviations above their expectation enlarge the given errors.
 DOUBTFUL = 3.0
 
 
 @one_blas_thread
 def identify_from_indentation(
-    records: IndentationRecord | Sequence[IndentationRecord],
+    records: Record | Sequence[Record],
     indenter: Indenter,
     *,
     shift: ShiftLaw | None = None,
@@ -49,20 +51,24 @@ def identify_from_indentation(
     poisson_ratio: float = 0.5,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
+    radius_error: float = 0.0,
+    load_error: float = 0.0,
+    zero_error: Quantity = 0.0,
     modes: int = 30,
     limit: float = 0.05,
     samples: int = 200,
     seed: int = 0,
     name: str = "identified from indentation",
 ) -> MaterialFromIndentation:
-    """Identify the retardation spectrum, and α(T), from indentation tests.
+    """Identify the retardation spectrum, and α(T), from indentation tests and rebounds.
 
-    Creep (the depth after a step of load), relaxation (the load after a step of depth) and any other record while the
-    contact grows, such as ramps and holds; rows from where it shrinks are left out, with a note.
+    Creep (the depth after a step of load), relaxation (the load after a step of depth), and any other load and depth
+    over time, such as ramps, unloading and oscillations; stiffness over frequency; restitution, contact time, largest
+    force and depth of impacts.
 
     Parameters
     ----------
-    records : IndentationRecord or list of IndentationRecord
+    records : IndentationRecord, OscillationRecord, ReboundRecord, ModulusAnchor, or list of them
         Each at a point of the material that was never in contact before.
     indenter : Indenter
         A body of revolution: Ball, Cone or FlatPunch.
@@ -78,6 +84,11 @@ def identify_from_indentation(
         Young's modulus of an elastic indenter, Pa if a plain number; rigid without it.
     indenter_poisson_ratio : float
         Of an elastic indenter.
+    radius_error, load_error : float
+        Relative standard deviations of the indenter's radius and of the load cell's gain, which all records share;
+        0, by default: taken as exact.
+    zero_error : float, str or pint.Quantity
+        Standard deviation of the zero of the depth, m, of its own for every record; 0, by default: taken as exact.
     modes : int
         Number of retardation times; more are used if these would be more than 0.4 decades apart.
     limit : float
@@ -96,24 +107,27 @@ def identify_from_indentation(
     Raises
     ------
     InputError
-        If a value cannot be used, a record has too few rows in which the contact grows (oscillation, rebound), or
-        α(T) is neither given nor to be found because the temperatures do not overlap.
+        If a value cannot be used, a record has too few clear rows, the level of the modulus does not follow from the
+        records, or α(T) is neither given nor to be found because the temperatures do not overlap.
     ConvergenceError
-        If the fit does not converge.
+        If the fit does not converge, or a contact is not one disc.
 
     Notes
     -----
     While the contact of a body of revolution grows, its record is linear in J(t), or in E(t) (E. H. Lee, J. R. M.
     Radok, J. Appl. Mech. 27 (1960) 438): for a ball δ^{3/2}(t) = (3/4)(1−ν²)/√R ∫J(t−s)dF(s) and
-    F(t) = (4/3)√R/(1−ν²) ∫E(t−s)dδ^{3/2}(s).  What was prescribed is taken as exact and linear between the rows.
+    F(t) = (4/3)√R/(1−ν²) ∫E(t−s)dδ^{3/2}(s).  Records in which the contact shrinks, and impacts, are solved by springs
+    with memory, as by `solve_transient` and `solve_impact`, with their derivatives by every mode; contacts are solved
+    again for the material found until it no longer changes.  The stiffness of small oscillations is 2a E(ω)/(1−ν²).
+    What was prescribed is taken as exact and linear between the rows.
     ln of the response is fitted, averaged over twentieths of a decade of time since what was prescribed last changed
     its slope, with the prior, the evidence and the samples of `identify_material`: unknowns are ln C_k, ln E_inf and
-    ln α.  Several temperatures are first fitted one by one, their J(t) is superposed as creep tests are, and the
-    factors are then refined together with the spectrum.
+    ln α, and the errors in common with the standard deviations given.  Several temperatures are first fitted one by
+    one, their J(t) is superposed as creep tests are, and the factors are then refined together with the spectrum.
 
-    Assumed are a half-space, small strain, no friction and no adhesion in the contact.  The bands leave out
-    errors that all rows of a record share: those of the indenter's radius, the machine's compliance and above all the
-    zero of the depth: 1 % of the radius is 0.5 % of the modulus, 1 % of the depth 1.5 %.
+    Assumed are a half-space, small strain, no friction and no adhesion in the contact, and of impacts no waves.
+    Bands leave out errors in common that are not given: 1 % of the radius is 0.5 % of the modulus, 1 % of the depth
+    1.5 %.
 
     Examples
     --------
@@ -133,6 +147,11 @@ def identify_from_indentation(
     True
     """
     several = _checked(records, indenter, shift)
+    shared = Shared(
+        _deviation(radius_error, "dimensionless", "radius_error"),
+        _deviation(load_error, "dimensionless", "load_error"),
+        _deviation(zero_error, "m", "zero_error"),
+    )
     ratio = checked_poisson_ratio(poisson_ratio)
     for label, value, fewest in (
         ("modes", modes, FEWEST_MODES),
@@ -146,21 +165,32 @@ def identify_from_indentation(
     kelvin = None if reference is None else positive(reference, "K", "reference")
     plane_strain = 1.0 - ratio**2
     extra = indenter_compliance(indenter_modulus, indenter_poisson_ratio) / plane_strain
-    usable = usable_records(several, indenter)
+    usable = usable_records(several, indenter, shared)
     usable, shifts = shifts_of(usable, shift, kelvin, plane_strain, extra)
-    problem = problem_of(usable, shifts, plane_strain, extra, modes)
+    problem = problem_of(usable, shifts, plane_strain, extra, modes, shared)
     fits, scale = _fitted(problem)
     return conclude(
         usable, fits, scale, shift=shift, poisson_ratio=ratio, name=name, limit=limit, samples=samples, seed=seed
     )
 
 
-def _checked(records: object, indenter: object, shift: object) -> tuple[IndentationRecord, ...]:
+def _deviation(value: Quantity, unit: str, name: str) -> float:
+    """Return a standard deviation, zero or above."""
+    found = to_si(value, unit, name)
+    if found < 0.0 or (unit == "dimensionless" and found > LARGEST_SHARED):
+        most = f" to {LARGEST_SHARED:g}" if unit == "dimensionless" else " on"
+        raise InputError(
+            f"{name} = {value!r}: must be a standard deviation from 0{most}.", code="out-of-range", field=name
+        )
+    return float(found)
+
+
+def _checked(records: object, indenter: object, shift: object) -> tuple[Record, ...]:
     several = tuple(records) if isinstance(records, (list, tuple)) else (records,)
     if not several:
         raise InputError("records: none given.", code="too-few-points", field="records")
     for one in several:
-        insist_on(one, "records", IndentationRecord, right="an IndentationRecord, or a list of them")
+        insist_on(one, "records", *get_args(Record), right="an IndentationRecord, or a list of records")
     insist_on(shift, "shift", ShiftLaw, type(None), right="a shift law, ShiftFactors or None")
     insist_on_indenter(indenter)
     assert isinstance(indenter, Indenter)
@@ -179,53 +209,54 @@ def _fitted(problem: IndentationProblem) -> tuple[list[Weighed[IndentationProble
 
     The factor by which given errors were enlarged is returned too.
     """
-    start = np.concatenate([problem.smoothness.middle, problem.shifts.middle])
-    place = descend(problem, start, metric=problem.metric).place
-    fits = weighed(problem, place)
-    unknown = [contact.error is None for contact in problem.contacts]
-    for _ in range(PASSES if any(unknown) else 0):
+    fits = _settled(problem, problem.start)
+    unknown = np.repeat([one.error is None for one in problem.contacts], [len(one) for one in problem.contacts])
+    for _ in range(PASSES if np.any(unknown) else 0):
         best = most_evident(fits)
-        errors = _errors(best)
-        errors = tuple(new if found else old for new, old, found in zip(errors, problem.errors, unknown, strict=True))
-        changed = max(float(np.max(np.abs(np.log(new / old)))) for new, old in zip(errors, problem.errors, strict=True))
-        problem = replace(problem, errors=errors)
-        fits = weighed(problem, best.minimum.place)
+        errors = np.where(unknown, _errors(best), best.problem.errors)
+        changed = float(np.max(np.abs(np.log(errors / best.problem.errors))))
+        fits = _settled(best.problem.with_errors(errors), best.minimum.place)
         if changed < SETTLED:
             break
-    if all(unknown):
+    if np.all(unknown):
         return fits, 1.0
-    given, scale = problem.errors, 1.0
+    given, scale = most_evident(fits).problem.errors, 1.0
     for _ in range(PASSES):
         best = most_evident(fits)
-        ratio = _ratio(best, unknown)
-        if scale == 1.0 and ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / best.problem.count):
+        ratio = _ratio(best, ~unknown)
+        if scale == 1.0 and ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / len(unknown)):
             break
         scale *= max(float(np.sqrt(ratio)), 1.0 / scale)
-        larger = tuple(error if found else scale * error for error, found in zip(given, unknown, strict=True))
-        fits = weighed(replace(problem, errors=larger), best.minimum.place)
+        larger = np.where(unknown, given, scale * given)
+        fits = _settled(best.problem.with_errors(larger), best.minimum.place)
         if abs(ratio - 1.0) < 2.0 * SETTLED:
             break
     return fits, scale
 
 
-def _ratio(best: Weighed[IndentationProblem], unknown: Sequence[bool]) -> float:
-    """Return the mean square of the residuals of records with given errors, relative to its expectation."""
-    problem = best.problem
-    given = np.repeat(~np.array(unknown), [len(contact) for contact in problem.contacts])
-    away = problem.measured(best.minimum.place)[0][given]
-    left = max(freedom_of(best, problem.count), 1.0) / problem.count
-    return float(np.mean(away**2)) / left
+def _settled(problem: IndentationProblem, start: Array) -> list[Weighed[IndentationProblem]]:
+    """Return the fits at every roughness, from responses that are solved for their material."""
+    if not any(contact.by_springs for contact in problem.contacts):
+        return weighed(problem, descend(problem, start, metric=problem.metric).place)
+    solver = BySprings()
+    solved = problem if len(problem.functionals) == len(problem.contacts) else solver.solved(problem, start, 0)
+    return identify(solved, solver, start)[0]
 
 
-def _errors(best: Weighed[IndentationProblem]) -> tuple[Array, ...]:
+def _ratio(best: Weighed[IndentationProblem], given: Mask) -> float:
+    """Return the mean square of the residuals with given errors, relative to its expectation."""
+    away = best.problem.measured(best.minimum.place)[0]
+    left = max(freedom_of(best, len(away)), 1.0) / len(away)
+    return float(np.mean(away[given] ** 2)) / left
+
+
+def _errors(best: Weighed[IndentationProblem]) -> Array:
     """Return errors of the size of the residuals for every record; they vary with the number of averaged rows only."""
     problem = best.problem
-    away = problem.measured(best.minimum.place)[0]
-    left = max(freedom_of(best, problem.count), 1.0) / problem.count
-    found, first = [], 0
-    for contact, error in zip(problem.contacts, problem.errors, strict=True):
-        own = away[first : first + len(contact)] * error * np.sqrt(contact.count)
-        first += len(contact)
-        size = float(np.sqrt(np.mean(own**2) / left))
-        found.append(np.maximum(size / np.sqrt(contact.count), LEAST_ERROR))
-    return tuple(found)
+    away = problem.measured(best.minimum.place)[0] * problem.errors
+    left = max(freedom_of(best, len(away)), 1.0) / len(away)
+    found = np.empty(len(away))
+    for contact, rows in zip(problem.contacts, problem.rows, strict=True):
+        size = float(np.sqrt(np.mean(away[rows] ** 2 * contact.count) / left))
+        found[rows] = np.maximum(size / np.sqrt(contact.count), LEAST_ERROR)
+    return found

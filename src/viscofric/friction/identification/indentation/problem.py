@@ -1,115 +1,101 @@
-"""The least-squares problem of an identification from indentation: growing contacts, spectrum and shift factors."""
+"""The least-squares problem of an identification from indentation: contacts, spectrum, shift factors, common errors."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
+from viscofric.friction.identification.indentation.contact import EXACT, Answer, Nearby, Shared, Trial
 from viscofric.friction.identification.problem import SpectrumProblem
-from viscofric.rheology.spectra.step_misfit import contour
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable
 
     from viscofric.arrays import Array
-    from viscofric.friction.identification.indentation.growing import Growing
-
-
-#: Negligible change of ln α: where α is known, it is held to 1e-7.
-SAME = 1e-6
-
-
-class _Kernel(NamedTuple):
-    """Matrices that depend on the retardation times only, for one shift factor."""
-
-    log_alpha: float
-    relaxed: NDArray[Any]  # (G K, m), 1/(1 + s τ) at the nodes
-    creep: Array  # (n, m), weighted, if the load was prescribed
-
-
-class Functional:
-    """Response of a growing contact to compliances, by its Laplace transform along a contour (`step_misfit`)."""
-
-    def __init__(self, contact: Growing, tau: Array) -> None:
-        self.contact, self.tau = contact, tau
-        nodes, weights = contour()
-        self._s = (nodes / contact.grid[:, None]).ravel()
-        self._rows = np.stack([weights / nodes, weights])  # of the mean, and of the value
-        self._kernel: _Kernel | None = None
-        self._total = contact.weights @ np.ones(2 * len(contact.grid))
-
-    def __call__(self, glass: float, C: Array, log_alpha: float, extra: float) -> tuple[Array, Array, Array]:
-        """Return ∫ J dI, or ∫ E dI, (n,), with its changes by ln of the compliances (n, 1 + m) and by ln α (n,).
-
-        `glass` and `C` (m,) are compliances at the reference, `extra` that of an elastic indenter, 1/Pa.
-        """
-        kernel = self._at(log_alpha)
-        if self.contact.creep:
-            changes = np.concatenate([(self._total * glass)[:, None], kernel.creep * C], axis=1)
-            value = changes.sum(axis=1) + self._total * extra
-            moved = self._weighted((C * kernel.relaxed * (kernel.relaxed - 1.0)).sum(axis=1)[:, None])[:, 0]
-            return value, changes, moved
-        modes = kernel.relaxed * C
-        compliance = glass + extra + modes.sum(axis=1)
-        slope = -1.0 / compliance**2
-        value = self._weighted((1.0 / compliance)[:, None])[:, 0]
-        by_alpha = (modes * (kernel.relaxed - 1.0)).sum(axis=1)
-        columns = np.concatenate([np.full((len(modes), 1), glass), modes, by_alpha[:, None]], axis=1)
-        changes = self._weighted(slope[:, None] * columns)
-        return value, changes[:, :-1], changes[:, -1]
-
-    def _at(self, log_alpha: float) -> _Kernel:
-        if self._kernel is None or abs(self._kernel.log_alpha - log_alpha) > SAME:
-            relaxed = 1.0 / (1.0 + np.outer(self._s, np.exp(log_alpha) * self.tau))
-            creep = self._weighted(relaxed) if self.contact.creep else np.zeros((0, 0))
-            self._kernel = _Kernel(log_alpha, relaxed, creep)
-        return self._kernel
-
-    def _weighted(self, transform: NDArray[Any]) -> Array:
-        """Return the response (n, k) of functions of s at the nodes of every time on the grid, (G K, k)."""
-        shaped = transform.reshape(len(self.contact.grid), self._rows.shape[1], -1)
-        both = (self._rows @ shaped).real.swapaxes(0, 1)
-        return np.asarray(self.contact.weights @ both.reshape(2 * len(self.contact.grid), -1))
+    from viscofric.friction.identification.indentation.contact import Contact
 
 
 @dataclass(frozen=True, eq=False)
 class IndentationProblem(SpectrumProblem):
-    """Identification from growing contacts; the data are the logarithms of their responses."""
+    """Identification from contacts; the data are the logarithms of their responses."""
 
-    contacts: tuple[Growing, ...]
+    contacts: tuple[Contact, ...]
     number: tuple[int, ...]  # of each contact's temperature
-    errors: tuple[Array, ...]  # (n,) of each contact, of ln of the response
+    errors: Array  # (n,), of ln of the responses, contact by contact
     plane_strain: float  # 1 − ν²
     extra: float = 0.0  # (1 − ν_i²)/E_i of the indenter over the plane strain of the rubber, 1/Pa
-    functionals: dict[int, Functional] = field(default_factory=dict, repr=False)  # in common to all roughnesses
+    shared: Shared = EXACT
+    # of each contact; those by springs are near a material that was solved
+    functionals: dict[int, Callable[[Trial], Answer]] = field(default_factory=dict, repr=False)
 
-    @cached_property
-    def count(self) -> int:
-        """Number of measured values."""
-        return sum(len(contact) for contact in self.contacts)
+    @property
+    def others(self) -> int:
+        """Radius, gain, and the zero of every contact; none if all of them are exact."""
+        return 2 + len(self.contacts) if any(self.shared) else 0
 
-    def fitted(self, unknowns: Array) -> tuple[Array, Array]:
-        """Return ln of the modelled responses (count,), and their derivatives."""
+    @property
+    def rows(self) -> list[slice]:
+        """Points of each contact."""
+        ends = np.cumsum([0, *(len(contact) for contact in self.contacts)])
+        return [slice(int(first), int(last)) for first, last in pairwise(ends)]
+
+    @property
+    def point_errors(self) -> Array:
+        """Standard errors of ln of the responses (n,)."""
+        return self.errors
+
+    def with_errors(self, errors: Array) -> Self:
+        """Return the problem with other standard errors (n,)."""
+        return replace(self, errors=errors)
+
+    def trial(self, place: int, unknowns: Array) -> Trial:
+        """Return the material of the unknowns at the temperature of a contact."""
         compliances, log_alpha = self.split(unknowns)
-        strengths = np.exp(compliances)
-        values, changes = [], []
-        for place, (contact, number) in enumerate(zip(self.contacts, self.number, strict=True)):
+        alpha = float(log_alpha[self.number[place]])
+        return Trial(compliances, self.smoothness.tau, alpha, self.plane_strain, self.extra)
+
+    def modelled(self, unknowns: Array) -> tuple[Array, Array]:
+        """Return ln of the modelled responses (n,), with the errors in common, and their derivatives."""
+        values = np.zeros(len(self.errors))
+        changes = np.zeros((len(values), len(unknowns)))
+        others = unknowns[len(unknowns) - self.others :]
+        for place, (contact, rows) in enumerate(zip(self.contacts, self.rows, strict=True)):
             if place not in self.functionals:
-                self.functionals[place] = Functional(contact, self.smoothness.tau)
-            alpha = float(log_alpha[number])
-            found, change, moved = self.functionals[place](float(strengths[0]), strengths[1:], alpha, self.extra)
-            by_alpha = np.zeros((len(contact), len(log_alpha)))
-            by_alpha[:, number] = moved
-            values.append(np.log(found) + (1.0 if contact.creep else -1.0) * np.log(self.plane_strain))
-            changes.append(np.concatenate([change, by_alpha], axis=1) / found[:, None])
-        return np.concatenate(values), np.concatenate(changes)
+                self.functionals[place] = contact.functional(self.smoothness.tau)
+            found = self.functionals[place](self.trial(place, unknowns))
+            values[rows], changes[rows, : self.modes] = found.log_value, found.change
+            changes[rows, self.modes + self.number[place]] = found.by_alpha
+            if self.others:
+                first = len(unknowns) - self.others
+                columns = np.array([0, 1, 2 + place])
+                values[rows] += found.shared @ others[columns]
+                changes[rows, first + columns] = found.shared
+        return values, changes
 
     def measured(self, unknowns: Array) -> tuple[Array, Array]:
         """Return modelled minus measured ln of the responses over their errors, and their derivatives."""
-        value, change = self.fitted(unknowns)
-        error = np.concatenate(self.errors)
-        observed = np.concatenate([np.log(contact.response) for contact in self.contacts])
-        return (value - observed) / error, change / error[:, None]
+        value, change = self.modelled(unknowns)
+        observed = np.log(np.concatenate([contact.response for contact in self.contacts]))
+        return (value - observed) / self.errors, change / self.errors[:, None]
+
+
+@dataclass(frozen=True)
+class BySprings:
+    """Solver of the contacts that are not linear (`iteration.Solver`)."""
+
+    accuracy: float = 1e-3
+
+    def with_accuracy(self, accuracy: float) -> BySprings:
+        """Return itself: a solution costs less than choosing another accuracy."""
+        return self
+
+    def solved(self, problem: IndentationProblem, unknowns: Array, step: int) -> IndentationProblem:
+        """Return the problem with its contacts solved for the material of the unknowns."""
+        found = dict(problem.functionals)
+        for place, contact in enumerate(problem.contacts):
+            if contact.by_springs:
+                found[place] = Nearby.of(contact, problem.trial(place, unknowns))
+        return replace(problem, functionals=found)

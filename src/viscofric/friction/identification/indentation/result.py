@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,39 +11,59 @@ from viscofric.datasets import dataset
 from viscofric.friction.identification.identified import Identified
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import xarray
 
     from viscofric.arrays import Array
-    from viscofric.friction.identification.indentation.record import IndentationRecord
+    from viscofric.friction.identification.indentation.setting_up import Record
 
 
-#: Prescribed quantity -> unit and long name of what is fitted: X(δ), the load over E/(1−ν²), or the load.
-_FITTED = {"load": ("m2", "load over the plane-strain modulus, X(δ)"), "indentation": ("N", "normal load")}
+#: Quantity -> unit and long name.
+_FITTED = {
+    "X": ("m2", "load over the plane-strain modulus, X(δ)"),
+    "load": ("N", "normal load"),
+    "storage_stiffness": ("N/m", "storage stiffness"),
+    "loss_stiffness": ("N/m", "loss stiffness"),
+    "restitution": ("1", "coefficient of restitution"),
+    "contact_time": ("s", "contact time"),
+    "peak_force": ("N", "largest force"),
+    "indentation": ("m", "largest indentation"),
+    "magnitude_modulus": ("Pa", "|E|"),
+    "storage_modulus": ("Pa", "storage modulus"),
+    "loss_modulus": ("Pa", "loss modulus"),
+}
+_TIME = ("time", "s", "time since the start")
+_FREQUENCY = ("angular_frequency", "rad/s", "angular frequency")
+_SPEED = ("speed", "m/s", "speed of the impact")
 
 
 @dataclass(frozen=True, eq=False)
 class FittedRecord:
-    """The averaged rows of a record, and their fit.
+    """One measured quantity of a record, its rows averaged over time, and its fit.
 
     Attributes
     ----------
-    record : IndentationRecord
+    record : IndentationRecord, OscillationRecord, ReboundRecord or ModulusAnchor
         As given.
-    time : (n,) array
-        Since its start, s.
+    quantity : str
+        ``"X"``, if the load was prescribed over time: X(δ), m², which is (4/3) √R δ^{3/2} for a ball; ``"load"``, if
+        the depth was, N; or the name of a column of the record.
+    along : (n,) array
+        Time since the start, s; angular frequency, rad/s; speed of the impact, m/s.
     response : (n,) array
-        Measured response.  If the load was prescribed, X(δ), m², which is (4/3) √R δ^{3/2} for a ball; if the depth
-        was, the load, N.
+        Measured values.
     fitted, lower, upper : (n,) array
-        Response of the identified material, and its 95 % limits from the samples.
+        Those of the identified material, and their 95 % limits from the samples.
     error : (n,) array
-        Relative standard error of the response: as given, or as found from the residuals.
+        Relative standard errors: as given, or as found from the residuals.
     count : (n,) array
         Rows averaged.
     """
 
-    record: IndentationRecord
-    time: Array
+    record: Record
+    quantity: str
+    along: Array
     response: Array
     fitted: Array
     lower: Array
@@ -56,21 +76,27 @@ class FittedRecord:
         """Measured minus fitted logarithms, over the standard errors, (n,)."""
         return np.asarray(np.log(self.response / self.fitted) / self.error)
 
+    @property
+    def words(self) -> str:
+        """The quantity in words."""
+        return _FITTED[self.quantity][1]
+
     def to_dataset(self) -> xarray.Dataset:
-        """Return the averaged rows and their fit as a labelled data set along ``point``.
+        """Return the measured values and their fit as a labelled data set along ``point``.
 
         Returns
         -------
         xarray.Dataset
-            ``time`` (s), ``response``, ``fitted_response``, ``fitted_response_lower`` and ``fitted_response_upper`` (m²
-            or N), ``response_error`` and ``residual``; the attributes are ``control``, ``temperature`` (K) and
-            ``source``.
+            ``time`` (s), ``angular_frequency`` (rad/s) or ``speed`` (m/s); ``response``, ``fitted_response``,
+            ``fitted_response_lower`` and ``fitted_response_upper``, ``response_error`` and ``residual``; the attributes
+            are ``quantity``, ``temperature`` (K) and ``source``.
         """
-        unit, words = _FITTED[self.record.control]
+        unit, words = _FITTED[self.quantity]
+        name, along_unit, along = self._axis
         return dataset(
             "point",
             {
-                "time": (self.time, "s", "time since the start"),
+                name: (self.along, along_unit, along),
                 "response": (self.response, unit, words),
                 "fitted_response": (self.fitted, unit, f"{words}, of the identified material"),
                 "fitted_response_lower": (self.lower, unit, "lower end of its 95 % band"),
@@ -79,11 +105,18 @@ class FittedRecord:
                 "residual": (self.residuals, "1", "measured less fitted response over the standard error"),
             },
             attributes={
-                "control": self.record.control,
-                "temperature": self.record.temperature,
-                "source": self.record.source,
+                "quantity": self.quantity,
+                "temperature": float(self.record.temperature),
+                "source": getattr(self.record, "source", ""),
             },
         )
+
+    @property
+    def _axis(self) -> tuple[str, str, str]:
+        """Name, unit and long name of `along`."""
+        if self.quantity in ("X", "load"):
+            return _TIME
+        return _FREQUENCY if self.quantity.endswith(("stiffness", "modulus")) else _SPEED
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -97,24 +130,54 @@ class MaterialFromIndentation(Identified):
     Attributes
     ----------
     records : tuple of FittedRecord
-        In the order of the records; without those at temperatures that were left out.
+        In the order of the records, each measured quantity; without those at temperatures that were left out.
+    common_errors : mapping
+        Errors that rows have in common and that were given a standard deviation: the found error and its standard
+        error, of the ``radius`` and the ``load``, relative, and of the depth's zero of every record, ``zero 1`` …, m;
+        the true value is the measured one plus the error.
     """
 
     records: tuple[FittedRecord, ...]
+    common_errors: Mapping[str, tuple[float, float]]
+
+    def _attributes(self) -> dict[str, Any]:
+        errors = {
+            f"{name.replace(' ', '_')}_error{end}": one
+            for name, both in self.common_errors.items()
+            for end, one in zip(("", "_standard_error"), both, strict=True)
+        }
+        return super()._attributes() | errors
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """The result and its limits, one sentence each."""
-        points = sum(len(one.time) for one in self.records)
+        points = sum(len(one.along) for one in self.records)
         fit = (
-            f"{points} averaged rows of {len(self.records)} records are fitted to {100.0 * self.rms:.2g} % (root mean "
-            f"square); χ² = {self.chi2:.3g} with {self.freedom:.3g} degrees of freedom."
+            f"{points} points of {len({id(one.record) for one in self.records})} records are fitted to "
+            f"{100.0 * self.rms:.2g} % (root mean square); χ² = {self.chi2:.3g} with {self.freedom:.3g} degrees of "
+            "freedom."
         )
-        return (fit, *super().sentences)
+        return (fit, *super().sentences, *self._error_words())
+
+    def _error_words(self) -> tuple[str, ...]:
+        """Return the errors in common, in words."""
+        said = []
+        for name, both in self.common_errors.items():
+            found, error = (one * (1e6 if name.startswith("zero") else 100.0) for one in both)
+            unit = "µm" if name.startswith("zero") else "%"
+            said.append(f"Found error of the {name}: {found:.2g} ± {error:.2g} {unit}.")
+        return tuple(said)
 
     def _band_words(self) -> str:
-        return f"{super()._band_words()} Errors of the radius and of the depth's zero are not included."
+        missing = [
+            words
+            for name, words in (("radius", "the radius"), ("load", "the load cell"), ("zero", "the depth's zero"))
+            if not any(one.startswith(name) for one in self.common_errors)
+        ]
+        left = f" Errors of {' and '.join(missing)} are not included." if missing else ""
+        return super()._band_words() + left
 
     def __repr__(self) -> str:
         low, high = self.frequency_range
-        return f"MaterialFromIndentation({len(self.records)} records, {low:.3g} to {high:.3g} rad/s)"
+        count = len({id(one.record) for one in self.records})
+        return f"MaterialFromIndentation({count} records, {low:.3g} to {high:.3g} rad/s)"

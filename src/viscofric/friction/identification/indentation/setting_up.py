@@ -3,17 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from viscofric.contact.free.grids import Extent
+from viscofric.contact.indenters.shapes import Ball, FlatPunch
 from viscofric.errors import InputError, SuperpositionError
-from viscofric.friction.identification.indentation.growing import Reduced, growing
-from viscofric.friction.identification.indentation.problem import IndentationProblem
+from viscofric.friction.identification.anchors import ModulusAnchor
+from viscofric.friction.identification.indentation.contact import EXACT, Shared
+from viscofric.friction.identification.indentation.growing import growing
+from viscofric.friction.identification.indentation.impacts import Impacts
+from viscofric.friction.identification.indentation.known import Known
+from viscofric.friction.identification.indentation.moving import Moving
+from viscofric.friction.identification.indentation.problem import BySprings, IndentationProblem
+from viscofric.friction.identification.indentation.record import IndentationRecord
+from viscofric.friction.identification.indentation.rows import Reduced, shrinks, usable_rows
+from viscofric.friction.identification.indentation.tables import OscillationRecord, ReboundRecord
+from viscofric.friction.identification.iteration import identify, most_evident
 from viscofric.friction.identification.posterior import descend
 from viscofric.friction.identification.problem import EXPECTED, Shifts, Smoothness
 from viscofric.friction.identification.solving import spectrum_of
+from viscofric.motion.springs import elastic_radius
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_law import LN10
@@ -26,10 +37,11 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.identification.indentation.growing import Growing
-    from viscofric.friction.identification.indentation.record import IndentationRecord
+    from viscofric.friction.identification.indentation.contact import Contact
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
+
+Record: TypeAlias = IndentationRecord | ReboundRecord | OscillationRecord | ModulusAnchor
 
 #: Relative error of responses whose error is not given, for the first fit.
 FIRST_ERROR = 0.01
@@ -50,8 +62,8 @@ SUPERPOSED = 10
 class Usable:
     """Records with the contacts that can be used, and the temperatures of these."""
 
-    records: tuple[IndentationRecord, ...]
-    contacts: tuple[Growing, ...]
+    records: tuple[Record, ...]
+    contacts: tuple[Contact, ...]
     temperatures: Array  # (t,), ascending, K
     number: tuple[int, ...]  # of each record's temperature
     notes: tuple[Note, ...]
@@ -66,50 +78,92 @@ class Usable:
         )  # fmt: skip
 
 
-def usable_records(records: Sequence[IndentationRecord], indenter: Indenter) -> Usable:
-    """Return the usable rows of the records; InputError if a record has too few."""
+def usable_records(records: Sequence[Record], indenter: Indenter, shared: Shared) -> Usable:
+    """Return the contacts of the records; InputError if a record has too few usable rows."""
     contacts, notes, deepest = [], [], 0.0
+    by_radius = _by_radius(indenter) if shared.radius > 0.0 else 0.0
     for number, record in enumerate(records, 1):
-        largest = float(np.max(record.indentation))
-        if largest <= 0.0 or float(np.max(record.load)) <= 0.0:
-            raise InputError(
-                f"record {number}: its load or its indentation is never above zero.", code="no-contact",
-                field="records",
-            )  # fmt: skip
-        deepest = max(deepest, largest)
-        contact = growing(record, Reduced(indenter, largest), has_walls=indenter.has_walls)
-        if len(contact) < LEAST_POINTS:
-            raise InputError(
-                f"record {number}: in only {len(contact)} averaged rows the contact grows and the response is clearly "
-                "above its scatter; identification from shrinking contacts (oscillation, rebound, unloading) "
-                "is not available: give a creep or relaxation test, or a ramp.",
-                code="no-growing-contact",
-                field="records",
-            )
-        contacts.append(contact)
-        if contact.shrinking:
-            said = (
-                f"Record {number}: {contact.shrinking} of {len(record)} rows were left out, from where the contact "
-                "shrinks; only growing contacts are identified."
-            )
-            notes.append(Note("shrinking-left-out", said, values={"record": number, "rows": contact.shrinking}))
-        if contact.unclear:
-            said = (
-                f"Record {number}: {contact.unclear} of {len(record)} rows were left out, as the response is not "
-                "clearly above its scatter."
-            )
-            notes.append(Note("unclear-left-out", said, values={"record": number, "rows": contact.unclear}))
-    widest = Reduced(indenter, deepest).radius
-    strained = indenter.strain_warning(Extent(widest, widest, widest), deepest)
-    if strained is not None:
-        notes.append(strained)
-    kelvin = np.array([record.temperature for record in records])
+        if isinstance(record, IndentationRecord):
+            contact, unclear = _of_rows(record, number, indenter, shared, by_radius)
+            deepest = max(deepest, float(np.max(record.indentation)))
+            contacts.append(contact)
+            if unclear:
+                said = (
+                    f"Record {number}: {unclear} of {len(record)} rows were left out, as the response is not clearly "
+                    "above its scatter or, at the end of the contact, above 5 % of its largest value."
+                )
+                notes.append(Note("unclear-left-out", said, values={"record": number, "rows": unclear}))
+        elif isinstance(record, ReboundRecord):
+            contacts.append(Impacts(record, indenter, shared))
+        elif isinstance(record, OscillationRecord):
+            contacts.append(_of_stiffness(record, indenter, shared))
+            deepest = max(deepest, record.indentation)
+        else:
+            frequency, modulus = (np.array([float(one)]) for one in (record.angular_frequency, record.modulus))
+            parts = ((f"{record.part}_modulus", slice(0, 1)),)
+            contacts.append(Known(frequency, modulus, np.array([record.error]), parts))
+    if deepest > 0.0:
+        widest = Reduced(indenter, deepest).radius
+        strained = indenter.strain_warning(Extent(widest, widest, widest), deepest)
+        if strained is not None:
+            notes.append(strained)
+    kelvin = np.array([float(record.temperature) for record in records])
     labels = numbered(kelvin, np.full(len(kelvin), SAME_TEMPERATURE))
     temperatures = np.array([kelvin[labels == label].mean() for label in range(int(labels.max()) + 1)])
     return Usable(tuple(records), tuple(contacts), temperatures, tuple(int(one) for one in labels), tuple(notes))
 
 
-def problem_of(usable: Usable, shifts: Shifts, plane_strain: float, extra: float, modes: int) -> IndentationProblem:
+def _of_rows(
+    record: IndentationRecord, number: int, indenter: Indenter, shared: Shared, by_radius: float
+) -> tuple[Contact, int]:
+    """Return the contact of a record over time, and the number of its rows left out."""
+    largest = float(np.max(record.indentation))
+    if largest <= 0.0 or float(np.max(record.load)) <= 0.0:
+        raise InputError(
+            f"record {number}: its load or its indentation is never above zero.", code="no-contact", field="records"
+        )
+    reduced = Reduced(indenter, largest)
+    end = len(record) if indenter.has_walls else shrinks(record)
+    rows = usable_rows(record, reduced, end)
+    if len(rows) < LEAST_POINTS:
+        raise InputError(
+            f"record {number}: in only {len(rows)} averaged rows the response is clearly above its scatter; at least "
+            f"{LEAST_POINTS} are needed.",
+            code="no-clear-response",
+            field="records",
+        )
+    if end < len(record):
+        return Moving(rows, indenter, reduced, shared), rows.unclear
+    return growing(rows, reduced, shared, by_radius), rows.unclear
+
+
+def _of_stiffness(record: OscillationRecord, indenter: Indenter, shared: Shared) -> Known:
+    """Return the contact of an oscillation about a depth."""
+    size, depth = len(record), record.indentation
+    radius = elastic_radius(indenter, depth, None, 1.0)
+    step = 1e-4
+    by_depth = np.log(elastic_radius(indenter, depth * (1.0 + step), None, 1.0) / radius) / (step * depth)
+    # At a given depth a body of revolution with n parts of X by its radius has a contact radius ∝ R^n.
+    by_radius = _by_radius(indenter) if shared.radius > 0.0 else 0.0
+    parts = (("storage_stiffness", slice(0, size)), ("loss_stiffness", slice(size, 2 * size)))
+    response = np.concatenate([record.storage_stiffness, record.loss_stiffness])
+    error = np.repeat([record.error[name] for name, _ in parts], size)
+    along = np.tile(record.angular_frequency, 2)
+    return Known(along, response, error, parts, 2.0 * radius, by_radius, float(by_depth), shared)
+
+
+def _by_radius(indenter: Indenter) -> float:
+    """Return d ln X/d ln R at a given depth; InputError if the indenter has no radius."""
+    if not isinstance(indenter, (Ball, FlatPunch)):
+        raise InputError(
+            f"radius_error: a {indenter.noun} has no radius; leave it out.", code="no-radius", field="radius_error"
+        )
+    return 0.5 if isinstance(indenter, Ball) else 1.0
+
+
+def problem_of(
+    usable: Usable, shifts: Shifts, plane_strain: float, extra: float, modes: int, shared: Shared = EXACT
+) -> IndentationProblem:
     """Return the problem on a grid of retardation times about the measured times."""
     alpha = shifts.middle[list(usable.number)]
     low = min(np.log(one.lags[0]) - by for one, by in zip(usable.contacts, alpha, strict=True))
@@ -120,20 +174,25 @@ def problem_of(usable: Usable, shifts: Shifts, plane_strain: float, extra: float
     inside = float(np.exp(low + one_sided)), float(np.exp(high - one_sided))
     tau = np.exp(np.linspace(shortest, longest, count))
     smoothness = Smoothness(tau, _first_guess(usable.contacts, plane_strain), inside, EXPECTED)
-    errors = tuple(
-        FIRST_ERROR / np.sqrt(one.count) if one.error is None else one.error for one in usable.contacts
+    errors = np.concatenate(
+        [FIRST_ERROR / np.sqrt(one.count) if one.error is None else one.error for one in usable.contacts]
+    )
+    return IndentationProblem(
+        shifts, smoothness, usable.contacts, usable.number, errors, plane_strain, extra, shared
     )  # fmt: skip
-    return IndentationProblem(shifts, smoothness, usable.contacts, usable.number, errors, plane_strain, extra)
 
 
-def _first_guess(contacts: Sequence[Growing], plane_strain: float) -> float:
-    """Return the mean of the compliances of elastic contacts, 1/Pa."""
-    logs = []
-    for one in contacts:
-        of_elastic = one.weights @ np.ones(one.weights.shape[1])
-        elastic = np.log(one.response / np.maximum(of_elastic, 1e-300))
-        logs.append(float(np.median(elastic if one.creep else -elastic)))
-        logs[-1] -= np.log(plane_strain)
+def _first_guess(contacts: Sequence[Contact], plane_strain: float) -> float:
+    """Return the mean of the compliances of elastic contacts, 1/Pa; InputError if none shows."""
+    logs = [log - np.log(plane_strain) for one in contacts if (log := one.log_elastic) is not None]
+    logs += [-np.log(one.response[0]) for one in contacts if isinstance(one, Known) and one.diameter is None]
+    if not logs:
+        raise InputError(
+            "records: the restitution alone does not determine the level of the modulus; measure the contact times, "
+            "the largest forces or the depths too, or add another record or a ModulusAnchor.",
+            code="level-unknown",
+            field="records",
+        )
     return float(np.exp(np.mean(logs)))
 
 
@@ -181,8 +240,12 @@ def _creep(usable: Usable, plane_strain: float, extra: float) -> StepTest:
     """Return J(t) of the records at one temperature over the measured times, fitted without the other records."""
     kelvin = float(usable.temperatures[0])
     problem = problem_of(usable, Shifts.unknown(usable.temperatures, kelvin), plane_strain, extra, 0)
-    start = np.concatenate([problem.smoothness.middle, problem.shifts.middle])
-    place = descend(problem, start, metric=problem.metric).place
+    if any(one.by_springs for one in usable.contacts):
+        solver = BySprings()
+        fits, _ = identify(solver.solved(problem, problem.start, 0), solver, problem.start)
+        place = most_evident(fits).minimum.place
+    else:
+        place = descend(problem, problem.start, metric=problem.metric).place
     spectrum = spectrum_of(problem.split(place)[0], problem.smoothness.tau)
     low = min(one.lags[0] for one in usable.contacts)
     high = max(one.lags[1] for one in usable.contacts)

@@ -1,0 +1,176 @@
+"""What every measured contact offers: its points, and their logarithms for a material, with derivatives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+import numpy as np
+
+from viscofric.contact.indenters.shapes import Ball, FlatPunch
+from viscofric.friction.identification.moduli import compliance
+from viscofric.motion.bounce import Springs
+from viscofric.motion.springs import both_sides, profile
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from viscofric.arrays import Array
+    from viscofric.contact.indenters.indenter import Indenter
+
+
+class Shared(NamedTuple):
+    """Standard deviations of errors that all rows share; zero where they are taken as exact.
+
+    Attributes
+    ----------
+    radius, gain : float
+        Of the indenter's radius and of the load cell, relative, the same for all records.
+    zero : float
+        Of the zero of the depth, m, of its own for every record.
+    """
+
+    radius: float = 0.0
+    gain: float = 0.0
+    zero: float = 0.0
+
+
+EXACT = Shared()
+
+
+class Trial(NamedTuple):
+    """A material whose response is asked for."""
+
+    compliances: Array  # (1 + m,), ln(1/E_inf), then every ln C at the reference, of 1/Pa
+    tau: Array  # (m,), at the reference, s
+    log_alpha: float
+    plane_strain: float  # 1 − ν²
+    extra: float  # (1 − ν_i²)/E_i of the indenter over the plane strain of the rubber, 1/Pa
+
+    def springs(self, indenter: Indenter, edge: float, count: int, power: float) -> Springs:
+        """Return springs up to an edge, closer to each other near the axis where the power is above one."""
+        s = edge * np.linspace(0.0, 1.0, count + 1) ** power
+        strengths = self.plane_strain * np.exp(self.compliances)
+        instantaneous = float(strengths[0]) + self.plane_strain * self.extra
+        tau = np.exp(self.log_alpha) * self.tau
+        walls = indenter.has_walls
+        return Springs(profile(indenter, s), s, both_sides(s), instantaneous, strengths[1:], tau, walls)
+
+    def creep(self, time: float) -> float:
+        """Return (1−ν²) J(t), with the compliance of the indenter, 1/Pa."""
+        strengths = np.exp(self.compliances)
+        grown = -np.expm1(-time * np.exp(-self.log_alpha) / self.tau)
+        return self.plane_strain * (float(strengths[0]) + self.extra + float(strengths[1:] @ grown))
+
+
+class Answer(NamedTuple):
+    """Logarithms of the modelled values of n points, and their derivatives."""
+
+    log_value: Array  # (n,)
+    change: Array  # (n, 1 + m), by the compliances
+    by_alpha: Array  # (n,), by ln α
+    shared: Array  # (n, 3), by the errors in common, in their standard deviations; modelled less measured
+
+
+class Contact(Protocol):
+    """The points of one record."""
+
+    def __len__(self) -> int:
+        """Return the number of points."""
+        ...
+
+    @property
+    def along(self) -> Array:
+        """Where they were measured (n,): time, s; angular frequency, rad/s; speed of the impact, m/s."""
+        ...
+
+    @property
+    def response(self) -> Array:
+        """Measured values (n,)."""
+        ...
+
+    @property
+    def error(self) -> Array | None:
+        """Relative standard errors (n,); None where they are to be found from the residuals."""
+        ...
+
+    @property
+    def count(self) -> Array:
+        """Rows averaged (n,)."""
+        ...
+
+    @property
+    def lags(self) -> tuple[float, float]:
+        """Shortest and longest time, s, of what was measured."""
+        ...
+
+    def ends(self, trial: Trial) -> tuple[float, float, float]:
+        """Return the lowest angular frequency, rad/s, and the highest ones of E'' and of |E|, that were measured."""
+        ...
+
+    @property
+    def parts(self) -> tuple[tuple[str, slice], ...]:
+        """Names of the measured quantities, and their points."""
+        ...
+
+    @property
+    def log_elastic(self) -> float | None:
+        """Ln of (1−ν²)/E of a similar elastic contact, 1/Pa; None where it does not show."""
+        ...
+
+    @property
+    def by_springs(self) -> bool:
+        """Whether the response is solved by springs for one material, and extrapolated to others."""
+        ...
+
+    def functional(self, tau: Array) -> Callable[[Trial], Answer]:
+        """Return the response as a function of the material, for retardation times (m,) at the reference."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Nearby:
+    """The response of materials near one for which it was solved.
+
+    With d = x − x₀ the changes of ln C and weights w of the modes by their part in the compliance at the contact's
+    frequency, ln r = ln r₀ + Σ J_k (e^{d_k}/M − 1) + (Σ J_k) ln M, M = Σ w_k e^{d_k}, has the derivatives J of the
+    solved material, is exact if all moduli change by one factor, and where r is proportional to Σ w_k C_k.
+    """
+
+    trial: Trial
+    solved: Answer
+    weights: Array  # (n, 1 + m)
+
+    @classmethod
+    def of(cls, contact: Contact, trial: Trial) -> Nearby:
+        """Solve a contact for a material."""
+        highest = 1.0 / np.asarray(contact.lags[1] if len(contact.parts) > 1 else contact.along)
+        log_frequency = np.broadcast_to(np.log(highest), contact.response.shape) + trial.log_alpha
+        _, parts, _ = compliance(trial.compliances, trial.tau, log_frequency)
+        weights = parts.real / parts.real.sum(axis=1, keepdims=True)
+        return cls(trial, contact.functional(trial.tau)(trial), weights)
+
+    def __call__(self, trial: Trial) -> Answer:
+        """Return the response of a material."""
+        there = self.solved
+        grown = np.exp(np.minimum(trial.compliances - self.trial.compliances, 200.0))
+        mean = self.weights @ grown
+        terms = there.change * grown / mean[:, None]
+        degree, shares = there.change.sum(axis=1), self.weights * grown / mean[:, None]
+        total = terms.sum(axis=1)
+        away = trial.log_alpha - self.trial.log_alpha
+        value = there.log_value + total - degree + degree * np.log(mean) + there.by_alpha * away
+        return there._replace(log_value=value, change=terms + (degree - total)[:, None] * shares)
+
+
+def logarithm(value: Array, measured: Array) -> tuple[Array, Array]:
+    """Return ln of values, continued linearly below half the measured ones, and its derivative (n,)."""
+    least = 0.5 * measured
+    above = np.maximum(value, least)
+    return np.log(above) + np.minimum(value / least - 1.0, 0.0), 1.0 / above
+
+
+def wider(indenter: Indenter, part: float) -> Indenter:
+    """Return a Ball or a FlatPunch whose radius is larger by a part of it."""
+    assert isinstance(indenter, (Ball, FlatPunch))
+    return type(indenter)(radius=(1.0 + part) * float(indenter.radius))
