@@ -2,29 +2,43 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import pytest
 from tests.friction.identification.test_indentation import (
     BALL,
     KELVIN,
     PLANE_STRAIN,
-    RUBBER,
     check_derivatives,
     creep,
-    planted,
     relaxation,
 )
 
 import viscofric as vf
 from viscofric.errors import InputError
-from viscofric.friction.identification.indentation.contact import Nearby, Shared
+from viscofric.friction.identification.indentation.contact import Nearby, Shared, Trial
 from viscofric.friction.identification.indentation.setting_up import usable_records
 from viscofric.notes import codes
 
+#: Modes half a decade apart, of which the wide spectrum of the other tests has four times as many.
+TAU = np.geomspace(1e-4, 1e3, 15)
+STRENGTHS = 4e-7 * np.exp(-0.5 * (np.log10(TAU) / 1.5) ** 2) / 7.5
+RUBBER = vf.Material(
+    vf.RetardationSpectrum(1.0 / (1e-7 + float(STRENGTHS.sum())), 1e7, STRENGTHS, TAU),
+    vf.WLF(C1=10.0, C2="120 K", reference=KELVIN),
+)
 EXACT = Shared()
 SHARED = Shared(radius=0.01, gain=0.02, zero=1e-6)
 
 
+def planted(kelvin: float) -> Trial:
+    spectrum = RUBBER.at(kelvin)
+    x = np.log(np.append(1.0 / spectrum.E_inf, spectrum.C))
+    return Trial(x, np.array(spectrum.tau), 0.0, PLANE_STRAIN, 0.0)
+
+
+@functools.cache
 def shrinking(control: str) -> vf.IndentationRecord:
     """Return a ramp, a hold and an unloading, solved over time."""
     time = np.concatenate([np.linspace(0.1, 1.0, 7), 1.0 + np.geomspace(0.05, 9.0, 9), 10.0 + np.linspace(0.1, 0.5, 5)])
@@ -37,6 +51,7 @@ def shrinking(control: str) -> vf.IndentationRecord:
     return vf.IndentationRecord(np.append(0.0, time), **rows, temperature=KELVIN, control=control, error=1e-9)
 
 
+@functools.cache
 def rebounds(kelvin: float = KELVIN, speeds: tuple[float, ...] = (0.4, 1.6)) -> vf.ReboundRecord:
     hits = [vf.solve_impact(RUBBER, BALL, mass=0.033, speed=v, temperature=kelvin, accuracy=1e-3) for v in speeds]
     columns = {
@@ -45,6 +60,15 @@ def rebounds(kelvin: float = KELVIN, speeds: tuple[float, ...] = (0.4, 1.6)) -> 
     }  # fmt: skip
     values = {name: [getattr(hit, own) for hit in hits] for name, own in columns.items()}
     return vf.ReboundRecord(speeds, kelvin, mass=0.033, error=0.01, **values)
+
+
+MADE = {
+    "creep": lambda: creep(noise=0.0),
+    "relaxation": lambda: relaxation(noise=0.0),
+    "unloading": lambda: shrinking("load"),
+    "withdrawal": lambda: shrinking("indentation"),
+    "rebounds": rebounds,
+}
 
 
 def contact_of(record, shared: Shared = EXACT):
@@ -68,9 +92,9 @@ def test_impacts_agree_with_their_solver() -> None:
     assert 1.0 / contact.ends(trial)[1] == pytest.approx(record.contact_time.min() / np.pi, rel=0.3)
 
 
-@pytest.mark.parametrize("record", [shrinking("load"), shrinking("indentation"), rebounds()], ids=str)
-def test_derivatives_by_springs_are_those_of_differences(record, monkeypatch) -> None:
-    contact = contact_of(record)
+@pytest.mark.parametrize("name", ["unloading", "withdrawal", pytest.param("rebounds", marks=pytest.mark.slow)])
+def test_derivatives_by_springs_are_those_of_differences(name: str, monkeypatch) -> None:
+    contact = contact_of(MADE[name]())
     trial = planted(KELVIN)._replace(
         compliances=np.log(np.array([4e-7, 2e-7, 1e-7, 3e-7])), tau=np.array([1e-3, 0.1, 10.0]), extra=1e-9
     )
@@ -99,11 +123,10 @@ def test_nearby_materials_are_those_solved_again() -> None:
 
 
 @pytest.mark.parametrize(
-    "record",
-    [creep(noise=0.0), relaxation(noise=0.0), shrinking("load"), shrinking("indentation"), rebounds()],
-    ids=str,
+    "name", ["creep", "relaxation", *(pytest.param(one, marks=pytest.mark.slow) for one in list(MADE)[2:])]
 )
-def test_common_errors_are_those_of_wrong_radius_load_and_zero(record) -> None:
+def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> None:
+    record = MADE[name]()
     contact, trial = contact_of(record, SHARED), planted(record.temperature)
     found = contact.functional(trial.tau)(trial).shared
     measured = np.log(contact.response)
@@ -139,7 +162,7 @@ def test_stiffness_gives_the_modulus() -> None:
     record = vf.OscillationRecord(
         omega, K.real, K.imag, KELVIN, indentation="100 um", amplitude="2 um", error=0.01, source="synthetic"
     )
-    found = vf.identify_from_indentation(record, BALL, samples=20, modes=16, radius_error=0.02, load_error=0.01)
+    found = vf.identify_from_indentation(record, BALL, samples=20, modes=8, radius_error=0.02, load_error=0.01)
     assert found.material.complex_modulus(omega[4]) == pytest.approx(E[4], rel=0.01)
     # K ∝ √R: 1 % of the modulus from the radius, 1 % from the load.
     assert found.standard_error(omega[4]) == pytest.approx(np.hypot(0.01, 0.01), rel=0.5)
