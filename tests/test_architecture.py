@@ -116,6 +116,11 @@ def walk(tree: ast.AST) -> Iterator[tuple[ast.AST, bool]]:
         stack += [(child, at_run_time and id(child) not in body) for child in ast.iter_child_nodes(node)]
 
 
+def called(call: ast.Call) -> str:
+    """Return the last name of what is called."""
+    return str(getattr(call.func, "attr", getattr(call.func, "id", "")))
+
+
 def own_imports(module: str, text: str, is_package: bool = False) -> Iterator[Import]:
     """Yield the imports of viscofric by viscofric, those within functions and by `import_module` too."""
     for node, at_run_time in walk(ast.parse(text)):
@@ -131,7 +136,7 @@ def own_imports(module: str, text: str, is_package: bool = False) -> Iterator[Im
             for alias in node.names:
                 inner = f"{home}.{alias.name}"
                 names.append(inner if inner in MODULES else home)
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(("import_module", "__import__")):
+        elif isinstance(node, ast.Call) and called(node).endswith(("import_module", "__import__")):
             names = [str(word.value) for word in node.args[:1] if isinstance(word, ast.Constant)]
         for name in names:
             if belongs(name, "viscofric"):

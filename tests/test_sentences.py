@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
 TESTS = Path(__file__).parent
 SOURCE = TESTS.parent / "src" / "viscofric"
@@ -35,10 +35,10 @@ def text_of(node: ast.AST) -> str:
     return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else ""
 
 
-def texts(node: ast.AST) -> dict[ast.AST, str]:
-    """Return the texts within a node, f-strings as a whole, but no docstrings."""
+def texts(nodes: Iterable[ast.AST]) -> dict[ast.AST, str]:
+    """Return the texts among the nodes of a walk, f-strings as a whole, but no docstrings."""
     found, parts = {}, set()
-    for one in ast.walk(node):  # what is around a text comes before it
+    for one in nodes:  # what is around a text comes before it
         if isinstance(one, ast.JoinedStr):
             parts.update(one.values)
         elif isinstance(one, ast.Expr):
@@ -60,7 +60,7 @@ def sentences() -> tuple[frozenset[tuple[str, ...]], frozenset[str]]:
     """Return the fragments of all sentences in the source, and all texts in it that are no sentences."""
     found, labels = set(), set()
     for path in SOURCE.rglob("*.py"):
-        for text in texts(ast.parse(path.read_text("utf-8"))).values():
+        for text in texts(ast.walk(ast.parse(path.read_text("utf-8")))).values():
             if len(re.findall(r"[A-Za-z]+", text)) < SENTENCE:
                 labels.add(text.strip())
             else:
@@ -71,20 +71,20 @@ def sentences() -> tuple[frozenset[tuple[str, ...]], frozenset[str]]:
 def quoted(source: str) -> Iterator[tuple[int, str]]:
     """Yield the line and the text of each comparison with a sentence in the source of a test."""
     found, labels = sentences()
-    tree = ast.parse(source)
+    nodes = list(ast.walk(ast.parse(source)))
     compared: dict[ast.AST, str] = {}
-    for node in ast.walk(tree):
+    for node in nodes:
         parts: list[ast.AST] = []
         if isinstance(node, ast.Compare):
             parts = [node.left, *node.comparators]
         elif isinstance(node, ast.Call):
-            name = ast.unparse(node.func).rpartition(".")[2]
+            name = getattr(node.func, "attr", getattr(node.func, "id", ""))
             parts = [word.value for word in node.keywords if word.arg in EXPECTED]
             parts += node.args if name in COMPARED | HELPERS else []
         for part in parts:
-            compared |= texts(part)
+            compared |= texts(ast.walk(part))
     # What goes into viscofric may come out of it.
-    given = "\n".join(text for one, text in texts(tree).items() if one not in compared)
+    given = "\n".join(text for one, text in texts(nodes).items() if one not in compared)
     for one, text in compared.items():
         if text.strip() not in labels and text not in given and any(part in found for part in fragments(text)):
             yield getattr(one, "lineno", 0), text

@@ -236,7 +236,7 @@ def test_arguments_for_two_moduli_are_refused():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seeds", [4, pytest.param(12, marks=pytest.mark.apart)])
+@pytest.mark.parametrize("seeds", [3, pytest.param(12, marks=pytest.mark.apart)])
 @pytest.mark.parametrize(("kind", "noise"), [("creep", 0.005), ("relaxation", 0.02)])
 def test_bands_contain_what_was_planted(kind, noise, seeds):
     """As for sweeps; benchmarks/rheology counts over more problems."""
@@ -260,7 +260,7 @@ def test_bands_contain_what_was_planted(kind, noise, seeds):
         moduli = drawn.modulus_band(omega)
         storage = true.complex_modulus(omega).real
         inside["storage"].append(np.mean((storage >= moduli.lower.real) & (storage <= moduli.upper.real)))
-    # Errors within one fit move together: over 12 seeds the mean differs by 0.04, over 4 by 0.07.
+    # Errors within one fit move together: over 12 seeds the mean differs by 0.04, over 3 by 0.08.
     for shares in inside.values():
         assert np.mean(shares) == pytest.approx(0.95, abs=0.09 * np.sqrt(12 / seeds))
 
