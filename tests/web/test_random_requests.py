@@ -7,10 +7,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import pytest
-import schemathesis
 from hypothesis import HealthCheck, given, seed, settings
 from hypothesis.errors import Unsatisfiable
-from schemathesis import GenerationMode
 
 if TYPE_CHECKING:
     from web.served_page import Server
@@ -20,6 +18,9 @@ CASES = 45  # for each address, right and wrong ones
 
 def ask_at_random(server: Server, cases: int) -> Counter[int]:
     """Ask each address with what its description allows and with what it forbids; return how often by status."""
+    import schemathesis  # most of a second, which those who do not run this test need not wait for
+    from schemathesis import GenerationMode
+
     headers = {"Authorization": f"Bearer {server.token}"}
     schema = schemathesis.openapi.from_url(f"{server.base}/api/openapi.json", headers=headers)
     asked: Counter[int] = Counter()
