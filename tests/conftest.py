@@ -22,7 +22,11 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests of the page, and other steps' as slow: `-m "not slow and not page"` is the inner loop."""
+    """Mark tests of the page, and other steps' as slow: `-m "not slow and not page"` is the inner loop.
+
+    Those of the page come first, and so all in one process, as long as there are few: one server and one browser.
+    """
+    items.sort(key=lambda item: item.path.parent.name != "web")
     for item in items:
         if item.path.parent.name == "web":
             item.add_marker("page")

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from marks import apart
 from refusals import refused
 from rheology.planted import planted_steps, planted_sweeps
 
@@ -87,9 +88,10 @@ def test_kinds_that_disagree_are_noted_and_have_larger_errors():
 
 
 @pytest.mark.slow
-def test_bands_of_several_kinds_contain_what_was_planted():
+@pytest.mark.parametrize("seeds", [4, *apart(8)])
+def test_bands_of_several_kinds_contain_what_was_planted(seeds):
     inside: dict[str, list[float]] = {"alpha": [], "storage": []}
-    for seed in range(8):
+    for seed in range(seeds):
         sweeps, creep, material, reference = several(seed, level=1.03)
         joint = vf.superpose([sweeps, creep], reference)
         factors = joint.shift_factors
@@ -101,7 +103,7 @@ def test_bands_of_several_kinds_contain_what_was_planted():
         band, true = drawn.modulus_band(omega), material.at(reference).complex_modulus(omega)
         inside["storage"].append(np.mean((true.real >= band.lower.real) & (true.real <= band.upper.real)))
     for shares in inside.values():  # over 8 seeds the mean differs by 0.04
-        assert np.mean(shares) > 0.85
+        assert np.mean(shares) > 0.95 - 0.1 * np.sqrt(8 / seeds)
 
 
 def test_lists_that_make_no_sense_are_refused():
