@@ -229,6 +229,24 @@ def test_quick_modes_dissipate_after_a_jump() -> None:
     assert run.dissipated == pytest.approx([0.0, stored[0] - stored[1]], rel=1e-3)
 
 
+def test_temperature_sets_the_pace_of_the_material() -> None:
+    # After a rise of the temperature the same path in the same time is that in a longer time without it.
+    warm = vf.Material(TWO_MODES.spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference="20 degC"))
+    pace = 1.0 / float(warm.shift("40 degC"))
+    path = [0.0, 3e-4, 3e-4, 6e-4]
+    rise = vf.History(
+        [0.0, 1e-3, 1e-3, 3e-3], pressure=2e3, position=path, temperature=["20 degC", "20 degC", "40 degC", "40 degC"]
+    )
+    longer = vf.History([0.0, 1e-3, 1e-3, 1e-3 + 2e-3 * pace], pressure=2e3, position=path, temperature="20 degC")
+    seen = []
+    for history, later in ((rise, 1e-3), (longer, 1e-3 * pace)):
+        one = mover(warm, profile(32), history, modes=Modes.of(warm.spectrum))
+        times = [0.0, 5e-4, 1e-3, 1e-3 + later, 1e-3 + 2.0 * later]
+        seen.append([[each.friction_force[0], each.depth, each.stored, each.dissipated] for each in stepped(one, times)])
+    assert pace > 2.0
+    assert np.array(seen[0]) == pytest.approx(np.array(seen[1]), rel=1e-6, abs=1e-12)
+
+
 def test_units_do_not_matter() -> None:
     # Another length, time and modulus: the same problem, and the same steps.
     times, seen = np.linspace(0.0, 4e-3, 9), []

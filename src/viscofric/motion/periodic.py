@@ -23,7 +23,7 @@ from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, quickest_time
 from viscofric.motion.mover import Field, Observation, Scales
 from viscofric.motion.wave_contact import StepContact, Target
-from viscofric.motion.wave_memory import StepResponse, advance, merged_modes
+from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
 from viscofric.motion.waves import Waves
 
 if TYPE_CHECKING:
@@ -81,19 +81,22 @@ class PeriodicMover:
         self.backend = Backend()
         spectrum = merged_modes(problem) if modes is None else modes
         self.depth_unit = surface.rms_height  # m; the others: m/Pa, Pa
-        self.response_unit = float(self.grid.response.max())
+        response = self.grid.response
+        self.response_unit = float(response.max())
         self.compliance_unit = self.response_unit * spectrum.relaxed
         self.pressure_unit = self.depth_unit / self.compliance_unit
         unit = 1.0 / spectrum.relaxed
         self.modes = Modes(
             unit * spectrum.instantaneous, unit * spectrum.C, spectrum.tau, spectrum.error, unit * spectrum.at_once
         )
-        self._shape = self.grid.response / self.response_unit
+        self._shape = response / self.response_unit
         self._scale = np.sqrt(self.grid.weights * self._shape)  # √(w G), a factor of the memory
         self._unscaled = np.sqrt(self._shape / self.grid.weights)
         self._softness = self.grid.weights * np.square(self._shape)
         self._softness[0, 0] = 0.0
-        self._rigid = self.grid.rigid_factor * (problem.counterface / self.compliance_unit)
+        self._rigid = np.zeros((1, 1))
+        if problem.counterface:
+            self._rigid = self.grid.rigid_factor * (problem.counterface / self.compliance_unit)
         self.height = (surface.z.max() - surface.z) / self.depth_unit
         self.mean_height = float(self.height.mean())
         self.precision = np.complex64 if problem.accuracy >= _SINGLE else np.complex128
@@ -142,8 +145,7 @@ class PeriodicMover:
         memory = np.empty((len(modes), *waves.shape), self.precision)
         for each, share in zip(memory, shares, strict=True):
             each[...] = share * scaled
-        stored = 0.5 * float(np.linalg.norm(self._roots * memory)) ** 2
-        return self._state(pressure, waves, memory, problem.response, past, depth, (stored, 0.0), None)
+        return self._state(pressure, waves, memory, problem.response, past, depth, (stored_energy(modes, memory), 0.0), None)
 
     def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
         """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""

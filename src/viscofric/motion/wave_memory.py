@@ -144,17 +144,16 @@ def advance(
     found = np.empty_like(memory) if keep else memory
     squares = np.square(np.abs(before)) + np.square(np.abs(after))
     dissipated = float((response.loss * squares).sum()) + float((response.mixed * np.conj(before) * after).sum().real)
-    old_squares, new_squares = np.zeros((2, len(modes)))
+    stored = released = 0.0
     for rows in _blocks(*before.shape):
         decay, *pair = response.coefficients(rows)
         pressures, old, new = np.stack([before[rows], after[rows]]), memory[:, rows], found[:, rows]
-        old_squares += _squares(old)
+        released += stored_energy(modes, old)
         dissipated -= float(np.vdot(pressures, _summed(modes.C, pair[::-1], old)).real)
         np.multiply(old, decay.astype(memory.dtype), out=new)
         new += _spread(pair, pressures.astype(memory.dtype))
-        new_squares += _squares(new)
-    stored = 0.5 * float(modes.C @ new_squares)
-    return Advanced(found, stored, dissipated - stored + 0.5 * float(modes.C @ old_squares))
+        stored += stored_energy(modes, new)
+    return Advanced(found, stored, dissipated - stored + released)
 
 
 def _blocks(rows: int, columns: int) -> Iterator[slice]:
@@ -201,7 +200,7 @@ def _summed(compliances: Array, weights: list[NDArray[Any]], memory: ComplexArra
     return (matrices @ memory.transpose(1, 0, 2)).transpose(1, 0, 2)
 
 
-def _squares(memory: ComplexArray) -> Array:
-    """Return the sum of |q|² of each mode."""
+def stored_energy(modes: Modes, memory: ComplexArray) -> float:
+    """Return ½ Σ C |q|² of a memory (n, rows, columns)."""
     parts = memory.view(memory.real.dtype)
-    return np.asarray(np.einsum("krx,krx->kr", parts, parts).sum(axis=1, dtype=float))
+    return 0.5 * float(modes.C @ np.einsum("krx,krx->kr", parts, parts).sum(axis=1, dtype=float))

@@ -44,7 +44,7 @@ class Waves:
     def _has_two_senses(self) -> bool:
         return self.shape[0] % 2 == 0
 
-    @cached_property
+    @property
     def response(self) -> Array:
         """Displacement under each wave of pressure for E = 1: 2(1−ν²)Θ(qH)/|q|, m; the mean that of a layer."""
         qx, qy = self.numbers
@@ -56,7 +56,7 @@ class Waves:
         found[0, 0] = 0.0 if self.layer is None else self.layer.mean_compression(self.poisson_ratio)
         return np.asarray(found)
 
-    @cached_property
+    @property
     def rigid_factor(self) -> Array:
         """2/|q|, m: displacement of an elastic indenter for (1−ν²)/E = 1; zero for the mean."""
         magnitude = np.hypot(*self.numbers)
