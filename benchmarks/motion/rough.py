@@ -5,8 +5,8 @@ Usage: python benchmarks/motion/rough.py [--points 512] [--steps 100] [--compare
 
 The viscoelastic rough contact of benchmarks/contact (E_inf/E0 = 100, a tenth of the area).
 
-1. On `--points`, 40 modes over ten decades: CPU seconds for a step of one point after a start from rest, and memory in
-   arrays of the surface's size.  The time of 1,000 steps is EXTRAPOLATED from `--steps`.
+1. On `--points`, 40 modes over ten decades: CPU seconds for a step of one point after a start from rest, and the peak
+   of all memory in arrays of the surface's size.  The time of 1,000 steps is EXTRAPOLATED from `--steps`.
 2. On `--compare` points, 20 modes: both begin untouched and slide half a period, with several steps for each point.
    Errors are those of the friction over the second half of the path, against steps an eighth of the smallest.
 3. On `--points`, 20 modes: seconds of one step of each; with 2., the ratio of the times for the same error.  Tamaas'
@@ -99,6 +99,7 @@ def cost(material: vf.Material, points: int, steps: int) -> dict[str, Any]:
     before = run.mover.products
     _, seconds = measuring.cpu_seconds(lambda: run.friction(steps))
     products = run.mover.products - before
+
     def again() -> None:
         Run(material, surface, "at rest", steps * surface.spacing[0]).friction(steps, min(steps, 3))
 
