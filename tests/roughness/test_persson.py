@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -183,6 +184,35 @@ def test_long_contacts_warm_the_surface_as_a_flux_of_heat_does():
     wanted = 2.0 * flux * math.sqrt(math.pi / q_m / speed / (math.pi * 1e6))
     # The shortest waves see the surface; q_m lies between two scales, some per cent apart.
     assert found[-1] == pytest.approx(wanted, rel=0.02)
+
+
+def test_coulomb_heat_is_a_flux_that_both_bodies_share():
+    """ΔT = 2 j √(t0/(π k ρ c)) by j = μ σ0 u/P(q_m), half of it if the counterface is alike and moves as fast."""
+    area, speed, pressure = np.where(SCALES < 2e3, 1.0, 0.2), 1e-3, 2e4
+    conductor = vf.ThermalProperties(1.0, 1000.0, 1000.0, "conductor")
+    insulator = vf.ThermalProperties(1e-9, 1000.0, 2000.0, "insulator")
+    t0 = math.pi / float(SCALES[np.argmax(SCALES >= 2e3)]) / speed
+    alone = 2.0 * 0.4 * pressure * 2.0 * speed / 0.3 * math.sqrt(t0 / (math.pi * 1e6))
+    for counterface, part in ((insulator, 1.0), (conductor, 0.5)):
+        heating = vf.Heating(rubber=conductor, counterface=counterface, coulomb=0.4, slip=2.0 * speed)
+        flash = Flash(conductor, 0.3, heating, pressure)
+        rise = flash.rise(SCALES, LOG_WEIGHTS, speed, area, np.zeros(len(SCALES)))
+        # The shortest waves see the surface; q_m lies between two scales, some per cent apart.
+        assert rise[-1] == pytest.approx(part * alone, rel=0.02)
+        assert np.all(np.diff(rise) > 0.0)
+
+
+def test_heating_without_coulomb_heat_is_the_theory_of_the_rubber_alone():
+    asked = {"speeds": 0.1, "pressure": "0.1 MPa", "temperatures": "30 degC"}
+    other = vf.ThermalProperties(46.0, 7810.0, 475.0, "steel")
+    heating = vf.Heating(rubber=THERMAL, counterface=other)
+    plain = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, thermal=THERMAL)
+    same = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=heating)
+    rubbed = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=replace(heating, coulomb=0.5))
+    assert same.friction_coefficient == plain.friction_coefficient
+    assert rubbed.flash_temperature[0, 0] > plain.flash_temperature[0, 0]
+    with refused("not-with-heating"):
+        vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=heating, thermal=THERMAL)
 
 
 def test_a_rubber_that_hardly_warms_rubs_as_one_of_one_temperature_with_its_vertical_shift():

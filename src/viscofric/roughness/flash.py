@@ -12,6 +12,10 @@ the weight 2q exp(−2qz), is [1]_ ::
 D the diffusivity; S, 1 in [1]_, makes the heat that of the friction.  q_m is the scale of the macroasperities, at which
 P has fallen to a given share, and R = π/q_m half their wavelength.
 
+Coulomb friction adds heat on the surface of these contacts, μ_c σ0 u/P(q_m) per area with the sliding velocity u, of
+which the rubber takes the share that makes both faces of a disc of diameter R equally warm on average
+(`viscofric.heat.means`).  A flux j gives T_q the term j/ρc 2/π ∫_0^∞ dk (1 − exp(−D k² t0))/(D k²) · 4q²/(k² + 4q²).
+
 References
 ----------
 .. [1] B. N. J. Persson, "Rubber friction: role of the flash temperature", J. Phys.: Condens. Matter 18 (2006) 7789,
@@ -27,11 +31,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import ConvergenceError
+from viscofric.heat.means import disc_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from viscofric.arrays import Array
+    from viscofric.heat.heating import Heating
     from viscofric.thermal import ThermalProperties
 
 
@@ -47,6 +53,8 @@ class Flash:
 
     thermal: ThermalProperties  # of the rubber
     macroasperity_area: float  # P(q_m)
+    heating: Heating | None = None  # with Coulomb heat
+    pressure: float = 0.0  # nominal, Pa
 
     def settled(
         self, q: Array, log_weights: Array, speed: float, heated: Callable[[Array], tuple[Array, Array]]
@@ -95,10 +103,26 @@ class Flash:
         k = np.geomspace(lowest, highest, count)
         spacing = math.log(highest / lowest) / (count - 1)
         lasting = -np.expm1(-diffusivity * k**2 * time) / (diffusivity * k**2) / math.pi
+        radius = 0.5 * math.pi / q_m
+        flux = self._flux(speed, radius) / (area_m * self.thermal.volume_heat)
         # Trapezoids in ln k, which converge fast for what falls smoothly at both ends; below the lowest k all is even.
         weights = spacing * k * lasting
         weights[0] = 0.5 * weights[0] + lowest * lasting[0]
         k_square = np.square(k)
-        given = (4.0 * q[:, None] / (k_square + 4.0 * np.square(q)[:, None])).T @ (log_weights * q * source)
+        given = (4.0 * q[:, None] / (k_square + 4.0 * np.square(q)[:, None])).T @ (
+            log_weights * q * source
+        ) + 2.0 * flux
         met = 4.0 * np.square(q)[:, None] / (k_square + 4.0 * np.square(q)[:, None])
         return np.asarray(met @ (weights * given))
+
+    def _flux(self, speed: float, radius: float) -> float:
+        """Return the Coulomb heat that the rubber takes up per nominal area, W/m²; macroasperities have a radius, m."""
+        if self.heating is None or self.heating.coulomb == 0.0:
+            return 0.0
+        slip = self.heating.sliding(speed)
+        bodies = (self.heating.rubber, speed), (self.heating.counterface, abs(speed - slip))
+        rubber, other = (
+            disc_mean(velocity * radius / (2.0 * body.diffusivity), hertz=False) / float(body.conductivity)
+            for body, velocity in bodies
+        )
+        return self.heating.coulomb * self.pressure * slip * other / (rubber + other)

@@ -31,8 +31,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
+from viscofric.heat.heating import Heating
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.flash import Flash
 from viscofric.roughness.persson_integrals import Case, Scales, Theory
@@ -67,7 +69,7 @@ class PerssonTheory:
     contact_area_fraction : (m, n) array
         Real contact area over nominal, all waves seen.
     flash_temperature : (m, n) array
-        Largest rise of temperature over all scales, K; zero without `thermal`.
+        Largest rise of temperature over all scales, K; zero without `thermal` or `heating`.
     wave_number : (k,) array
         q of the scales below, rad/m.
     area_by_scale : (m, n, k) array
@@ -123,6 +125,7 @@ def persson_theory(
     temperatures: Quantities | None = None,
     gamma: float = 0.5,
     thermal: ThermalProperties | None = None,
+    heating: Heating | None = None,
     macroasperity_area: float = 0.3,
     accuracy: float = 1e-4,
 ) -> PerssonTheory:
@@ -144,6 +147,9 @@ def persson_theory(
         one; 1 gives the theory of 2001.
     thermal : ThermalProperties, optional
         Those of the rubber, with which flash temperatures count (`viscofric.roughness.flash`); isothermal without.
+    heating : Heating, optional
+        In place of `thermal`: flash temperatures with the Coulomb heat that rubber and counterface share.  From a cold
+        start; `average` and `branch` have no meaning here, and there is no track.
     macroasperity_area : float
         Contact area fraction that shows at the scale of the macroasperities, at which hot spots begin; between 0 and 1.
     accuracy : float
@@ -189,16 +195,11 @@ def persson_theory(
     if not _CLOSEST <= wanted <= _LOOSEST:
         raise InputError(f"accuracy = {wanted:g}: must lie between {_CLOSEST:g} and {_LOOSEST:g}.", code="out-of-range")
     spots = share(macroasperity_area, "macroasperity_area", example=0.3)
-    flash = None
-    if thermal is not None:
-        if not isinstance(thermal, ThermalProperties):
-            raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.", code="wrong-type")
-        if material.shift is None or temperatures is None:
-            raise InputError(
-                "thermal: a flash temperature needs a material with a shift, and temperatures.", code="no-shift"
-            )
-        flash = Flash(thermal, spots)
-    solver = Theory(material, spectrum, positive(pressure, "Pa", "pressure"), sharing, flash)
+    nominal = positive(pressure, "Pa", "pressure")
+    flash = _flash(thermal, heating, spots, nominal)
+    if flash is not None and (material.shift is None or temperatures is None):
+        raise InputError("A flash temperature needs a material with a shift, and temperatures.", code="no-shift")
+    solver = Theory(material, spectrum, nominal, sharing, flash)
     cases = [Case(kelvin, float(speed)) for kelvin in kelvins for speed in velocities]
     found, error = solver.converged(cases, wanted)
     shape = len(kelvins), len(velocities)
@@ -220,3 +221,17 @@ def persson_theory(
         temperature_rise_by_scale=rise,
         error=error,
     )
+
+
+def _flash(thermal: ThermalProperties | None, heating: Heating | None, area: float, pressure: float) -> Flash | None:
+    """Return the parameters of hot spots of a contact area fraction; None where nothing is heated."""
+    if heating is not None:
+        insist_on(heating, "heating", Heating)
+        if thermal is not None or heating.passes > 0:
+            raise InputError("heating: not with thermal or a track; leave out one of them.", code="not-with-heating")
+        return Flash(heating.rubber, area, heating, pressure)
+    if thermal is None:
+        return None
+    if not isinstance(thermal, ThermalProperties):
+        raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.", code="wrong-type")
+    return Flash(thermal, area)
