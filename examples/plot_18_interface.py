@@ -2,13 +2,14 @@
 Friction of another contact from its interface
 ==============================================
 
-Coulomb friction of a dry contact is a shear stress of the interface on the contact area. Separated friction of a ball and its
-solved contacts give that stress; a law fitted to it predicts the total friction of other loads and shapes, with its
-parts: hysteresis of the rubber, and shear of the interface.
+Coulomb friction of a dry contact is a shear stress of the interface on the contact area. Separated friction of a ball
+and its solved contacts give that stress; a law fitted to it predicts the total friction of other loads and shapes, with
+its parts: hysteresis of the rubber, and shear of the interface.
 """
 
 # %%
-# **Synthetic** Coulomb friction of a ball that rolls with 10 % of slip, with 2 % of noise, made from a planted interface.
+# **Synthetic** Coulomb friction of a ball that rolls with 10 % of slip, with 2 % of noise,
+# made from a planted interface.
 
 from dataclasses import replace
 
@@ -54,8 +55,8 @@ report.plot_shear_stress(axes, stress, sorted(fitted, key=lambda law: law is not
 mark_synthetic([axes])
 
 # %%
-# Total friction of a cylinder in pure sliding, with its parts. The error bars have the errors of the law and of the solved
-# contact; the shear stress is taken to be independent of pressure.
+# Total friction of a cylinder in pure sliding, with its parts. The error bars have the errors of the law and of the
+# solved contact; the shear stress is taken to be independent of pressure.
 
 cylinder = vf.Cylinder(radius="3 mm")
 case = {"temperatures": "60 degC", "load": "200 N/m", "accuracy": 1e-2}
@@ -68,6 +69,7 @@ mark_synthetic([axes])
 
 truth = vf.predict_friction(rubber, cylinder, speeds=friction.speed[[-1]], **case, interface=planted)
 ratio = float(friction.total[-1] / truth.total[0])
-print(f"total friction over that of the planted interface: {ratio:.3f} ± {friction.total_error[-1] / truth.total[0]:.3f}")
+error = float(friction.total_error[-1] / truth.total[0])
+print(f"total friction over that of the planted interface: {ratio:.3f} ± {error:.3f}")
 
 plt.show()

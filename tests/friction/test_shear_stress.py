@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -134,6 +135,27 @@ def test_the_interface_slips_at_its_own_speed_and_says_where_it_is_extrapolated(
     np.testing.assert_allclose(sliding.coulomb / rolling.coulomb, (CONTACTS.speed / 0.02) ** 0.5)
     codes = {note.code for note in rolling.notes}
     assert codes >= {"interface-extrapolated", "interface-pressure", "interface-without-error"}
+
+
+@pytest.mark.parametrize(
+    ("poisson_ratio", "layer", "size"),
+    [
+        (0.5, None, None),
+        (0.3, None, 1.0 * 0.4 / 1.4),  # μ (1 − 2ν)/(2(1 − ν)) of K. L. Johnson
+        (0.5, vf.Layer("50 mm"), None),
+        (0.5, vf.Layer("1 mm"), 0.38),  # as thick as the contact's radius: docs/limits.md, to its digits
+        (0.5, vf.Layer("1 mm", bonded=False), math.nan),  # not estimated
+    ],
+)
+def test_shear_that_changes_the_contact_is_noted_with_its_size(poisson_ratio, layer, size):
+    """Of friction 1 on contacts of 1 mm radius."""
+    pressure = np.full(N, 5.0 / (np.pi * 1e-6))
+    law = vf.ConstantShearStress(float(pressure[0]))
+    rubbed = with_interface(replace(CONTACTS, mean_pressure=pressure), law, poisson_ratio=poisson_ratio, layer=layer)
+    notes = [note for note in rubbed.notes if note.code == "tangential-coupling"]
+    assert len(notes) == (size is not None)
+    if size is not None and math.isfinite(size):
+        assert notes[0].values["highest"] == pytest.approx(size, rel=0.02)
 
 
 def test_interface_and_slip_belong_together():

@@ -18,7 +18,6 @@ from viscofric.notes import Note
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.friction.assumption_check import ContactSize
     from viscofric.friction.curves import FrictionCurves
 
 
@@ -43,11 +42,15 @@ def coupling(poisson_ratio: float, thickness: float | None = None) -> float:
 
 
 def check_coupling(
-    curves: FrictionCurves, poisson_ratio: float, thickness: float | None = None, sizes: Sequence[ContactSize] = ()
+    curves: FrictionCurves,
+    poisson_ratio: float,
+    thickness: float | None = None,
+    radii: Sequence[tuple[float, float]] = (),
 ) -> AssumptionCheck | None:
     """Check the coupling at the worst point of friction curves of known Coulomb friction; None if none is known.
 
-    `thickness` is that of the rubber, m (a half-space without it), compared with the sizes of the contacts.
+    `thickness` is that of the rubber, m (a half-space without it), compared with the smallest and the
+    largest possible radius of each contact.
     """
     if curves.coulomb is None or not np.any(np.isfinite(curves.coulomb)):
         return None
@@ -58,10 +61,7 @@ def check_coupling(
         low = high = float(rubbed[row]) * coupling(poisson_ratio)
     else:
         each = {
-            row: [
-                rubbed[row] * coupling(poisson_ratio, thickness / a) for a in (sizes[row].smallest, sizes[row].largest)
-            ]
-            for row in known.tolist()
+            row: [rubbed[row] * coupling(poisson_ratio, thickness / a) for a in radii[row]] for row in known.tolist()
         }
         row = max(each, key=lambda one: max(each[one]))
         low, high = sorted(float(one) for one in each[row])

@@ -163,4 +163,7 @@ def predict_friction(
         pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
         curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
         curves = with_material_band(curves, [sensitivity for _, sensitivity in pairs], drawn)
-    return curves if interface is None else with_interface(curves, interface, slip)
+    if interface is None:
+        return curves
+    layer = settings.get("layer")
+    return with_interface(curves, interface, slip, poisson_ratio=material.poisson_ratio, layer=layer)

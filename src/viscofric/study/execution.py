@@ -210,7 +210,7 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), singles: Sequence[
     def within(part: Solved) -> list[bool] | None:
         return all_within(rubbers, part.of_records, part.records) if known else None
 
-    rubbed = interface_results(study.interface, requested, at_points, measured)
+    rubbed = interface_results(contacts, requested, at_points)
     groups |= rubbed.groups
     groups["/prediction"] = prediction(
         contacts.sweep,

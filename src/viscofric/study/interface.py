@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from viscofric.contact.bodies import Layer
 from viscofric.errors import InputError
 from viscofric.friction.interface.prediction import with_interface
 from viscofric.friction.interface.shear_stress import shear_stress
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.contacts import Solved
+    from viscofric.study.contacts import Contacts, Solved
     from viscofric.study.measurement import Measurement
     from viscofric.study.run_file.interface import InterfaceTable
 
@@ -34,16 +36,19 @@ class InterfaceResults(NamedTuple):
     notes: list[Note]
 
 
-def interface_results(
-    table: InterfaceTable | None, requested: Solved, at_points: Solved, measured: Measurement | None
-) -> InterfaceResults:
+def interface_results(contacts: Contacts, requested: Solved, at_points: Solved) -> InterfaceResults:
     """Return the interface's results; a law that cannot be fitted, or is not known at a case, is a note."""
-    found = InterfaceResults({}, {}, [])
+    found, table, layers = InterfaceResults({}, {}, []), contacts.study.interface, contacts.study.layer
     if table is None:
         return found
+    thinnest = None if layers is None else Layer(min(layers.thickness), bonded=layers.base == "bonded")
+    least = min(one.material.poisson_ratio for one in contacts.rubbers)
     try:
-        law = table.given() if table.is_given else _fitted(table, at_points, measured, found)
-        curves = with_interface(curves_of(requested.records), law, table.slip)
+        law = table.given() if table.is_given else _fitted(table, at_points, contacts.measured, found)
+        curves = curves_of(requested.records)
+        if requested.cases[0].geometry == "line":
+            curves = replace(curves, load_unit="N/m")
+        curves = with_interface(curves, law, table.slip, poisson_ratio=least, layer=thinnest)
     except InputError as error:
         where = "Friction of the interface was not predicted"
         return found._replace(notes=[*found.notes, error.note.at(where).coded("no-interface")])
