@@ -89,6 +89,29 @@ def test_friction_overshoots_after_a_start_from_rest(ratio, peak, place):
 
 
 @pytest.mark.slow
+def test_a_slow_start_from_rest_does_not_overshoot():
+    """A tenth of the retardation time from edge to centre: the friction is soon the steady one, and never above it."""
+    times = np.linspace(0.1, 1.5, 15) * A0 / (0.1 * SPEED)
+    history = vf.History([0.0, times[-1]], load=LOAD, speed=0.1 * SPEED, before="at rest")
+    run = vf.solve_transient(RUBBER, CYLINDER, history, times=times, accuracy=5e-3)
+    steady = vf.solve_steady(RUBBER, CYLINDER, speed=0.1 * SPEED, load=LOAD).friction_coefficient
+    assert run.friction_coefficient == pytest.approx(np.full(15, steady), rel=5e-3)  # the accuracy
+    assert np.all(run.friction_coefficient < steady + run.errors.friction_force / LOAD)
+
+
+@pytest.mark.slow
+def test_long_sliding_of_a_ball_ends_steadily():
+    """Three contact diameters at half a radius in a retardation time; to the accuracy, edges to half a cell of 55."""
+    speed, load, accuracy = 0.1, 2.0, 1e-2
+    steady = vf.solve_steady(RUBBER, vf.Ball("10 mm"), speed=speed, load=load)
+    history = vf.History([0.0, 0.06], load=load, speed=speed, before="at rest")
+    run = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.06], accuracy=accuracy)
+    assert run.friction_coefficient[0] == pytest.approx(steady.friction_coefficient, rel=accuracy)
+    assert run.indentation[0] == pytest.approx(steady.indentation, rel=accuracy)
+    assert [run.front[0], run.rear[0]] == pytest.approx([steady.front, steady.rear], rel=2e-2)
+
+
+@pytest.mark.slow
 def test_start_of_a_ball_from_rest():
     """Independent solution (32 and 48 cells for a0, extrapolated), known to 3e-4; depths to 4e-3."""
     speed, distance = 0.2240702373278583, np.array([0.0005601755933196458, 0.0011203511866392916, 0.002240702373278583])

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 #: Energies are so many times as accurate as the rest, for a balance of a tenth of the accuracy.
 _ENERGIES = 3.0
+#: Error of the fine chain over the difference of the chains: a third, and a margin for higher orders; part of a
+#: difference that counts after the next step.
+_OF_STEPS, _FADING = 0.4, 0.7
 
 
 class Errors(NamedTuple):
@@ -40,6 +43,21 @@ class Pair(NamedTuple, Generic[State]):
     fine: Link[State]
 
 
+class Difference(NamedTuple):
+    """Fine less coarse chain."""
+
+    load: float = 0.0
+    depth: float = 0.0
+    along: float = 0.0  # friction
+    across: float = 0.0
+    work: float = 0.0
+    dissipated: float = 0.0
+
+
+#: Of equal chains.
+SAME = Difference()
+
+
 @dataclass(frozen=True, eq=False)
 class Reached(Generic[State]):
     """How far a march has come: all that another one needs to go on as if there had been no end.
@@ -55,6 +73,8 @@ class Reached(Generic[State]):
         Time of the last moment returned, s.
     scales : Scales or None
         Largest values so far.
+    spread : Difference
+        Difference of the chains that errors are estimated from: the present one, or a part of an earlier larger one.
     pace, share : float
         Next step, s (zero: as after a jump), and the share of the accuracy that a step may add.
     stored : float or None
@@ -66,20 +86,10 @@ class Reached(Generic[State]):
     jumped: bool = False
     told: float = -math.inf
     scales: Scales | None = None
+    spread: Difference = SAME
     pace: float = 0.0
     share: float | None = None
     stored: float | None = None
-
-
-class Difference(NamedTuple):
-    """Fine less coarse chain."""
-
-    load: float
-    depth: float
-    along: float  # friction
-    across: float
-    work: float
-    dissipated: float
 
 
 def difference(pair: Pair[State]) -> Difference:
@@ -111,13 +121,23 @@ class Moment(Generic[State]):
     rubbed: float = 0.0
 
 
-def moment_of(pair: Pair[State], instant: Instant, held: Field | None, *, extrapolate: bool) -> Moment[State]:
-    """Return what the chains say of one time: the energies extrapolated, and the rest too on request."""
+def faded(spread: Difference, pair: Pair[State]) -> Difference:
+    """Return the size of the difference of the chains, or a part of an earlier one: it may pass through zero."""
+    return Difference(*(max(abs(now), _FADING * then) for now, then in zip(difference(pair), spread, strict=True)))
+
+
+def moment_of(
+    pair: Pair[State], instant: Instant, held: Field | None, spread: Difference, floor: Errors, *, extrapolate: bool
+) -> Moment[State]:
+    """Return what the chains say of one time: the energies extrapolated, and the rest too on request.
+
+    Errors are those of steps, by the spread, what the mover leaves out, and the floor.
+    """
     coarse, fine = pair
     off = difference(pair)
-    steps = [one / 3.0 for one in map(abs, off)]
+    steps = [_OF_STEPS * one for one in spread]
     each = steps[0], steps[1], math.hypot(*steps[2:4]), max(steps[4:])
-    errors = Errors(*(one + left for one, left in zip(each, fine.seen.left_out, strict=True)))
+    errors = Errors(*(sum(parts) for parts in zip(each, fine.seen.left_out, floor, strict=True)))
     # Sums over all steps are smooth enough to be extrapolated.
     stored, dissipated, work, rubbed = (
         two + (two - one) / 3.0

@@ -19,7 +19,20 @@ from typing import TYPE_CHECKING, Generic
 import numpy as np
 
 from viscofric.errors import ConvergenceError
-from viscofric.motion.chains import Link, Moment, Pair, Reached, Track, difference, moment_of, over_scales
+from viscofric.motion.chains import (
+    SAME,
+    Difference,
+    Errors,
+    Link,
+    Moment,
+    Pair,
+    Reached,
+    Track,
+    difference,
+    faded,
+    moment_of,
+    over_scales,
+)
 from viscofric.motion.mover import SHARE, Mover, Scales, State
 
 if TYPE_CHECKING:
@@ -112,6 +125,7 @@ class _March(Generic[State]):
     rejected: int = 0
     _stored: float = 0.0  # before the start
     _pace: float = 0.0  # of the interval before, if no jump ended it
+    _spread: Difference = SAME
     _limited: bool = False  # whether a step from tick to tick was longer than the accuracy asks for
 
     def run(self, begin: Reached[State] | None) -> Track[State]:
@@ -122,7 +136,7 @@ class _March(Generic[State]):
         except KeyboardInterrupt:
             interrupted = True
         told = self.moments[-1].instant.time if self.moments else self._at.told
-        reached = replace(self._at, told=told, scales=self._scales, pace=self._pace)
+        reached = replace(self._at, told=told, scales=self._scales, spread=self._spread, pace=self._pace)
         return Track(self.moments, self.taken, self.rejected, interrupted, reached, self._stored)
 
     def _begun(self) -> Reached[State]:
@@ -141,7 +155,7 @@ class _March(Generic[State]):
         self._scales = self.mover.scales
         if begin.scales is not None:
             self._scales = Scales(*map(max, zip(begin.scales, self._scales, strict=True)))
-        self._pace = begin.pace
+        self._pace, self._spread = begin.pace, begin.spread
         self._stored = begin.pair.fine.seen.stored if begin.stored is None else begin.stored
         time = self.schedule.start if begin.time is None else begin.time
         return replace(begin, time=time, share=self.share, stored=self._stored)
@@ -171,6 +185,8 @@ class _March(Generic[State]):
     def _stop_at_kink(self, time: float) -> None:
         """Record the state at a kink, take its jump if there is one, and record that too, unless it has been done."""
         schedule, pair = self.schedule, self._at.pair
+        if schedule.starts_at(time):
+            self._pace = 0.0
         known = self._at.told >= time
         wanted = 0 if self.times is None else sum(1 for one in self.times if one == time)
         jumps = schedule.jumps_at(time)
@@ -317,14 +333,17 @@ class _March(Generic[State]):
         )
 
     def _seen(self, pair: Pair[State]) -> Pair[State]:
-        self._scales = self._with(pair)
+        self._scales, self._spread = self._with(pair), faded(self._spread, pair)
         return pair
 
     def _record(self, pair: Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:
         if not asked and self.times is not None:
             return
         held = self.mover.pressure(pair.fine.state) if self.fields else None
-        self.moments += times * [moment_of(pair, instant, held, extrapolate=self.extrapolate)]
+        load, depth, friction, energy = (self.mover.tolerance * one for one in self._scales)
+        given = instant.depth is None and instant.gap is None
+        floor = Errors(0.0 if given else load, depth if given else 0.0, friction, energy)
+        self.moments += times * [moment_of(pair, instant, held, self._spread, floor, extrapolate=self.extrapolate)]
 
 
 def _growth(ratio: float) -> float:

@@ -100,6 +100,11 @@ class Mover(Protocol[State]):
         ...
 
     @property
+    def tolerance(self) -> float:
+        """Error by the contact conditions, which are met to a tolerance, in parts of the largest values."""
+        ...
+
+    @property
     def quickest(self) -> float:
         """Time in which the response to a jump changes noticeably, s of the clock."""
         ...

@@ -107,6 +107,11 @@ class NormalMotion:
         return np.asarray(self.tau < _QUICK * (ends[1].clock - ends[0].clock))
 
     @property
+    def tolerance(self) -> float:
+        """Zero: the contact conditions are met to rounding."""
+        return 0.0
+
+    @property
     def quickest(self) -> float:
         """Time in which the response to a jump changes noticeably, s of the clock."""
         c, quick = self.compliances, self._quick

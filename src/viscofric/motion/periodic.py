@@ -118,6 +118,11 @@ class PeriodicMover:
         return Scales(pressure, self.depth_unit, _LEAST_FRICTION * slope * pressure, pressure * self.depth_unit)
 
     @property
+    def tolerance(self) -> float:
+        """Of the contact conditions, in parts of the largest values."""
+        return self._tightness
+
+    @property
     def quickest(self) -> float:
         """Time in which the response to a jump changes noticeably, s of the clock."""
         return quickest_time(self.modes.instantaneous, self.modes.C, self.modes.tau)

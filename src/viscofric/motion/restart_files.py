@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, file_path, insist_on_size, read_bytes, write_atomically
-from viscofric.motion.chains import Errors, Link, Moment, Pair, Reached, Track
+from viscofric.motion.chains import Difference, Errors, Link, Moment, Pair, Reached, Track
 from viscofric.motion.history import History
 from viscofric.motion.mover import Field, Observation, Scales
 from viscofric.motion.restart import Restart
@@ -58,7 +58,11 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
     }
     last = track.reached
     named |= {f"reached/{name}": getattr(last, name) for name in _REACHED}
-    named |= {"reached/scales": last.scales, "counts": (track.steps, track.rejected, track.stored)}
+    named |= {
+        "reached/scales": last.scales,
+        "reached/spread": last.spread,
+        "counts": (track.steps, track.rejected, track.stored),
+    }
     for name, link in zip(Pair._fields, last.pair, strict=True):
         named[f"{name}/work"] = link.work
         named |= {f"{name}/seen/{one}": getattr(link.seen, one) for one in _SEEN}
@@ -110,8 +114,9 @@ def _restart(named: Mapping[str, Any]) -> Restart:
     )  # fmt: skip
     method = str(named["method"])
     pair = Pair(*(_link(named, name, method) for name in Pair._fields))
-    values = {name: named[f"reached/{name}"].item() for name in _REACHED if f"reached/{name}" in named}
-    last = Reached(pair, scales=Scales(*named["reached/scales"].tolist()), **values)
+    values: dict[str, Any] = {name: named[f"reached/{name}"].item() for name in _REACHED if f"reached/{name}" in named}
+    values |= {"scales": Scales(*named["reached/scales"]), "spread": Difference(*named["reached/spread"])}
+    last = Reached(pair, **values)
     steps, rejected, begun = named["counts"].tolist()
     track = Track(_moments(named), int(steps), int(rejected), True, last, begun)
     return Restart(method, history, track, _below(named, "same/"), _below(named, "basis/"))

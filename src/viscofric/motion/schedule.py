@@ -15,6 +15,7 @@ L. W. Morland, E. H. Lee, Trans. Soc. Rheol. 4 (1960) 233, doi:10.1122/1.548856.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 
 #: Relative error of a part of the clock.
 _EXACT = 1e-12
+#: Change of the velocity, in the larger one, from which on a motion starts anew.
+_BEND = 0.25
 #: A kink of the law (of Tg, of a table) is enclosed by this many halvings.
 _HALVINGS = 40
 _NODES, _WEIGHTS = (0.5 * column for column in np.polynomial.legendre.leggauss(12))
@@ -138,6 +141,11 @@ class Schedule:
             return np.asarray((self._position[place + 1] - self._position[place]) / (end - start))
         share = (time - start) / (end - start)
         return np.asarray((1.0 - share) * self._speed[place] + share * self._speed[place + 1])
+
+    def starts_at(self, time: float) -> bool:
+        """Return whether a motion starts, stops or turns at a time: the velocity changes by a quarter or more."""
+        before, after = (self.velocity(time, after=one) for one in (False, True))
+        return math.hypot(*(after - before)) > _BEND * max(math.hypot(*before), math.hypot(*after))
 
     def temperature(self, time: float, *, after: bool = True) -> float | None:
         """Return the temperature at a time, K."""
