@@ -3,10 +3,11 @@
 Usage: python benchmarks/friction/indentation.py [--seeds N] [--first SEED] [--case NAME] [--json FILE]
 
 Every seed is another problem: a material with a bell-shaped spectrum of random place, width and strength, its record
-computed by the solvers over time, and other noise.  The response of every row is scattered by 0.5 %, rebounds as they
-say, stiffness by 1 and 3 %.  Cases named "…, shared" have a wrong radius, load cell and zero of the depth besides, of
-the standard deviations that are given to the identification.  Counted are the moduli at nine frequencies of
-`frequency_range`, J(t) at nine times of it, and log10 α where it is found.
+computed by the solvers over time (creep, relaxation and stiffness in closed form), and other noise.  The response of
+every row is scattered by 0.5 %, rebounds as they say, stiffness by 1 and 3 %.  Cases named "…, shared" have a wrong
+radius, load cell and zero of the depth besides, of the standard deviations that are given to the identification.
+Counted are the moduli at nine frequencies of `frequency_range`, J(t) at nine times of it, and log10 α where it is
+found.
 """
 
 from __future__ import annotations

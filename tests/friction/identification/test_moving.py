@@ -155,6 +155,22 @@ def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> Non
         assert found[:, 2] == pytest.approx(moved - at_first, abs=0.1 * size + 1e-3)
 
 
+@pytest.mark.slow
+def test_stiffness_of_small_oscillations_is_that_of_the_contact_radius() -> None:
+    omega, depth, part = 20.0, 1e-4, 0.02
+    phase = 2.0 * np.pi * np.arange(0, 3 * 32 + 1) / 32
+    time = np.concatenate([[0.0, 0.01], 100.0 + phase / omega])
+    values = np.concatenate([[0.0, depth], depth * (1.0 + part * np.sin(phase))])
+    history = vf.History(time, indentation=values, temperature=KELVIN)
+    run = vf.solve_transient(RUBBER, BALL, history, times=time[-33:], accuracy=1e-3)
+    turned = np.exp(-1j * phase[-33:])
+    stiffness = np.trapezoid(run.load * turned) / np.trapezoid(values[-33:] * turned)
+    expected = 2.0 * np.sqrt(BALL.radius * depth) * RUBBER.complex_modulus(omega, KELVIN) / PLANE_STRAIN
+    # The edge follows the oscillation: some 0.3 of its amplitude; accuracy in time 1e-3 of the load, over 2 % of it.
+    assert stiffness.real == pytest.approx(expected.real, rel=0.01)
+    assert stiffness.imag == pytest.approx(expected.imag, rel=0.03)
+
+
 def test_stiffness_gives_the_modulus() -> None:
     omega = 2.0 * np.pi * np.geomspace(0.1, 10.0, 9)
     E = RUBBER.complex_modulus(omega, KELVIN)
@@ -230,7 +246,7 @@ def test_rebounds_that_cannot_be(change: dict, code: str) -> None:
 
 def test_large_oscillations_are_no_stiffness() -> None:
     with pytest.raises(InputError) as caught:
-        vf.OscillationRecord([1.0], [1e4], [1e3], 300.0, indentation=1e-4, amplitude=2e-5, error=0.01)
+        vf.OscillationRecord([1.0], [1e4], [1e3], 300.0, indentation=1e-4, amplitude=4e-6, error=0.01)
     assert caught.value.code == "out-of-range"
 
 
