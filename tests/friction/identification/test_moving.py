@@ -18,6 +18,7 @@ from tests.friction.identification.test_indentation import (
 import viscofric as vf
 from viscofric.errors import InputError
 from viscofric.friction.identification.indentation.contact import Nearby, Shared, Trial
+from viscofric.friction.identification.indentation.moving import _turns
 from viscofric.friction.identification.indentation.setting_up import usable_records
 from viscofric.notes import codes
 
@@ -153,6 +154,13 @@ def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> Non
         moved = away.functional(trial.tau)(trial).log_value - np.log(away.response)
         size = np.abs(moved - at_first).max()
         assert found[:, 2] == pytest.approx(moved - at_first, abs=0.1 * size + 1e-3)
+
+
+def test_scatter_of_what_was_prescribed_is_no_oscillation() -> None:
+    time, random = np.linspace(0.0, 4.0, 401), np.random.default_rng(2)
+    scatter = 1e-3 * random.standard_normal(401)
+    assert _turns(time, np.minimum(time, 4.0 - time) + scatter).tolist() == pytest.approx([2.0], abs=0.02)
+    assert len(_turns(time, 1.0 + 0.1 * np.sin(np.pi * time) + scatter)) == 4
 
 
 @pytest.mark.slow

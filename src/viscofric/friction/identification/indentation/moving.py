@@ -35,8 +35,9 @@ _ACCURACY, _MOST_ROWS = 1e-3, 1000
 
 #: Ends of steps before the first row, over its time: the accuracy is relative to the largest value, not to early ones.
 _EARLY = np.geomspace(0.03, 1.0, 10)
-#: Turns of what was prescribed from which a record is an oscillation.
-_OSCILLATES = 4
+#: Turns of what was prescribed from which a record is an oscillation; smaller ones, relative to the largest value, are
+#: scatter.
+_OSCILLATES, _TURN = 4, 0.02
 
 
 class _Steps(NormalMotion):
@@ -66,9 +67,7 @@ class Moving(RowsContact):
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return the angular frequencies, rad/s, of steps over the measured times, and of oscillations."""
         low, high, fastest = super().ends(trial)
-        knots, values = self.rows.knots, self.rows.values
-        rising = np.diff(values) > 0.0
-        turns = knots[1:-1][rising[1:] != rising[:-1]]
+        turns = _turns(self.rows.knots, self.rows.values)
         if len(turns) < _OSCILLATES:
             return low, high, fastest
         shortest = np.pi / float(np.diff(turns).min())
@@ -160,3 +159,16 @@ class Moving(RowsContact):
         first = self.rows.knots[0] + (self.rows.time[0] - self.rows.knots[0]) * _EARLY
         time = np.unique(np.concatenate([steps, 0.5 * (steps[1:] + steps[:-1]), first, rows, self.rows.knots]))
         return np.sort(np.concatenate([time, jumps])), _MARGIN * widest
+
+
+def _turns(time: Array, values: Array) -> Array:
+    """Return the times at which values turn, by more than scatter."""
+    least, found = _TURN * float(values.max()), []
+    way, place = 1.0, 0
+    for number, value in enumerate(values):
+        if way * (value - values[place]) >= 0.0:
+            place = number
+        elif way * (values[place] - value) > least:
+            found.append(time[place])
+            way, place = -way, number
+    return np.array(found)
