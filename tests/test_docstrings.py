@@ -125,13 +125,13 @@ def examples() -> list[doctest.DocTest]:
     return [one for one in found if one.examples]
 
 
-#: Examples that take more than a second.
+#: Examples that take more than a second, and run apart: tests of each room call these functions.
 LONG = {"identify_material", "open_results", "run_study"}
 
 
 @pytest.mark.parametrize(
     "example",
-    [pytest.param(one, id=one.name, marks=[pytest.mark.slow] if one.name in LONG else []) for one in examples()],
+    [pytest.param(one, id=one.name, marks=[pytest.mark.apart] if one.name in LONG else []) for one in examples()],
 )
 def test_examples_of_docstrings_print_what_they_show(example, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -30,7 +30,7 @@ from gallery import (
     low_speed_friction,
     standard_linear_solid,
 )
-from marks import slow
+from marks import apart, slow
 from refusals import refused
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.free import problem as free_problem
@@ -171,7 +171,7 @@ def test_reference_values(reference: BallReference) -> None:
 # --- errors and their estimates -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("problem", [*slow(SLS), standard_linear_solid(1000.0, 100.0)], ids=lambda p: p.name)
+@pytest.mark.parametrize("problem", [*apart(SLS), standard_linear_solid(1000.0, 100.0)], ids=lambda p: p.name)
 def test_friction_converges_with_the_grid(problem: BallProblem) -> None:
     solution = problem.solve(accuracy=3e-5)
     cells, lean, energy, indentation, _ = (np.array(level) for level in zip(*solution.diagnostics.levels, strict=True))

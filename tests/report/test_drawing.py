@@ -139,7 +139,7 @@ def test_figures_that_the_results_lack_are_left_out(tree: xr.DataTree, tmp_path:
     }
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.usefixtures("unrendered")
 def test_figures_survive_the_round_trip_through_a_file(tree: xr.DataTree, tmp_path: Path) -> None:
     import xarray as xr
