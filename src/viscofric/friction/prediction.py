@@ -14,10 +14,9 @@ from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
-from viscofric.friction.interface.prediction import with_interface
+from viscofric.friction.interface.prediction import check_interface, with_interface
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.processes import Workers, call_all
-from viscofric.rheology.interface.friction import insist_on_interface
 from viscofric.rheology.material import insist_on_material
 from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_array
 
@@ -132,10 +131,7 @@ def predict_friction(
     if heating is not None and (samples is not None or interface is not None):
         raise InputError("heating: not with samples or interface; leave out one.", code="not-with-heating")
     drawn = None if samples is None else DrawnMaterials(samples, material)
-    if interface is not None:
-        insist_on_interface(interface)
-    elif slip is not None:
-        raise InputError("slip has a meaning with an interface only; give interface too.", code="interface-needed")
+    check_interface(interface, slip)
     contacts = [
         {
             "material": material,

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.friction.coupling import check_coupling
 from viscofric.notes import Note, note_of
-from viscofric.rheology.interface.friction import interface_friction, interface_notes
+from viscofric.rheology.interface.friction import insist_on_interface, interface_friction, interface_notes
 from viscofric.units import to_si_array
 
 if TYPE_CHECKING:
@@ -18,6 +18,14 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.units import Quantities
+
+
+def check_interface(interface: object, slip: object) -> None:
+    """Raise `InputError` for an interface that is none, and for a slip without an interface."""
+    if interface is not None:
+        insist_on_interface(interface)
+    elif slip is not None:
+        raise InputError("slip has a meaning with an interface only; give interface too.", code="interface-needed")
 
 
 def with_interface(
