@@ -242,7 +242,9 @@ def test_temperature_sets_the_pace_of_the_material() -> None:
     for history, later in ((rise, 1e-3), (longer, 1e-3 * pace)):
         one = mover(warm, profile(32), history, modes=Modes.of(warm.spectrum))
         times = [0.0, 5e-4, 1e-3, 1e-3 + later, 1e-3 + 2.0 * later]
-        seen.append([[each.friction_force[0], each.depth, each.stored, each.dissipated] for each in stepped(one, times)])
+        seen.append(
+            [[each.friction_force[0], each.depth, each.stored, each.dissipated] for each in stepped(one, times)]
+        )
     assert pace > 2.0
     assert np.array(seen[0]) == pytest.approx(np.array(seen[1]), rel=1e-6, abs=1e-12)
 

@@ -150,7 +150,9 @@ class PeriodicMover:
         memory = np.empty((len(modes), *waves.shape), self.precision)
         for each, share in zip(memory, shares, strict=True):
             each[...] = share * scaled
-        return self._state(pressure, waves, memory, problem.response, past, depth, (stored_energy(modes, memory), 0.0), None)
+        return self._state(
+            pressure, waves, memory, problem.response, past, depth, (stored_energy(modes, memory), 0.0), None
+        )
 
     def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
         """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""

@@ -102,7 +102,8 @@ def solve_transient(
 
     Sliding contacts, contacts on layers and those of other indenters are solved on cells that are fixed to the body, on
     finer and finer grids.  An indenter moves by whole cells wherever it can.  Friction follows the steps of the speed
-    along a path given by positions: give a smooth path by many positions, or by speeds.  A line contact on a half-space has no absolute indentation.  Of one that has rested or slid, the change since the start is given; of
+    along a path given by positions: give a smooth path by many positions, or by speeds.  A line contact on a
+    half-space has no absolute indentation.  Of one that has rested or slid, the change since the start is given; of
     any other, the depth below points at a distance that a note names.  Its accuracy is relative to the largest value,
     or to a fiftieth of the indentation a²/R if that is more.  Without `times`, the first steps after a start or
     a reversal, in which the contact moves by less than one cell, may have errors above the accuracy; `errors` holds
