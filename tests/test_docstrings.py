@@ -77,6 +77,7 @@ RETURNED = {
     "CatalogueEntry",
     "Citations",
     "ContactHeating",
+    "TransientHeating",
     "ContactSolution",
     "HeatedFrictionCurves",
     "ContactStatistics",

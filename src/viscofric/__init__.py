@@ -82,6 +82,7 @@ if TYPE_CHECKING:
     from viscofric.heat.heating import Heating as Heating
     from viscofric.heat.maps import surface_temperature as surface_temperature
     from viscofric.heat.result import ContactHeating as ContactHeating
+    from viscofric.heat.result import TransientHeating as TransientHeating
     from viscofric.heat.sources import MovingHeatSource as MovingHeatSource
     from viscofric.heat.track import track_temperature as track_temperature
     from viscofric.literature.citations import Citations as Citations
@@ -259,6 +260,7 @@ _HOME = {
     "ThermalProperties": "viscofric.thermal",
     "Heating": "viscofric.heat.heating",
     "ContactHeating": "viscofric.heat.result",
+    "TransientHeating": "viscofric.heat.result",
     "HeatedFrictionCurves": "viscofric.friction.heating",
     "MovingHeatSource": "viscofric.heat.sources",
     "surface_temperature": "viscofric.heat.maps",

@@ -23,6 +23,7 @@ from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from viscofric.arrays import Array
     from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
@@ -120,14 +121,8 @@ def predict_friction(
     insist_on_round_edges(indenter)
     insist_on_function(progress, "progress")
     force = positive(load, indenter.geometry.load_unit, "load")
-    for name, values, unit in (("speeds", velocities, "m/s"), ("temperatures", kelvins, "K")):
-        if not values.size:
-            raise InputError(f"{name} must hold at least one value.", code="empty-list")
-        if not np.all(values > 0.0):
-            raise InputError(
-                f"{name} must be above zero everywhere, but one is {shown_number(float(values.min()), 'g')} {unit}.",
-                code="not-positive",
-            )
+    _insist_on_values(velocities, "speeds", "m/s")
+    _insist_on_values(kelvins, "temperatures", "K")
     if heating is not None and (samples is not None or interface is not None):
         raise InputError("heating: not with samples or interface; leave out one.", code="not-with-heating")
     drawn = None if samples is None else DrawnMaterials(samples, material)
@@ -163,3 +158,13 @@ def predict_friction(
         return curves
     layer = settings.get("layer")
     return with_interface(curves, interface, slip, poisson_ratio=material.poisson_ratio, layer=layer)
+
+
+def _insist_on_values(values: Array, name: str, unit: str) -> None:
+    if not values.size:
+        raise InputError(f"{name} must hold at least one value.", code="empty-list")
+    if not np.all(values > 0.0):
+        raise InputError(
+            f"{name} must be above zero everywhere, but one is {shown_number(float(values.min()), 'g')} {unit}.",
+            code="not-positive",
+        )

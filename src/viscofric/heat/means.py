@@ -45,6 +45,17 @@ def strip_mean(peclet: float, *, hertz: bool) -> float:
     return float(np.sum(common * 0.5 * (1.0 + np.exp(-2.0 * z)) * k0e(z))) / np.pi
 
 
+def pair_density(distance: Array, shape: str) -> Array:
+    """Return the density of the distance d (n,), 0 to 2 radii, of a point under Hertz's pressure from one of the face.
+
+    In the plane for a "disc", along the line, d of either sign, for a "strip".
+    """
+    if shape == "disc":
+        return _hertz_overlap(distance) / np.pi**2
+    x = 1.0 - distance
+    return np.asarray((x * np.sqrt(distance * (2.0 - distance)) + np.arcsin(x) + 0.5 * np.pi) / (2.0 * np.pi))
+
+
 @lru_cache(maxsize=2)
 def _disc_overlap(hertz: bool) -> tuple[Array, Array]:
     """Return distances d (n,) and c(d) with the weights of an integral over d."""

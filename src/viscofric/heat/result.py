@@ -1,4 +1,4 @@
-"""Temperature of a contact that its own friction heats."""
+"""Temperature of a contact that its own friction heats, steady or over time."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from viscofric.datasets import dataset
 
 if TYPE_CHECKING:
     import xarray
+
+    from viscofric.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -81,3 +83,58 @@ class ContactHeating:
         }
         values = {name: getattr(self, name) for name in meanings}
         return dataset((), {name: (values[name], *meanings[name]) for name in meanings if values[name] is not None})
+
+
+@dataclass(frozen=True, eq=False)
+class TransientHeating:
+    """Heat and rise of temperature of a contact over time, and its friction without them; each (n,) along its times.
+
+    Heats are since the start, J, of a line contact J/m.
+
+    Attributes
+    ----------
+    temperature_rise : array
+        Mean rise of the face, the same in both bodies, K; the contact was solved so much warmer.
+    loss_rise : array
+        Its part by the viscoelastic loss, before the counterface has taken any of it, K.
+    coulomb_heat, loss_heat : array
+        Heat of Coulomb friction and of the viscoelastic loss.
+    counterface_heat : array
+        The part of their sum that the counterface has taken up; the rest is in the rubber.
+    isothermal_friction_force : array
+        Friction force without heating, N or N/m.
+    residual, error : array
+        Rise that the solved contact produces less that at which it was solved, in size, and its change with half as
+        many times, K.
+    """
+
+    temperature_rise: Array
+    loss_rise: Array
+    coulomb_heat: Array
+    loss_heat: Array
+    counterface_heat: Array
+    isothermal_friction_force: Array
+    residual: Array
+    error: Array
+
+    @property
+    def rubber_heat(self) -> Array:
+        """Heat that the rubber has taken up, J or J/m."""
+        return self.coulomb_heat + self.loss_heat - self.counterface_heat
+
+    def columns(self, force: str, energy: str) -> dict[str, tuple[Array, str, str]]:
+        """Return all with the units of force and energy, and long names."""
+        return {
+            "temperature_rise": (self.temperature_rise, "K", "mean rise of temperature of the face"),
+            "temperature_rise_error": (self.error + self.residual, "K", "estimated error of the rise of temperature"),
+            "loss_rise": (self.loss_rise, "K", "rise of temperature due to the viscoelastic loss"),
+            "coulomb_heat": (self.coulomb_heat, energy, "heat of Coulomb friction"),
+            "loss_heat": (self.loss_heat, energy, "heat of the viscoelastic loss"),
+            "counterface_heat": (self.counterface_heat, energy, "heat that the counterface has taken up"),
+            "rubber_heat": (self.rubber_heat, energy, "heat that the rubber has taken up"),
+            "isothermal_friction_force": (self.isothermal_friction_force, force, "friction force without heating"),
+        }
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return all along ``step``, the number of the time; a solution's data set has them along ``time``."""
+        return dataset("step", self.columns("N", "J"))

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.heat.result import TransientHeating
     from viscofric.motion.mover import Field
     from viscofric.motion.restart import Restart
     from viscofric.units import Quantity
@@ -98,6 +99,8 @@ class TransientSolution:
     dent : array or None
         Depth of the surface under the indenter's lowest point, m: the residual indentation after a contact; None
         where it is unknown.
+    heating : TransientHeating or None
+        Heat, rise of temperature and isothermal friction, where requested; `temperature` then includes the rise.
     """
 
     time: Array
@@ -124,6 +127,7 @@ class TransientSolution:
     direction: tuple[float, float]
     warnings: tuple[str, ...] = ()
     dent: Array | None = None
+    heating: TransientHeating | None = None
     _fields: tuple[Field | None, ...] = field(default=(), repr=False)
     _restart: Restart | None = field(default=None, repr=False)
 
@@ -238,6 +242,7 @@ class TransientSolution:
             "indentation_error": (self.errors.indentation, "m", "estimated error of the indentation"),
             "friction_force_error": (self.errors.friction_force, force, "estimated error of the friction force"),
             "energy_error": (self.errors.energy, energy, "estimated error of the dissipated energy"),
+            **({} if self.heating is None else self.heating.columns(force, energy)),
         }
         return dataset(
             "time",

@@ -26,9 +26,10 @@ from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, to_si_array
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from viscofric.arrays import Array
+    from viscofric.heat.heating import Heating
     from viscofric.motion.chains import Moment, Track
     from viscofric.motion.mover import Mover
     from viscofric.motion.schedule import Schedule
@@ -54,6 +55,7 @@ def solve_transient(
     indenter_poisson_ratio: float = 0.3,
     progress: Callable[[float, float], object] | None = None,
     resume: TransientSolution | str | PathLike[str] | None = None,
+    heating: Heating | None = None,
 ) -> TransientSolution:
     """Solve a contact through a history of load or depth, path and temperature.
 
@@ -80,6 +82,10 @@ def solve_transient(
         Run to continue, or the file that its `TransientSolution.save_state` wrote: an interrupted run, or one whose
         history is the beginning of this history.  The results equal those of one uninterrupted run, and include
         those of the earlier one.  Not available for contacts on cells.
+    heating : Heating, optional
+        Thermal properties and Coulomb heat: the rubber responds at the temperature of the history plus the mean rise of
+        the contact's face, which the solution's `heating` holds.  In three or four runs, at some sixty times and those
+        asked for.  Not with a layer, a rough surface, `resume` or steady sliding before.
 
     Returns
     -------
@@ -127,6 +133,21 @@ def solve_transient(
     insist_on_function(progress, "progress")
     problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     asked = checked_times(times, problem.schedule)
+    if heating is not None:
+        if resume is not None:
+            raise InputError("heating: not with resume; solve the whole history at once.", code="not-with-heating")
+        from viscofric.motion.heated import solve_heated
+
+        def solve(
+            one: History, at: Sequence[float], told: Callable[[float, float], object] | None
+        ) -> TransientSolution:
+            found: TransientSolution = solve_transient(
+                material, indenter, one, times=np.asarray(at), accuracy=accuracy, indenter_modulus=indenter_modulus,
+                indenter_poisson_ratio=indenter_poisson_ratio, progress=told,
+            )  # fmt: skip
+            return found
+
+        return solve_heated(problem, history, heating, asked, solve, progress)
     if resume is not None:
         return _resumed(resume, problem, history, asked, progress)
     notes: tuple[Note, ...] = ()

@@ -1,0 +1,162 @@
+"""Mean rise of temperature of a contact along any path on a half-space, by heat that changes with time.
+
+Heat released a time t ago over a contact that has moved on by d since raises the mean temperature of its face by
+
+    M(d/a, κt/a²) / (ρc √(πκt) aⁿ)  per heat,      n = 2 of a disc, n = 1 of a strip, whose heat is per length,
+
+M the density of the distance between a point of the source, distributed as Hertz's pressure, and one of the face, after
+heat has spread by diffusion.  Heat is constant between two times.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from viscofric.heat.means import pair_density
+
+if TYPE_CHECKING:
+    from scipy.interpolate import RectBivariateSpline
+
+    from viscofric.arrays import Array
+    from viscofric.heat.heating import Heating
+    from viscofric.thermal import ThermalProperties
+
+
+#: κt/a² below which nothing has spread, and above which M is a normal distribution; sizes of the table between.
+_LEAST, _MOST = 1e-4, 10.0
+_TIMES, _PLACES, _RADII = 41, 81, 400
+#: Standard deviations of diffusion beyond the reach of source and face at which nothing is left.
+_REACH = 7.0
+#: Of the distance between two points, along one axis: under Hertz's pressure and on the face.
+_VARIANCE = {"disc": 1.0 / 5.0 + 1.0 / 4.0, "strip": 1.0 / 4.0 + 1.0 / 3.0}
+_POWER = {"disc": 2, "strip": 1}
+#: Gauss points on each part of an interval, longest part of the path in radii, most parts.
+_NODES, _STEP, _PARTS = 8, 0.5, 256
+#: Ends of parts in √(κt)/a.
+_SPREADING = 0.5 * 2.0 ** np.arange(12)
+
+
+class Passage(NamedTuple):
+    """A contact along its path: times (n,), positions (n, 2), m, and radii or half-widths (n,), m."""
+
+    time: Array
+    position: Array
+    size: Array
+    shape: str  # "disc" or "strip"
+
+
+class PathRise(NamedTuple):
+    """Mean rise of the face, the same in both bodies, and its part by the loss, K; heat that the counterface takes.
+
+    At each time, (n,); heat since the time before, J or J/m.
+    """
+
+    rise: Array
+    by_loss: Array
+    counterface: Array
+
+
+def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -> PathRise:
+    """Return the rise along a path by Coulomb heat on the face and loss below it, heats (n,) since the time before.
+
+    The loss is released evenly to the depth of the contact's size, and stays in the rubber; of the Coulomb heat each
+    body takes so much that both faces are equally warm at all times.
+    """
+    count = len(passage.time)
+    still = passage._replace(position=np.zeros_like(passage.position))
+    rubber, below = _responses(passage, heating.rubber)
+    other, _ = _responses(still, heating.counterface)
+    from_loss = below @ loss
+    taken, rise = np.zeros(count), np.zeros(count)
+    for row in range(1, count):
+        both = rubber[row, row] + other[row, row]
+        if both > 0.0:
+            warmth = from_loss[row] + rubber[row, : row + 1] @ coulomb[: row + 1] - rubber[row, :row] @ taken[:row]
+            taken[row] = (warmth - other[row, :row] @ taken[:row]) / both
+        rise[row] = other[row, : row + 1] @ taken[: row + 1]
+    return PathRise(rise, from_loss, taken)
+
+
+def _responses(passage: Passage, body: ThermalProperties) -> tuple[Array, Array]:
+    """Return rises at each time per heat of each interval before, (n, n): on the face, and below it."""
+    count = len(passage.time)
+    face, below = np.zeros((2, count, count))
+    for row in range(1, count):
+        for last in range(1, row + 1):
+            radius = 0.5 * float(passage.size[last - 1] + passage.size[last])
+            if passage.time[last] > passage.time[last - 1] and radius > 0.0:
+                face[row, last], below[row, last] = _response(passage, body, row, last, radius)
+    return face, below
+
+
+def _response(passage: Passage, body: ThermalProperties, row: int, last: int, radius: float) -> tuple[float, float]:
+    time, places = passage.time, passage.position
+    start, end = math.sqrt(time[row] - time[last - 1]), math.sqrt(time[row] - time[last])
+    way = places[last] - places[last - 1]
+    parts = min(_PARTS, 1 + math.ceil(math.hypot(*way) / (_STEP * radius)))
+    # Parts by the path, and by the time in which heat spreads over the contact, which M changes with.
+    spreading = radius / math.sqrt(body.diffusivity) * _SPREADING
+    inside = spreading[(spreading > end) & (spreading < start)]
+    edges = np.sort(np.append(np.linspace(end, start, parts + 1), inside))
+    node, weight = np.polynomial.legendre.leggauss(_NODES)
+    half = 0.5 * np.diff(edges)[:, None]
+    root = (edges[:-1, None] + half * (1.0 + node)).ravel()  # √t, in which 1/√t has no pole
+    share = (start**2 - root**2) / (start**2 - end**2)
+    away = places[row] - places[last - 1] - share[:, None] * way
+    spread = body.diffusivity * root**2 / radius**2
+    scale = body.volume_heat * math.sqrt(math.pi * body.diffusivity) * radius ** _POWER[passage.shape]
+    each = 2.0 * (half * weight).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
+    each /= scale * (start**2 - end**2)
+    return float(each.sum()), float(each @ _from_below(spread))
+
+
+def _from_below(spread: Array) -> Array:
+    """Return ∫_0^1 exp(−z²/(4κt/a²)) dz: what heat spread evenly to a depth does at the face, over heat on it."""
+    from scipy.special import erf
+
+    x = 0.5 / np.sqrt(spread)
+    return np.asarray(0.5 * math.sqrt(math.pi) * erf(x) / x)
+
+
+def density(distance: Array, spread: Array, shape: str) -> Array:
+    """Return M at distances d/a and κt/a², (n,)."""
+    power = _POWER[shape]
+    variance = _VARIANCE[shape] + 2.0 * spread
+    found = np.exp(-0.5 * distance**2 / variance) / np.sqrt(2.0 * math.pi * variance) ** power
+    near = spread < _MOST
+    held = np.maximum(spread[near], _LEAST)
+    reach = 2.0 + _REACH * np.sqrt(2.0 * held)
+    place = distance[near] / reach
+    values = _table(shape).ev(np.minimum(place, 1.0), np.log(held)) / reach**power
+    found[near] = np.where(place < 1.0, np.maximum(values, 0.0), 0.0)
+    return np.asarray(found)
+
+
+@lru_cache(maxsize=2)
+def _table(shape: str) -> RectBivariateSpline:
+    """Tabulate M times the farthest distance to its power, over the distance in it and ln κt/a²."""
+    from scipy.interpolate import RectBivariateSpline
+    from scipy.special import i0e
+
+    node, weight = np.polynomial.legendre.leggauss(_RADII)
+    radius = 1.0 + node
+    common = weight * pair_density(radius, shape)
+    place, logarithm = np.linspace(0.0, 1.0, _PLACES) ** 2, np.linspace(math.log(_LEAST), math.log(_MOST), _TIMES)
+
+    def spread_out(distance: Array, spread: float) -> Array:
+        ahead = np.exp(-np.square(distance[:, None] - radius) / (4.0 * spread))
+        if shape == "disc":
+            around = i0e(distance[:, None] * radius / (2.0 * spread))
+            return np.asarray((ahead * around * radius / (2.0 * spread)) @ common)
+        behind = np.exp(-np.square(distance[:, None] + radius) / (4.0 * spread))
+        return np.asarray((ahead + behind) @ common) / math.sqrt(4.0 * math.pi * spread)
+
+    columns = []
+    for spread in np.exp(logarithm).tolist():
+        reach = 2.0 + _REACH * math.sqrt(2.0 * spread)
+        columns.append(reach ** _POWER[shape] * spread_out(reach * place, spread))
+    return RectBivariateSpline(place, logarithm, np.array(columns).T)

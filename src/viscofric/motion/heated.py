@@ -1,0 +1,202 @@
+"""Contacts over time at the temperature to which their own friction heats them.
+
+The rubber responds at the temperature of its history plus the mean rise of the contact's face, one number at each time,
+through its clock.  The rise follows from the heat of a solved run along its path; runs are repeated with it until it no
+longer changes.  Heat acts on the future only, so that this converges quickly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.arguments import insist_on
+from viscofric.errors import ConvergenceError, InputError
+from viscofric.heat.heating import Heating
+from viscofric.heat.path import Passage, path_rise
+from viscofric.heat.result import TransientHeating
+from viscofric.motion.history import History, dense_times
+from viscofric.notes import Note
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from viscofric.arrays import Array, Indices
+    from viscofric.heat.path import PathRise
+    from viscofric.motion.problem import Problem
+    from viscofric.motion.solution import TransientSolution
+
+
+#: Times at which the rise is found, besides those asked for, and most runs.
+_POINTS, _MOST_RUNS = 60, 12
+#: Friction changes by less than so many times itself with a decade of α.
+_STEEPEST = 2.5
+
+
+def solve_heated(
+    problem: Problem,
+    history: History,
+    heating: Heating,
+    times: Sequence[float] | None,
+    solve: Callable[[History, Sequence[float], Callable[[float, float], object] | None], TransientSolution],
+    progress: Callable[[float, float], object] | None,
+) -> TransientSolution:
+    """Return the solution of a contact that its own friction heats; `solve` runs through a history at times given.
+
+    Raises InputError if it cannot be heated, ConvergenceError if the rise does not settle.
+    """
+    _insist_on_heatable(problem, history, heating)
+    law = problem.material.shift
+    assert law is not None
+    assert history.temperature is not None
+    own = dense_times(history, max(_POINTS, 2 * len(history.time)))
+    grid = sorted([*own, *(set(times or ()) - set(own))])
+    told = None if progress is None else _Runs(progress)
+    isothermal = run = solve(history, grid, told)
+    schedule = problem.schedule
+    around = np.array([schedule.temperature(time, after=after) for time, after in _sided(grid)])
+    rise = np.zeros(len(grid))
+    for _ in range(_MOST_RUNS):
+        if run.interrupted:
+            said = "Interrupted before the rise of temperature was known: the friction is not that of a heated contact."
+            return replace(run, warnings=(*run.warnings, Note("not-heated", said)))
+        found = _rise(problem, run, heating)
+        change = np.abs(np.asarray(law.log10(around + found.rise)) - np.asarray(law.log10(around + rise)))
+        residual = np.abs(found.rise - rise)
+        if float(change.max()) * _STEEPEST <= problem.accuracy:
+            break
+        rise = found.rise
+        run = solve(_warmer(problem, history, grid, around + rise), grid, None if told is None else told.next())
+    else:
+        raise ConvergenceError(
+            f"the temperature of the contact did not settle in {_MOST_RUNS} runs: it still changes by "
+            f"{residual.max():.2g} K.",
+            code="temperature-not-settled",
+        )
+    if told is not None:
+        told.end()
+    coulomb, loss = _heats(run, heating)
+    heated = TransientHeating(
+        rise, found.by_loss, np.cumsum(coulomb), np.cumsum(loss), np.cumsum(found.counterface),
+        isothermal.friction_force, residual, _change_with_half(problem, run, heating, found),
+    )  # fmt: skip
+    keep = range(len(grid)) if times is None else _rows(grid, times)
+    chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep))
+    return chosen
+
+
+def _insist_on_heatable(problem: Problem, history: History, heating: Heating) -> None:
+    insist_on(heating, "heating", Heating)
+    reasons = {
+        "a rough surface": problem.kind == "periodic",
+        "a layer": problem.layer is not None,
+        "before = 'sliding', whose heat has no beginning": history.before == "sliding",
+        "slip or passes, which follow from the history": heating.slip is not None or heating.passes > 0,
+        "average = 'loss'": heating.average != "contact",
+        "the hot branch, which a history reaches by itself": heating.branch != "cold",
+        "a material without shift factors, or a history without temperature": problem.material.shift is None
+        or history.temperature is None,
+    }
+    for reason, holds in reasons.items():
+        if holds:
+            raise InputError(f"heating: a contact over time is not solved with {reason}.", code="not-with-heating")
+
+
+def _sided(grid: Sequence[float]) -> list[tuple[float, bool]]:
+    """Return each time, and whether the values after its jump are meant: those of the second of two."""
+    return [(time, place > 0 and grid[place - 1] == time) for place, time in enumerate(grid)]
+
+
+def _warmer(problem: Problem, history: History, grid: Sequence[float], temperature: Array) -> History:
+    """Return the same history with other temperatures at more times."""
+    schedule = problem.schedule
+    last = len(grid) - 1
+    # Before a jump the values on its left; at the end of the history there are no others.
+    both = [
+        (time, after or (grid.count(time) == 1 and place < last)) for place, (time, after) in enumerate(_sided(grid))
+    ]
+    instants = [schedule.at(time, after=after) for time, after in both]
+    control = history.control
+    values = [getattr(one, "depth" if control == "indentation" else control) for one in instants]
+    given: dict[str, Any] = {control: values}
+    if history.speed is None:
+        given["position"] = np.array([one.position for one in instants])
+    else:
+        given["speed"] = np.array([schedule.velocity(time, after=after) for time, after in both])
+    return History(list(grid), **given, temperature=temperature, before=history.before, direction=history.direction)
+
+
+def _rise(problem: Problem, run: TransientSolution, heating: Heating, rows: Indices | None = None) -> PathRise:
+    coulomb, loss = (np.cumsum(one) for one in _heats(run, heating))
+    rows = np.arange(len(run.time), dtype=np.intp) if rows is None else rows
+    line = problem.kind == "line"
+    size = 0.5 * run.contact_area if line else np.sqrt(run.contact_area / np.pi)
+    passage = Passage(run.time[rows], run.position[rows], size[rows], "strip" if line else "disc")
+    return path_rise(passage, np.diff(coulomb[rows], prepend=0.0), np.diff(loss[rows], prepend=0.0), heating)
+
+
+def _heats(run: TransientSolution, heating: Heating) -> tuple[Array, Array]:
+    """Return Coulomb heat and loss since the time before; what a jump releases counts after it."""
+    way = np.hypot(*np.diff(run.position, axis=0).T)
+    load = 0.5 * (run.load[1:] + run.load[:-1])
+    coulomb = np.concatenate([[0.0], heating.coulomb * load * way])
+    loss = np.concatenate([[0.0], np.maximum(np.diff(run.dissipated), 0.0)])
+    for row in np.flatnonzero(np.diff(run.time) == 0.0) + 1:
+        if row + 1 < len(loss):
+            loss[row + 1] += loss[row]
+            loss[row] = 0.0
+    return coulomb, loss
+
+
+def _change_with_half(problem: Problem, run: TransientSolution, heating: Heating, found: PathRise) -> Array:
+    """Return how much the rise changes with every other time left out, interpolated."""
+    rows = np.unique(np.append(np.arange(0, len(run.time), 2), len(run.time) - 1))
+    change = np.abs(_rise(problem, run, heating, rows).rise - found.rise[rows])
+    return np.asarray(np.interp(np.arange(len(run.time)), rows, change))
+
+
+def _rows(grid: Sequence[float], times: Sequence[float]) -> list[int]:
+    """Return the rows of times; of one at a jump, given once, the row after it."""
+    wanted: list[int] = []
+    for place, time in enumerate(times):
+        twice = place + 1 < len(times) and times[place + 1] == time
+        first = grid.index(time)
+        wanted.append(first if twice else first + grid.count(time) - 1)
+    return wanted
+
+
+def _selected(found: Any, keep: Sequence[int]) -> Any:
+    """Return a result with some of its times."""
+    rows = list(keep)
+    chosen: dict[str, Any] = {}
+    for one in fields(found):
+        value = getattr(found, one.name)
+        if isinstance(value, np.ndarray):
+            chosen[one.name] = value[rows]
+        elif one.name == "errors":
+            chosen[one.name] = _selected(value, rows)
+        elif one.name == "_fields" and value:
+            chosen[one.name] = tuple(value[row] for row in rows)
+    return replace(found, **chosen)
+
+
+@dataclass(eq=False)
+class _Runs:
+    """One progress of several runs, whose number is not known before: each takes half of what remains."""
+
+    whole: Callable[[float, float], object]
+    begun: float = 0.0
+    last: float = 0.0
+
+    def __call__(self, reached: float, end: float) -> None:
+        self.last = end
+        self.whole((self.begun + 0.5 * (1.0 - self.begun) * reached / end) * end if end > 0.0 else reached, end)
+
+    def next(self) -> _Runs:
+        self.begun += 0.5 * (1.0 - self.begun)
+        return self
+
+    def end(self) -> None:
+        self.whole(self.last, self.last)

@@ -1,0 +1,47 @@
+"""Contacts over time that their own friction heats."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from refusals import refused
+
+RUBBER = vf.ThermalProperties("0.3 W/m/K", "1150 kg/m**3", "1700 J/kg/K", "rubber")
+STEEL = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")
+HEATING = vf.Heating(rubber=RUBBER, counterface=STEEL, coulomb=0.5)
+BALL = vf.Ball("5 mm")
+
+
+@pytest.mark.apart  # four runs on cells
+def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> None:
+    material = vf.synthetic_fluoroelastomer()
+    cylinder, asked = vf.Cylinder("5 mm"), [0.1, 0.15, 0.2]
+    history = vf.History([0.0, 0.1, 0.2], load=2000.0, speed=[0.3, 0.3, 0.3], temperature="20 degC", before="at rest")
+    run = vf.solve_transient(material, cylinder, history, times=asked, accuracy=3e-2, heating=HEATING)
+    heat = run.heating
+    assert heat is not None
+    assert heat.temperature_rise.min() > 1.0
+    assert run.temperature == pytest.approx(293.15 + heat.temperature_rise)
+    assert heat.rubber_heat + heat.counterface_heat == pytest.approx(heat.coulomb_heat + heat.loss_heat)
+    assert heat.coulomb_heat == pytest.approx(0.5 * 2000.0 * 0.3 * np.array(asked))
+    # The same contact at a given temperature, that of the end: after many contact lengths nothing older counts.
+    warm = vf.History(
+        [0.0, 0.1, 0.2], load=2000.0, speed=[0.3, 0.3, 0.3], temperature=float(run.temperature[-1]), before="at rest"
+    )
+    given = vf.solve_transient(material, cylinder, warm, times=asked, accuracy=3e-2)
+    errors = given.errors.friction_force[-1] + run.errors.friction_force[-1]
+    assert run.friction_force[-1] == pytest.approx(given.friction_force[-1], abs=errors)
+    assert set(run.to_dataset()) >= {"temperature_rise", "temperature_rise_error", "isothermal_friction_force"}
+
+
+def test_what_cannot_be_heated_over_time_is_refused() -> None:
+    material = vf.synthetic_fluoroelastomer()
+    pressed = vf.History([0.0, 1.0], load=1.0, temperature="20 degC")
+    with refused("not-with-heating"):
+        vf.solve_transient(material, BALL, pressed, heating=HEATING, layer=vf.Layer("1 mm"))
+    with refused("not-with-heating"):
+        vf.solve_transient(material, BALL, vf.History([0.0, 1.0], load=1.0), heating=HEATING)
+    with refused("heating"):
+        vf.solve_transient(material, BALL, pressed, heating="steel")  # type: ignore[arg-type]
