@@ -468,6 +468,7 @@ CALLS: dict[str, Any] = {
     "shear_stress": lambda: {"curves": rubbed(), "contacts": rubbed(), "shift": None, "reference": 300.0,
         "level_error": 0.0, "area_error": 0.0},
     "ShearStress.law": lambda: (vf.shear_stress(rubbed(), rubbed()), {"kind": "power"}),
+    "ShearStress.to_dataset": lambda: (vf.shear_stress(rubbed(), rubbed()), {"law": eyring()}),
     "ConstantShearStress": lambda: {"stress": 3e5, "shift": None, "covariance": np.eye(1), **stress_fit()},
     "PowerShearStress": lambda: {"stress": 3e5, "exponent": 0.2, "speed": 0.1, "shift": wlf(), "covariance": np.eye(2),
         **stress_fit()},

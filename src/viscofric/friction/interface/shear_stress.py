@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.pairing import partner
@@ -17,6 +18,7 @@ from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isothe
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.notes import Note
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.units import Quantity, positive, to_si
 
@@ -27,7 +29,6 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, Mask
     from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.shifts.law_comparison import LawComparison
 
 
@@ -166,11 +167,17 @@ class ShearStress:
         xarray.Dataset
             ``reduced_speed`` is NaN where α is not known.  Attributes: ``reference_temperature`` (K), ``level_error``,
             ``area_error`` and ``notes``, with a law also ``law`` and ``description``.
+
+        Raises
+        ------
+        InputError
+            If the law is none.
         """
         from viscofric.datasets import dataset
 
         reduced, reference, described = self.reduced_speed, self.reference, {}
         if law is not None:
+            insist_on(law, "law", InterfaceLaw)
             described = {"law": law.title, "description": str(law)}
             reduced = self.speed if law.shift is None else self._reduced(law.shift)
             reference = self.reference if law.shift is None else law.shift.reference
