@@ -31,6 +31,10 @@ _UNITS = {"point": ("N", "J", "m2"), "line": ("N/m", "J/m", "m"), "periodic": ("
 class TransientErrors:
     """Estimated errors of a transient contact in time, absolute, each (n,) along its times.
 
+    They include those of steps, springs or cells, merged modes and the tolerance of the contact conditions; contacts on
+    waves take the points of their surface as given.  Of random springs and waves, 97 % or more of the values were
+    within their stated errors (benchmarks/motion).  Contact area, radius and edges have no stated errors.
+
     Attributes
     ----------
     load : array
