@@ -97,7 +97,7 @@ def test_ball_on_a_circle_that_closes():
     exact = dense(square_cells(side, count, count), side**2, False, times, lambda time: load, place)
     given = np.linspace(0.0, 1.5 * period, 193)
     history = vf.History(given, load=load, position=np.array([place(time) for time in given]))
-    run = vf.solve_transient(RUBBER, vf.Ball(R), history, times=times[steps // 8 :: steps // 8], accuracy=5e-2)
+    run = vf.solve_transient(RUBBER, vf.Ball(R), history, times=times[steps // 8 :: steps // 8], accuracy=1e-2)
     force = np.column_stack([run.friction_force, run.lateral_force])
     assert force == pytest.approx(exact[steps // 8 :: steps // 8], abs=8e-3 * np.abs(force).max())
 
