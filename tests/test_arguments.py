@@ -343,7 +343,7 @@ CALLS: dict[str, Any] = {
     "Layer.yielding": lambda: (vf.Layer(1e-3), {"wave_number": np.array([1e3, 1e4]), "poisson_ratio": 0.5}),
     "solve_periodic": lambda: {"material": rubber(), "surface": road().to_surface(), "speed": 0.1, "pressure": 5e3,
         "gap": None, "temperature": None, "direction": (1.0, 0.0), "layer": None, "indenter_modulus": 1e9,
-        "indenter_poisson_ratio": 0.3, "tolerance": 1e-6, "most_products": 1000, "backend": "scipy"},
+        "indenter_poisson_ratio": 0.3, "coulomb": 0.1, "tolerance": 1e-6, "most_products": 1000, "backend": "scipy"},
     "PeriodicSurface": lambda: {"z": 1e-6 * np.cos(0.25 * np.pi * np.arange(8)), "spacing": 1e-4},
     "Cone": lambda: {"angle": 0.1},
     "Ellipsoid": lambda: {"radius_x": 1e-2, "radius_y": 2e-2},
@@ -351,7 +351,7 @@ CALLS: dict[str, Any] = {
     "solve_steady": lambda: {"material": rubber(), "indenter": CYLINDER, "speed": 1.0, "load": 1e3, "indentation": None,
         "temperature": None, "accuracy": 3e-2, "tolerance": 1e-7, "finest": 2048, "window": None, "grid": None,
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "layer": None, "backend": "scipy", "direction": (1.0,
-        0.0), "derivatives": False, "heating": None},
+        0.0), "coulomb": 0.1, "derivatives": False, "heating": None},
     "History": lambda: {"time": np.array([0.0, 0.1, 0.2]), "load": np.array([0.0, 1.0, 0.5]), "indentation": None,
         "pressure": None, "gap": None, "position": np.zeros(3), "speed": None, "temperature": 300.0, "before":
         "untouched", "direction": (1.0, 0.0)},
@@ -362,10 +362,10 @@ CALLS: dict[str, Any] = {
         "kind": "point"}),
     "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "history": vf.History([0.0, 0.1],
         load=[0.0, 1.0], temperature=300.0), "times": np.array([0.05, 0.1]), "accuracy": 1e-2, "layer": None,
-        "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None, "resume": None},
+        "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None, "resume": None, "heating": None},
     "solve_cycle": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "one_period": vf.History([0.0, 0.1, 0.2],
         load=[0.5, 1.0, 0.5], temperature=300.0), "accuracy": 1e-2, "layer": None, "indenter_modulus": 1e9,
-        "indenter_poisson_ratio": 0.3, "most_periods": 60, "progress": None},
+        "indenter_poisson_ratio": 0.3, "most_periods": 60, "times": None, "progress": None},
     "solve_impact": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "mass": 0.03, "speed": 0.1, "gravity":
         9.81, "rebounds": 1, "temperature": 300.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
         0.3},

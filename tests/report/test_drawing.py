@@ -165,3 +165,12 @@ def test_all_cases_failed_is_still_drawn(tree: xr.DataTree, monkeypatch: pytest.
         "friction_master_curve",
         "coulomb_friction",
     ]
+
+
+def test_every_figure_of_friction_has_its_place_in_the_report() -> None:
+    import xarray as xr
+
+    from viscofric.report import html
+
+    placed = {name for _, names in html._groups(xr.DataTree()) for name in names}
+    assert set(drawing.FRICTION_FIGURES) <= placed | set(html._ANSWER)

@@ -133,6 +133,7 @@ def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
         ("Friction", ("friction_master_curve", "coulomb_friction", "friction_shift_factors")),
         ("Interface", ("friction_parts", "shear_stress")),
         ("Contact", ("contacts", "recovery_trail")),
+        ("Contacts over time", ("contacts_over_time", "impacts")),
         ("Material", tuple(RUBBER_FIGURES)),
     ]
     for place, (rubber, _) in enumerate(rubbers(tree), 1):

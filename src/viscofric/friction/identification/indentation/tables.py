@@ -239,7 +239,7 @@ class OscillationRecord:
         }
         _set_columns(self, {"angular_frequency": (omega, "rad/s"), **columns}, "angular_frequency")
         depth, size = positive(indentation, "m", "indentation"), positive(amplitude, "m", "amplitude")
-        if size > LARGEST_AMPLITUDE * depth:
+        if size > LARGEST_AMPLITUDE * depth * (1.0 + 1e-9):  # rounding of units
             raise InputError(
                 f"amplitude = {brief(amplitude)}: above {LARGEST_AMPLITUDE:g} of the mean depth the contact radius "
                 "oscillates too; give load and depth over time as an IndentationRecord.",
