@@ -145,9 +145,9 @@ def solve_cycle(
         repeating = cast("RepeatingMover[Any]", mover)
         track, notes = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked), ()
     assert search.whole is not None
-    whole = assemble(search.whole, problem, one_period, method, notes=notes)
-    found = CycleSolution.of(whole, problem.schedule.control, search.periods, search.change)
-    return found if asked is None else replace(found, run=assemble(track, problem, one_period, method, notes=notes))
+    run = assemble(track, problem, one_period, method, notes=notes)
+    whole = run if asked is None else assemble(search.whole, problem, one_period, method, notes=notes)
+    return replace(CycleSolution.of(whole, problem.schedule.control, search.periods, search.change), run=run)
 
 
 @dataclass(eq=False)

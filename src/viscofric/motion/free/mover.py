@@ -24,7 +24,7 @@ from viscofric.motion.free.past import NO_PAST, parted
 from viscofric.motion.free.resting import rested, untouched
 from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
-from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.mover import SHARE, Field, Observation, Scales
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -39,14 +39,13 @@ _SPARE = 0.3
 MOST_WINDOWS = 30
 MOST_BYTES = 2**32  # of the memory of one state; a few states are held at a time
 _TICK = 1.0  # distance between times at which steps may end, in cells
-_SHARE = 0.3  # see `march`: while a contact slides, errors of steps come and go
 
 
 @dataclass(eq=False)
 class FreeMover(Cells):
     """Steps of a free contact; see `viscofric.motion.mover.Mover`."""
 
-    share: ClassVar[float] = _SHARE
+    share: ClassVar[float] = SHARE
     reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
     longest: float = field(default=0.0, init=False)  # the longest of them
     datum: float = field(default=0.0, init=False)  # depth at the start, where depths have no level
