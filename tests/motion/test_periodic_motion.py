@@ -273,7 +273,7 @@ def test_few_modes_do_for_a_broad_spectrum() -> None:
     history = vf.History([0.0, 0.05], pressure=2e3, speed=0.1, before="sliding")
     problem = Problem(broad, profile(32), history.schedule(broad, "periodic"), 1e-3, None, 0.0)
     few = merged_modes(problem)
-    assert len(few) <= 30
+    assert len(few) <= 20
     times = np.linspace(0.0, 0.05, 4).tolist()
     every = PeriodicMover(problem, Modes.of(broad.spectrum))
     merged = PeriodicMover(problem, few)

@@ -72,6 +72,19 @@ def test_an_interrupted_run_of_waves_goes_on_from_a_file(tmp_path: Path):
     same(vf.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2, resume=tmp_path / "part.npz"), whole, rel=1e-9)
 
 
+def test_modes_merged_for_waves_serve_twice_the_time():
+    """Beyond that they differ from the material by more than is allowed."""
+    tau = np.geomspace(1e-9, 1e7, 40)
+    broad = vf.Material(vf.RetardationSpectrum("1 MPa", "20 MPa", tau**0.1 / (tau**0.1).sum() * 9.5e-7, tau))
+    moved = [vf.History([0.0, end], pressure=2e3, speed=0.1, before="sliding") for end in (0.05, 0.1, 5.0)]
+    part = vf.solve_transient(broad, WAVE, moved[0], accuracy=1e-2, progress=stopped_after(1))
+    further = vf.solve_transient(broad, WAVE, moved[1], accuracy=1e-2, resume=part, progress=stopped_after(1))
+    assert further.steps > part.steps
+    with pytest.raises(vf.InputError) as caught:
+        vf.solve_transient(broad, WAVE, moved[2], accuracy=1e-2, resume=part)
+    assert caught.value.code == "merged-modes"
+
+
 def test_a_run_goes_on_under_a_larger_load():
     """More springs are added beyond those that were touched: as solved at once, to the accuracy."""
     dwell = vf.History([0.0, 0.02], load=0.1)

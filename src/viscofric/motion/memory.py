@@ -33,6 +33,14 @@ if TYPE_CHECKING:
 _SERIES_BELOW, _TERMS = 0.3, 12
 # Times per decade at which merged modes are compared with the full set.
 _SAMPLES_PER_DECADE = 12
+# Fits: the fastest time is this many times the shortest one, times the error to this power; the slowest but one is as
+# many times the duration as the fastest is below half the shortest; the slowest is this many times the duration.
+_FASTEST, _POWER, _SLOWEST = 3.0, 0.4, 300.0
+_SUM = 1e3  # weight of the sum of compliances, over that of a sample
+# Part of the shortest time from which on fits are made: before it they differ more than merged modes do.
+_EARLIER = 0.3
+# Modes fewer than which are not worth a fit.
+_FEW = 8
 
 
 def phi(z: ArrayLike, count: int = 2, exponential: NDArray[Any] | None = None) -> list[NDArray[Any]]:
@@ -126,7 +134,8 @@ class Modes:
         shortest step, or the time in which a sliding contact passes a cell, if that is less.  Much faster modes follow
         the pressure at once or share one field; modes much slower than `whole_duration` share another.  `error` bounds
         what that changes: of the creep compliance J(t) from `shortest_time` to `whole_duration`, relative to J(t), and
-        of the complex compliance S(ω) from 1/`whole_duration` to 1/`shortest_time`, relative to |S|.
+        of the complex compliance S(ω) from 1/`whole_duration` to 1/`shortest_time`, relative to |S|.  Modes at other
+        times, fitted to both, are used where fewer of them are as close.
         """
         every = cls.of(spectrum)
         reference = _Response.of(every, shortest_time, whole_duration)
@@ -141,7 +150,17 @@ class Modes:
                     counts[kind] -= 1
                     break
                 best = replace(merged, error=away)
+        wider = _Response.of(every, _EARLIER * shortest_time, whole_duration)
+        for count in range(_FEW - 1, len(best) - 2):
+            fitted = wider.fitted(every, count, _FASTEST * error**_POWER)
+            away = wider.error(fitted)
+            if away <= error and len(fitted) < len(best):
+                return replace(fitted, error=away)
         return best
+
+    def difference(self, every: Modes, shortest_time: float, whole_duration: float) -> float:
+        """Return the largest difference from other modes, relative to theirs, as in `for_history`."""
+        return _Response.of(every, shortest_time, whole_duration).error(self)
 
     def __len__(self) -> int:
         return len(self.C)
@@ -210,3 +229,28 @@ class _Response:
         creep = np.abs(other.creep_compliance(self.times) / self.creep - 1.0).max()
         dynamic = np.abs(other.compliance(1.0 / self.times) / self.dynamic - 1.0).max()
         return float(max(creep, dynamic))
+
+    def fitted(self, every: Modes, count: int, fastest: float) -> Modes:
+        """Return modes at so many times and one slow one, fitted to what these modes respond, with the same sum.
+
+        A part of the compliance follows at once.  The fit is one of least squares with compliances not below zero.
+        """
+        from scipy.optimize import nnls
+
+        shortest, longest = float(self.times[0]), float(self.times[-1])
+        tau = np.append(np.geomspace(fastest * shortest, 0.5 / fastest * longest, count), _SLOWEST * longest)
+        total, size = float(every.C.sum()), np.abs(self.dynamic)
+        rate = self.times[:, None] / tau
+        creep = np.pad(-np.expm1(-rate), ((0, 0), (1, 0)), constant_values=1.0)
+        dynamic = np.pad(rate / (rate + 1j), ((0, 0), (1, 0)), constant_values=1.0)
+        parts = [
+            (creep.T / self.creep, 1.0 - every.instantaneous / self.creep),
+            (dynamic.real.T / size, (self.dynamic.real - every.instantaneous) / size),
+            (dynamic.imag.T / size, self.dynamic.imag / size),
+            (np.full((count + 2, 1), _SUM / total), np.array([_SUM])),
+        ]
+        matrix, aim = (np.concatenate(each, axis=-1) for each in zip(*parts, strict=True))
+        found, _ = nnls(total * matrix.T, aim)
+        quick, C = total / found.sum() * found[0], total / found.sum() * found[1:]
+        used = C > 0.0
+        return Modes(every.instantaneous + float(quick), C[used], tau[used], at_once=float(quick))

@@ -79,7 +79,7 @@ class PeriodicMover:
         self.schedule, self.surface = schedule, surface
         self.grid = Waves(surface.shape, surface.spacing, problem.material.poisson_ratio, problem.layer)
         self.backend = Backend()
-        spectrum = merged_modes(problem) if modes is None else modes
+        self.merged = spectrum = merged_modes(problem) if modes is None else modes
         self.depth_unit = surface.rms_height  # m; the others: m/Pa, Pa
         response = self.grid.response
         self.response_unit = float(response.max())

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 # Relative difference that is rounding: of values, and of modes that may have been fitted on another machine.
 _ROUNDING, _FITTED = 1e-9, 1e-6
-# Error of modes merged for a shorter history, as a part of the accuracy, and the first time at which it is judged.
-_MERGING, _FIRST, _SAMPLES = 0.2, 1e-5, 200
+# Numbers of modes.
+_NUMBERS = ("instantaneous", "at_once", "error")
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +56,9 @@ class Restart:
         if isinstance(mover, NormalMotion):
             basis = {"s": mover.s}
         else:
-            modes: Modes = mover.modes  # type: ignore[attr-defined]
-            unit = mover.compliance_unit / mover.response_unit  # type: ignore[attr-defined]
-            basis = {"C": unit * modes.C, "tau": modes.tau}
-            basis |= {one: np.array(unit * getattr(modes, one)) for one in ("instantaneous", "at_once")}
+            modes: Modes = mover.merged  # type: ignore[attr-defined]
+            basis = {"C": modes.C, "tau": modes.tau}
+            basis |= {one: np.array(getattr(modes, one)) for one in _NUMBERS}
         return cls(method, history, track, _same(problem, basis), basis)
 
     def insist_on_same(self, problem: Problem) -> None:
@@ -116,29 +115,19 @@ class Restart:
 
     def _waves(self, problem: Problem) -> Mover[Any]:
         from viscofric.motion.periodic import PeriodicMover
-        from viscofric.motion.wave_memory import merged_modes
+        from viscofric.motion.wave_memory import MERGING, resolved_times
 
         one = self.basis
-        held = Modes(float(one["instantaneous"]), one["C"], one["tau"], at_once=float(one["at_once"]))
-        fresh, every = merged_modes(problem), Modes.of(problem.schedule.spectrum)
-        if len(held) == len(fresh) and all(
-            np.allclose(one, two, rtol=_FITTED, atol=0.0)
-            for one, two in ((held.C, fresh.C), (held.tau, fresh.tau), (held.instantaneous, fresh.instantaneous))
-        ):
-            return PeriodicMover(problem)
-        times = problem.schedule.duration * np.geomspace(_FIRST, 1.0, _SAMPLES)
-        creep = every.creep_compliance(times)
-        off = float(np.abs(held.creep_compliance(times) / creep - 1.0).max())
-        quick = np.isclose(held.instantaneous, fresh.instantaneous, rtol=_FITTED) and np.allclose(
-            held.tau[:1], fresh.tau[:1], rtol=_FITTED
-        )
-        if not quick or off > _MERGING * problem.accuracy:
+        # Runs stored by older versions have no error.
+        held = Modes(C=one["C"], tau=one["tau"], **{name: float(one.get(name, 0.0)) for name in _NUMBERS})
+        off = held.difference(Modes.of(problem.schedule.spectrum), *resolved_times(problem))
+        if off > (1.0 + _FITTED) * MERGING * problem.accuracy:
             raise InputError(
                 "resume: the run has merged modes of the material that matter in the longer history, which is slower "
                 "or faster; solve the whole history from its start.",
                 code="merged-modes",
             )
-        return PeriodicMover(problem, held)
+        return PeriodicMover(problem, replace(held, error=max(held.error, off)))
 
 
 def _seen(mover: Mover[Any], reached: Reached[Any]) -> tuple[Mover[Any], Reached[Any]]:

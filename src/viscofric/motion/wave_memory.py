@@ -41,13 +41,15 @@ if TYPE_CHECKING:
 
 # Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
 # that part of it in which a point is passed from which on the passage is the shortest time.
-_MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
-# Waves processed at once: those of all modes stay in the processor's cache.
-_BLOCK = 2048
+MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
+# Duration of histories that may follow, over that of the first one.
+_LONGER = 2.0
+# Values processed at once: those of all modes stay in the processor's cache.
+_BLOCK = 65_536
 
 
-def merged_modes(problem: Problem) -> Modes:
-    """Return the modes required for a history on a grid."""
+def resolved_times(problem: Problem) -> tuple[float, float]:
+    """Return the shortest time that matters in a history on a grid, and its duration, s."""
     schedule, surface = problem.schedule, problem.indenter
     assert isinstance(surface, PeriodicSurface)
     cell, shortest = min(surface.spacing), math.inf
@@ -56,7 +58,13 @@ def merged_modes(problem: Problem) -> Modes:
         speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
         passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
         shortest = min(shortest, passing if passing < _QUICK * clock else _SHORTEST * clock)
-    return Modes.for_history(schedule.spectrum, shortest, schedule.duration, _MERGING * problem.accuracy)
+    return shortest, schedule.duration
+
+
+def merged_modes(problem: Problem) -> Modes:
+    """Return the modes required for a history on a grid, and for one that goes on from it for as long again."""
+    shortest, duration = resolved_times(problem)
+    return Modes.for_history(problem.schedule.spectrum, shortest, _LONGER * duration, MERGING * problem.accuracy)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +91,7 @@ class StepResponse:
         narrow = 1 in turn.shape
         sums = np.empty((4, *turn.shape), complex if turn.any() else float)
         few = None
-        for rows in [slice(None)] if narrow else _blocks(*turn.shape):
+        for rows in [slice(None)] if narrow else _blocks(len(modes), *turn.shape):
             decay, found = _functions(steps, turn[rows], 4)
             few = _coefficients(steps, decay, found) if narrow else None
             for each, total in zip(found, sums, strict=True):
@@ -145,7 +153,7 @@ def advance(
     squares = np.square(np.abs(before)) + np.square(np.abs(after))
     dissipated = float((response.loss * squares).sum()) + float((response.mixed * np.conj(before) * after).sum().real)
     stored = released = 0.0
-    for rows in _blocks(*before.shape):
+    for rows in _blocks(len(modes), *before.shape):
         decay, *pair = response.coefficients(rows)
         pressures, old, new = np.stack([before[rows], after[rows]]), memory[:, rows], found[:, rows]
         released += stored_energy(modes, old)
@@ -156,9 +164,9 @@ def advance(
     return Advanced(found, stored, dissipated - stored + released)
 
 
-def _blocks(rows: int, columns: int) -> Iterator[slice]:
+def _blocks(modes: int, rows: int, columns: int) -> Iterator[slice]:
     """Yield some rows at a time."""
-    count = max(1, _BLOCK // columns)
+    count = max(1, _BLOCK // (max(modes, 1) * columns))
     return (slice(start, start + count) for start in range(0, rows, count))
 
 
