@@ -52,6 +52,26 @@ def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.HeatedFrictio
     assert data.isothermal.dims == data.viscoelastic.dims
 
 
+def test_the_heat_of_an_interface_is_its_stress_on_the_contact() -> None:
+    """The same contact under a constant coefficient τ A/F, at the temperature reached, is as warm."""
+    law = vf.PowerShearStress(stress="30 kPa", exponent=0.1, speed="0.5 m/s", shift=vf.Arrhenius("80 kJ/mol", 300.0))
+    warming = vf.Heating(rubber=RUBBER, counterface=PTFE, slip="0.5 m/s")
+    one = {"speeds": 2.0, "temperatures": 300.0, "load": 100.0, "accuracy": 1e-2}
+    found = vf.predict_friction(WARM, CYLINDER, **one, heating=warming, interface=law)
+    assert isinstance(found, vf.HeatedFrictionCurves)
+    warm = 300.0 + found.temperature_rise
+    assert found.temperature_rise[0] > 0.2
+    assert found.coulomb == pytest.approx(law(0.5, warm) / found.mean_pressure)
+    assert found.total == pytest.approx(found.coulomb + found.viscoelastic)
+    constant = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=float(found.coulomb[0]), slip="0.5 m/s")
+    given = vf.predict_friction(WARM, CYLINDER, **one, heating=constant)
+    # The residual of either may be 1 % of the rise.
+    assert found.temperature_rise == pytest.approx(given.temperature_rise, rel=2e-2)
+    for refused_one in (constant, "warm"):
+        with refused("heating"):
+            vf.predict_friction(WARM, CYLINDER, **one, heating=refused_one, interface=law)
+
+
 def test_heating_is_refused_with_samples_and_columns_are_checked(curves: vf.HeatedFrictionCurves) -> None:
     with refused("not-with-heating"):
         vf.predict_friction(WARM, CYLINDER, speeds=1.0, temperatures=300.0, load=1.0, samples=object(), heating=HEATING)

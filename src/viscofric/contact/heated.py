@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from viscofric.contact.fields.dissipation import Modes
     from viscofric.contact.solution import ContactSolution
     from viscofric.heat.heating import Heating, ThermalResistances
+    from viscofric.rheology.interface.law import InterfaceLaw
 
 
 #: Of the contacts among which states are looked for.
@@ -56,13 +57,14 @@ class ThermalContact:
     log10_shift: Callable[[float], float]  # at a temperature, K; InputError where it is not known
     modes: Callable[[float], Modes]
     solve: Callable[[float, float], ContactSolution]  # at a temperature, K, to an accuracy
+    interface: InterfaceLaw | None = None  # whose heat takes the place of a constant Coulomb friction
 
     def at(self, rise: float, accuracy: float) -> Warmed:
         """Solve the contact at a rise of temperature."""
         kelvin = self.kelvin + rise
         solution = self.solve(kelvin, accuracy)
         resistances = thermal_resistances(solution, self.modes(kelvin), self.poisson_ratio, self.heating)
-        balance = HeatBalance.of(resistances, *heats(solution, self.heating))
+        balance = HeatBalance.of(resistances, *heats(solution, self.heating, self.interface))
         return Warmed(rise, solution, resistances, self.heating.rise(balance))
 
     def next_rise(self, rise: float) -> float:
@@ -164,10 +166,12 @@ def settle(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: fl
     return last[0]
 
 
-def finished(found: list[Warmed], isothermal: float, heating: Heating) -> ContactSolution:
+def finished(
+    found: list[Warmed], isothermal: float, heating: Heating, interface: InterfaceLaw | None = None
+) -> ContactSolution:
     """Return the first of one or two states of a contact, with its heat, notes, and the numbers of the other."""
     rise, solution, resistances, produced = found[0]
-    coulomb, loss = heats(solution, heating)
+    coulomb, loss = heats(solution, heating, interface)
     balance, alone = (HeatBalance.of(resistances, coulomb, one) for one in (loss, 0.0))
     by_coulomb = heating.rise(alone)
     half = 0.5 * (solution.front + solution.rear)

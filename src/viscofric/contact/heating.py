@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from viscofric.contact.fields.dissipation import Dissipation, Modes
     from viscofric.contact.solution import ContactSolution
     from viscofric.heat.heating import Heating
+    from viscofric.rheology.interface.law import InterfaceLaw
 
 
 #: Cells along the contact, and room behind, ahead of and beside it, in half lengths of the contact.
@@ -26,10 +27,17 @@ _CELLS = 18
 _BEHIND, _AHEAD, _BESIDE = 2.0, 0.6, 0.6
 
 
-def heats(solution: ContactSolution, heating: Heating) -> tuple[float, float]:
-    """Return the heat of Coulomb friction and that of the loss, W, or W/m of a line contact."""
-    loss = abs(solution.friction_force * solution.speed)
-    return heating.coulomb * solution.load * heating.sliding(solution.speed), loss
+def heats(solution: ContactSolution, heating: Heating, interface: InterfaceLaw | None = None) -> tuple[float, float]:
+    """Return the heat of Coulomb friction and that of the loss, W, or W/m of a line contact.
+
+    That of an `interface`, at the temperature at which the contact was solved, takes the place of a constant
+    coefficient.
+    """
+    loss, slip = abs(solution.friction_force * solution.speed), heating.sliding(solution.speed)
+    if interface is None:
+        return heating.coulomb * solution.load * slip, loss
+    stress = float(interface(slip, solution.temperature)) if slip > 0.0 else 0.0
+    return stress * solution.contact_area * slip, loss
 
 
 def thermal_resistances(

@@ -7,7 +7,7 @@ mostly once, since its temperature is nearly known.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.heat.branches import State
     from viscofric.processes import Workers
+    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
     from viscofric.thermal import ThermalProperties
 
@@ -125,35 +126,39 @@ def predict_heated(
     heating: Heating,
     workers: int | Workers,
     report: Callable[[int], None],
-) -> FrictionCurves:
-    """Return the friction of contacts, arguments of `solve_steady` each, of one material, indenter and load."""
-    cold = call_all(_isothermal, [{**one, "heating": heating} for one in contacts], workers=workers, progress=report)
+    interface: InterfaceLaw | None = None,
+) -> HeatedFrictionCurves:
+    """Return the friction of contacts, arguments of `solve_steady` each, of one material, indenter and load.
+
+    The heat of an `interface` takes the place of a constant Coulomb friction.
+    """
+    contacts = [{**one, "heating": heating, "interface": interface} for one in contacts]
+    cold = call_all(_isothermal, contacts, workers=workers, progress=report)
     starts: list[tuple[int, HeatCurve, State]] = []
     for kelvin in sorted({one["temperature"] for one in contacts}):
         rows = [row for row, one in enumerate(contacts) if one["temperature"] == kelvin]
-        curve = _Curve(contacts[rows[0]], heating, [cold[row] for row in rows])
+        curve = _Curve(contacts[rows[0]], [cold[row] for row in rows])
         for row in rows:
             found, states = curve.states(cold[row])
             starts += [(row, found, one) for one in dict.fromkeys((states[0], states[-1]))]
-    calls = [{**contacts[row], "heating": heating, "curve": found, "state": one} for row, found, one in starts]
+    calls = [{**contacts[row], "curve": found, "state": one} for row, found, one in starts]
     solved = call_all(
         _settled, calls, workers=workers, progress=lambda done: report(len(contacts) + min(done, len(contacts)))
     )
     states_of: dict[int, list[Warmed]] = {}
     for (row, _, _), one in zip(starts, solved, strict=True):
         states_of.setdefault(row, []).append(one)
-    return _collected([states_of[row] for row in range(len(contacts))], cold, heating)
+    return _collected([states_of[row] for row in range(len(contacts))], cold, heating, interface)
 
 
 def _thermal(call: dict[str, Any]) -> tuple[ThermalContact, float]:
     given = dict(call)
     names = ("material", "indenter", "heating", "speed", "temperature")
     material, indenter, heating, speed, temperature = (given.pop(name) for name in names)
-    load, accuracy = given.pop("load"), given.pop("accuracy")
+    load, accuracy, interface = (given.pop(name) for name in ("load", "accuracy", "interface"))
     settings = ContactSettings(accuracy=accuracy, **given)
-    return thermal_contact(
-        material, indenter, heating, speed, temperature, settings, load=load, indentation=None
-    ), accuracy
+    contact = thermal_contact(material, indenter, heating, speed, temperature, settings, load=load, indentation=None)
+    return replace(contact, interface=interface), accuracy
 
 
 def _isothermal(**call: Any) -> Warmed:
@@ -169,8 +174,10 @@ def _settled(curve: HeatCurve, state: State, **call: Any) -> Warmed:
 class _Curve:
     """The isothermal curve of one temperature, and what contacts at any rise produce."""
 
-    def __init__(self, call: dict[str, Any], heating: Heating, solved: list[Warmed]) -> None:
-        self.call, self.heating = call, heating
+    def __init__(self, call: dict[str, Any], solved: list[Warmed]) -> None:
+        self.call = call
+        self.heating: Heating = call["heating"]
+        self.interface: InterfaceLaw | None = call["interface"]
         self.material: Material = call["material"]
         self.kelvin = float(call["temperature"])
         self.solved = {abs(one.solution.speed): one.solution for one in solved}
@@ -229,7 +236,11 @@ class _Curve:
                 PchipInterpolator(np.log(speeds), np.log(column))(reduced) for column in (friction, area)
             )
         log_friction = log_friction - log_friction[0] + np.log(max(abs(cold.solution.friction_coefficient), 1e-300))
-        coulomb, loss = heats(cold.solution, self.heating)
+        found, loss = heats(cold.solution, self.heating, self.interface)
+        coulomb: Any = np.full(len(rise), found)
+        if self.interface is not None and found > 0.0:
+            stress = np.asarray(self.interface(self.heating.sliding(speed), self.kelvin + rise))
+            coulomb *= stress / stress[0] * np.exp(log_area - log_area[0])
         resistances = self._scaled(cold, np.exp(log_area - log_area[0]))
         balance = HeatBalance.of(resistances, coulomb, loss * np.exp(log_friction - log_friction[0]))
         return HeatCurve(rise, np.asarray(self.heating.rise(balance)), log_friction)
@@ -262,7 +273,6 @@ class _Curve:
                 **self.call,
                 "speed": slowest,
                 "accuracy": max(LOOSE, self.call["accuracy"]),
-                "heating": self.heating,
             }
             contact, accuracy = _thermal(call)
             self.solved[slowest] = contact.solve(self.kelvin, accuracy)
@@ -276,11 +286,13 @@ class _Ends(NamedTuple):
     wanted: ContactSolution
 
 
-def _collected(states: list[list[Warmed]], cold: list[Warmed], heating: Heating) -> HeatedFrictionCurves:
+def _collected(
+    states: list[list[Warmed]], cold: list[Warmed], heating: Heating, interface: InterfaceLaw | None
+) -> HeatedFrictionCurves:
     ends = []
     for found, isothermal in zip(states, cold, strict=True):
         order = found if heating.branch == "cold" else found[::-1]
-        solution = finished(order, isothermal.solution.friction_coefficient, heating)
+        solution = finished(order, isothermal.solution.friction_coefficient, heating, interface)
         ends.append(_Ends(found[0], found[-1], solution))
 
     def friction(one: Warmed) -> float:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
-from viscofric.arguments import insist_on_function
+from viscofric.arguments import insist_on, insist_on_function
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
@@ -16,6 +16,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
 from viscofric.friction.interface.prediction import check_interface, with_interface
 from viscofric.friction.sensitivity import solve_with_sensitivity
+from viscofric.heat.heating import Heating
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.material import insist_on_material
 from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_array
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from viscofric.arrays import Array
-    from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -79,7 +79,8 @@ def predict_friction(
         Called as ``progress(done, total)`` before the first and after every contact.
     heating : Heating, optional
         Thermal properties and Coulomb heat: each contact is at the temperature to which its own friction heats it, in
-        its cold and its hot state where it has two.  About three times the cost; not with samples or interface.
+        its cold and its hot state where it has two.  About three times the cost; not with samples.  With an interface,
+        its shear stress at that temperature makes the Coulomb heat, and the slip is that of the heating.
     **settings
         Of `solve_steady`, the same for all contacts: `layer`, `direction`, `indenter_modulus`,
         `indenter_poisson_ratio`, `tolerance`, `finest`, `window`, `grid`, `backend` and `coulomb` (not
@@ -123,10 +124,10 @@ def predict_friction(
     force = positive(load, indenter.geometry.load_unit, "load")
     _insist_on_values(velocities, "speeds", "m/s")
     _insist_on_values(kelvins, "temperatures", "K")
-    if heating is not None and (samples is not None or interface is not None):
-        raise InputError("heating: not with samples or interface; leave out one.", code="not-with-heating")
-    drawn = None if samples is None else DrawnMaterials(samples, material)
     check_interface(interface, slip)
+    if heating is not None:
+        _check_heating(heating, samples, interface, slip)
+    drawn = None if samples is None else DrawnMaterials(samples, material)
     contacts = [
         {
             "material": material,
@@ -146,9 +147,11 @@ def predict_friction(
             progress(done, len(contacts) if heating is None else 2 * len(contacts))
 
     report(0)
+    rise = None
     if heating is not None:
-        return predict_heated(contacts, heating, workers, report)
-    if drawn is None:
+        curves: FrictionCurves = (heated := predict_heated(contacts, heating, workers, report, interface))
+        slip, rise = heating.slip, heated.temperature_rise
+    elif drawn is None:
         curves = FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
     else:
         pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
@@ -157,7 +160,22 @@ def predict_friction(
     if interface is None:
         return curves
     layer = settings.get("layer")
-    return with_interface(curves, interface, slip, poisson_ratio=material.poisson_ratio, layer=layer)
+    return with_interface(curves, interface, slip, poisson_ratio=material.poisson_ratio, layer=layer, rise=rise)
+
+
+def _check_heating(
+    heating: object, samples: MaterialSamples | None, interface: InterfaceLaw | None, slip: Quantities | None
+) -> None:
+    insist_on(heating, "heating", Heating)
+    assert isinstance(heating, Heating)
+    if samples is not None:
+        raise InputError("heating: not with samples; leave out one.", code="not-with-heating")
+    if interface is not None and (heating.coulomb != 0.0 or slip is not None):
+        raise InputError(
+            "heating: with an interface, its shear stress makes the Coulomb heat, and the slip is that of the Heating; "
+            "leave out coulomb of the Heating, and slip.",
+            code="not-with-heating",
+        )
 
 
 def _insist_on_values(values: Array, name: str, unit: str) -> None:

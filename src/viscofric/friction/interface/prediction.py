@@ -14,6 +14,7 @@ from viscofric.rheology.interface.friction import insist_on_interface, interface
 from viscofric.units import to_si_array
 
 if TYPE_CHECKING:
+    from viscofric.arrays import Array
     from viscofric.contact.bodies import Layer
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.interface.law import InterfaceLaw
@@ -35,11 +36,13 @@ def with_interface(
     *,
     poisson_ratio: float = 0.5,
     layer: Layer | None = None,
+    rise: Array | None = None,
 ) -> FrictionCurves:
     """Put the friction of an interface into predicted curves, as their Coulomb friction.
 
     `slip` is the slip speed (m/s) of all points or of each; the speed of the curves without it (pure sliding).  A note
     tells where the shear would change the contacts, which are solved without it, on a body of this Poisson's ratio.
+    `rise` is that of the contacts' temperature (n,), K.
     """
     assert curves.mean_pressure is not None
     assert curves.mean_pressure_error is not None
@@ -50,14 +53,13 @@ def with_interface(
             code="different-lengths",
         )
     speed = np.broadcast_to(speed, curves.speed.shape).copy()
-    friction, error = interface_friction(
-        interface, speed, curves.temperature, curves.mean_pressure, curves.mean_pressure_error
-    )
+    kelvin = curves.temperature if rise is None else curves.temperature + rise
+    friction, error = interface_friction(interface, speed, kelvin, curves.mean_pressure, curves.mean_pressure_error)
     share = friction / (friction + curves.viscoelastic)
     low, high = float(share.min()), float(share.max())
     size = f"{100 * low:.0f} %" if high - low < 0.005 else f"{100 * low:.0f} to {100 * high:.0f} %"
     said = f"The interface makes {size} of the total friction, hysteresis the rest; both are predicted."
-    notes = interface_notes(interface, speed, curves.temperature, curves.mean_pressure)
+    notes = interface_notes(interface, speed, kelvin, curves.mean_pressure)
     rubbed = replace(
         curves,
         coulomb=friction,
