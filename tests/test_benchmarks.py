@@ -310,7 +310,7 @@ def test_benchmark_of_repeated_runs_measures_coverage_and_width(
         repeated_runs.main([*few, "--check", "101"])
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_benchmark_of_the_interface_counts_planted_laws_within_bands(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -143,6 +143,7 @@ def test_strokes_go_forth_and_back(tmp_path: Path) -> None:
     assert back == pytest.approx(-forth, rel=0.1)  # the sliding forgets the dwell after some contact widths
 
 
+@pytest.mark.slow
 def test_a_rough_surface_slides_under_a_pressure_and_goes_on_from_its_state(tmp_path: Path) -> None:
     heights = 1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16)[:, None] * np.ones(4)
     np.save(tmp_path / "wave.npy", heights)

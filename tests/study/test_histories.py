@@ -188,7 +188,7 @@ fields = "none"
 """
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_a_rough_surface_slides_from_rest(tmp_path: Path) -> None:
     path = written(tmp_path, '[history]\ndwell = "1 ms"\nslide = "20 um"\npoints = 8\n', ROUGH)
     tree = vf.run_study(path).tree

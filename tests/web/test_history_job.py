@@ -83,7 +83,7 @@ def test_another_history_becomes_a_table_of_the_page(desk: Desk, points: list[di
     [
         (BALL, {"rows": OTHERS["unloading"]}, "swept-in-file"),  # the study has six speeds
         (BALL, {}, "no-history"),
-        (ROUGH, {"rows": OTHERS["unloading"], "control": "load"}, "give-one"),
+        (ROUGH, {"rows": OTHERS["unloading"], "control": "pressure"}, "swept-in-file"),
         (STUDY, {"rows": OTHERS["unloading"][::-1]}, "time-goes-back"),
         ({**STUDY, "history": {"file": "../study.csv"}}, {}, "file-not-here"),
     ],

@@ -367,7 +367,7 @@ def lossy_polymer() -> vf.Material:
     return vf.Material(spectrum, vf.WLF(C1=7.5, C2=95.0, reference=REFERENCE))
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_curves_about_a_maximum_of_friction_stay_together() -> None:
     """A spectrum with two maxima fits curves moved apart by 2.4 decades as well, and is not what was planted."""
     rubber, ball, kelvin = lossy_polymer(), vf.Ball(radius=9.525e-3), REFERENCE + np.array([0.0, 8.0, 16.0, 25.0, 35.0])
