@@ -95,9 +95,9 @@ def _look_and_move(tab: Tab) -> None:
 
     before = requested(tab)
     drag(tab, "speed", *range(100, 300, 4))
+    tab.until(f"Math.abs(Math.log10({CONTACT}.speed) - (-4 + 296 / 400 * 6)) < 0.01")
     finished(tab)
     assert 1 <= requested(tab) - before < 40  # 50 places
-    tab.until(f"Math.abs(Math.log10({CONTACT}.speed) - (-4 + 296 / 400 * 6)) < 0.01")
     tab.page.fill(".live-number >> nth=1", "45")
     tab.page.press(".live-number >> nth=1", "Enter")
     tab.until(f"{CONTACT}.temperature === 318.15")
