@@ -7,6 +7,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.notes import note_of
 
 RUBBER = vf.ThermalProperties("0.3 W/m/K", "1150 kg/m**3", "1700 J/kg/K", "rubber")
 STEEL = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")
@@ -23,6 +24,7 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     heat = run.heating
     assert heat is not None
     assert heat.temperature_rise.min() > 1.0
+    assert "thin-skin" in {note_of(note).code for note in run.warnings}
     assert run.temperature == pytest.approx(293.15 + heat.temperature_rise)
     assert heat.rubber_heat + heat.counterface_heat == pytest.approx(heat.coulomb_heat + heat.loss_heat)
     assert heat.coulomb_heat == pytest.approx(0.5 * 2000.0 * 0.3 * np.array(asked))

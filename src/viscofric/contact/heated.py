@@ -35,7 +35,7 @@ _LEAST, _BEYOND = 30.0, 2.0
 #: Share of the rise that may be left; its effect on friction may be half of the accuracy.
 _LEFT = 0.01
 #: Below it, over the contact radius, the heat of a passing contact is in a skin.
-_THIN = 0.5
+THIN = 0.5
 
 
 class Warmed(NamedTuple):
@@ -193,7 +193,7 @@ def finished(
         other_friction=found[1].solution.friction_coefficient if len(found) > 1 else None,
     )
     notes = [] if len(found) == 1 else [_two_states(result)]
-    if heating.average == "contact" and result.skin < _THIN and rise > 0.0:
+    if heating.average == "contact" and result.skin < THIN and rise > 0.0:
         notes.append(_thin_skin(result))
     kelvin = solution.temperature
     assert kelvin is not None

@@ -105,7 +105,7 @@ class TransientHeating:
         Friction force without heating, N or N/m.
     residual, error : array
         Rise that the solved contact produces less that at which it was solved, in size, and its change with half as
-        many times, K.
+        many times, K.  Neither includes that the loss is released where it is only on average.
     """
 
     temperature_rise: Array

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.contact.heated import THIN
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
 from viscofric.heat.path import Passage, path_rise
@@ -83,8 +84,33 @@ def solve_heated(
         isothermal.friction_force, residual, _change_with_half(problem, run, heating, found),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
+    run = replace(run, warnings=(*run.warnings, *_thin_skin(problem, run, heating, rise)))
     chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep))
     return chosen
+
+
+def _thin_skin(problem: Problem, run: TransientSolution, heating: Heating, rise: Array) -> tuple[Note, ...]:
+    """Return a note where only a skin of the rubber is as warm as the face while the contact passes."""
+    lasting = np.diff(run.time) > 0.0
+    speed = np.hypot(*np.diff(run.position, axis=0).T)[lasting] / np.diff(run.time)[lasting]
+    size = _sizes(problem, run)
+    if not len(speed) or speed.max() * size.max() == 0.0 or not rise.any():
+        return ()
+    skin = float(np.sqrt(2.0 * heating.rubber.diffusivity / (speed.max() * size.max())))
+    if skin >= THIN:
+        return ()
+    said = (
+        f"While the contact passes, heat spreads {skin:.2g} contact radii deep: the face is up to {rise.max():.2g} K "
+        "warmer than the body, the rubber below it, where the loss is released, less. The friction is likely to lie "
+        "between the one given and the isothermal one."
+    )
+    return (Note("thin-skin", said, values={"skin": skin, "face_rise": float(rise.max())}),)
+
+
+def _sizes(problem: Problem, run: TransientSolution) -> Array:
+    """Return the radius of the disc with the area of the contact, or half its width, (n,), m."""
+    area = run.contact_area
+    return np.asarray(0.5 * area if problem.kind == "line" else np.sqrt(area / np.pi))
 
 
 def _insist_on_heatable(problem: Problem, history: History, heating: Heating) -> None:
@@ -131,9 +157,8 @@ def _warmer(problem: Problem, history: History, grid: Sequence[float], temperatu
 def _rise(problem: Problem, run: TransientSolution, heating: Heating, rows: Indices | None = None) -> PathRise:
     coulomb, loss = (np.cumsum(one) for one in _heats(run, heating))
     rows = np.arange(len(run.time), dtype=np.intp) if rows is None else rows
-    line = problem.kind == "line"
-    size = 0.5 * run.contact_area if line else np.sqrt(run.contact_area / np.pi)
-    passage = Passage(run.time[rows], run.position[rows], size[rows], "strip" if line else "disc")
+    shape = "strip" if problem.kind == "line" else "disc"
+    passage = Passage(run.time[rows], run.position[rows], _sizes(problem, run)[rows], shape)
     return path_rise(passage, np.diff(coulomb[rows], prepend=0.0), np.diff(loss[rows], prepend=0.0), heating)
 
 
