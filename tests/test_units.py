@@ -173,3 +173,16 @@ def test_hertz_count_two_pi_radians_each():
 def test_what_is_no_frequency_is_refused(wrong):
     with refused("frequency"):
         angular_frequency(wrong, "frequency")
+
+
+@pytest.mark.parametrize("as_text", [True, False])
+def test_a_hertz_is_two_pi_radians_per_second_whoever_says_it(as_text: bool) -> None:
+    """Pint treats the radian as a pure number, and would read one hertz as one radian per second."""
+    given = str if as_text else registry().Quantity
+    assert angular_frequency(given("2 kHz"), "f") == pytest.approx(4e3 * math.pi)
+    assert angular_frequency(given("2 rad/s"), "f") == 2.0
+    assert to_si(given("1 rad/s"), "Hz") == pytest.approx(0.5 / math.pi)
+    assert to_si(given("3 Hz"), "Hz") == 3.0
+    assert to_si(given("60 rpm"), "rad/s") == pytest.approx(2.0 * math.pi)
+    with refused("wrong-unit"):
+        angular_frequency(given("2 1/s"), "f")

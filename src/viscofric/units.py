@@ -65,6 +65,9 @@ _COMMON = {
 #: Letters that pint reads as coulomb and farad.
 _DEGREES = {"c": "degC", "f": "degF"}
 
+#: In the names of units of angles, for frequencies.
+_ANGLES = ("radian", "revolution", "turn", "degree")
+
 CELSIUS_ZERO = 273.15  # K
 #: No rubber is measured below this; a plain number there was probably meant in degrees Celsius.
 COLDEST_PLAUSIBLE = 150.0  # K
@@ -228,7 +231,7 @@ def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = ""
                 unit,
                 "is a temperature where a temperature difference is needed",
             )
-        return _single(quantity.to(unit).magnitude)
+        return _single(quantity.to(unit).magnitude) * _turns(units, unit, str(shown), name)
     except pint.DimensionalityError:
         reason = f"has the wrong kind of unit ({quantity.units})"
         if unit == "dimensionless":
@@ -238,6 +241,17 @@ def _convert(quantity: Any, shown: object, unit: str, name: str, right: str = ""
         raise
     except (TypeError, ValueError, OverflowError, AttributeError, pint.PintError) as error:
         raise _wrong("not-a-number", name, str(shown), unit, "cannot be read as a number with a unit") from error
+
+
+def _turns(units: list[str], unit: str, shown: str, name: str) -> float:
+    """Return the factor of a frequency that pint leaves out, which treats the radian as a pure number."""
+    hertz = any(one.endswith("hertz") for one in units)
+    angle = any(word in one for one in units for word in _ANGLES)
+    if unit == "rad/s" and not hertz and not angle:
+        raise _wrong("wrong-unit", name, shown, "Hz", "must be a frequency in Hz or rad/s")
+    if unit == "rad/s" and hertz:
+        return 2.0 * math.pi
+    return 0.5 / math.pi if unit == "Hz" and angle else 1.0
 
 
 def to_si_array(values: Quantities, unit: str, name: str = "value") -> Array:
@@ -302,18 +316,11 @@ def checked_poisson_ratio(value: Quantity, name: str = "poisson_ratio", *, above
 def angular_frequency(value: Quantity, name: str) -> float:
     """Return an angular frequency in rad/s; a value in hertz is multiplied by 2π, plain numbers are in rad/s.
 
-    pint treats the radian as a pure number and would read one hertz as one radian per second.
-
     Raises
     ------
     InputError
         If it is not above zero, or its unit is neither hertz nor rad/s.
     """
-    if isinstance(value, str):
-        if value.rstrip().lower().endswith("hz"):
-            return 2.0 * math.pi * positive(value, "Hz", name)
-        if "rad" not in value:
-            raise _wrong("wrong-unit", name, value, "Hz", "must be a frequency in Hz or rad/s")
     return positive(value, "rad/s", name)
 
 
