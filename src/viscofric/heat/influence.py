@@ -34,6 +34,8 @@ _NODES, _PER_LOG, _PER_EDGE = 12, 1.7, 2.0
 _ONE = 5.0
 #: At rest, the diffusion length up to which heat is summed, in sizes of the map; the rest is known to its square.
 _FARTHEST = 1e4
+#: Passage of the map in its size, over which heat has spread, below which a source is at rest: its error.
+_AT_REST = 1e-9
 #: Over the thickness, the diffusion length at which a base has taken all heat: exp(−(π l/4H)²) = 1e-32.
 _THROUGH = 11.0
 
@@ -88,6 +90,8 @@ class Diffusion:
     def _lengths(self, half: tuple[float, float], extent: float) -> tuple[Array, Array, float]:
         """Return l (n,), weights of dl, and the l from which cells at rest are points (infinite if none is)."""
         sweep, ends = self._sweep, [_FARTHEST * extent]
+        if sweep * extent < _AT_REST and math.isfinite(half[1]):
+            sweep = 0.0
         if sweep > 0.0:  # until all that the map sees comes from beyond it
             ends = [(_ONE + math.sqrt(_ONE**2 + 4.0 * sweep * extent)) / (2.0 * sweep)]
         rest = ends[0] if sweep == 0.0 else math.inf
