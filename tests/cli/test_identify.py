@@ -149,7 +149,7 @@ def test_tables_show_what_is_identified_and_what_not() -> None:
     [
         (["nothing.csv", "--ball", "10 mm"], "no-file"),
         (["curves.csv", "--ball", "10 mm", "--modes", "3"], "not-a-whole-number"),
-        (["curves.csv", "--ball", "10 mm", *ANCHOR[:2], "--anchor-frequency", "5", *ANCHOR[4:]], "wrong-unit"),
+        (["curves.csv", "--ball", "10 mm", *ANCHOR[:2], "--anchor-frequency", "5", *ANCHOR[4:]], "no-unit"),
         (["curves.csv", "--ball", "10 mm", "--prior", "no rubber"], "unknown-material"),
     ],
     ids=lambda value: str(value)[:40],

@@ -214,7 +214,7 @@ def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
         (["show", "no such rubber"], "unknown-material"),
         (["show", "rubber.json"], "no-file"),
         (["read", "nothing.csv"], "no-file"),
-        (["show", "synthetic fluoroelastomer", "--frequency", "10"], "wrong-unit"),
+        (["show", "synthetic fluoroelastomer", "--frequency", "10"], "no-unit"),
         (["fit", EXAMPLE, "--reference", "30 degC", "--shift-factors", "no.csv"], "no-file"),
         (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "0 degC=1", "--fix", "273.15 K=2"], "value"),
         (["fit", EXAMPLE, "--reference", "30 degC", "--master-curve", "--vertical-shift", "free"], "contradiction"),
