@@ -34,8 +34,9 @@ _REACH = 7.0
 #: Of the distance between two points, along one axis: under Hertz's pressure and on the face.
 _VARIANCE = {"disc": 1.0 / 5.0 + 1.0 / 4.0, "strip": 1.0 / 4.0 + 1.0 / 3.0}
 _POWER = {"disc": 2, "strip": 1}
-#: Gauss points on each part of an interval, longest part of the path in radii, most parts.
-_NODES, _STEP, _PARTS = 8, 0.5, 256
+#: Gauss's rule on each part of an interval, longest part of the path in radii, most parts.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+_STEP, _PARTS = 0.5, 256
 #: Ends of parts in √(κt)/a.
 _SPREADING = 0.5 * 2.0 ** np.arange(12)
 
@@ -102,14 +103,13 @@ def _response(passage: Passage, body: ThermalProperties, row: int, last: int, ra
     spreading = radius / math.sqrt(body.diffusivity) * _SPREADING
     inside = spreading[(spreading > end) & (spreading < start)]
     edges = np.sort(np.append(np.linspace(end, start, parts + 1), inside))
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
     half = 0.5 * np.diff(edges)[:, None]
-    root = (edges[:-1, None] + half * (1.0 + node)).ravel()  # √t, in which 1/√t has no pole
+    root = (edges[:-1, None] + half * (1.0 + _NODES)).ravel()  # √t, in which 1/√t has no pole
     share = (start**2 - root**2) / (start**2 - end**2)
     away = places[row] - places[last - 1] - share[:, None] * way
     spread = body.diffusivity * root**2 / radius**2
     scale = body.volume_heat * math.sqrt(math.pi * body.diffusivity) * radius ** _POWER[passage.shape]
-    each = 2.0 * (half * weight).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
+    each = 2.0 * (half * _WEIGHTS).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
     each /= scale * (start**2 - end**2)
     return float(each.sum()), float(each @ _from_below(spread))
 
