@@ -44,17 +44,15 @@ if TYPE_CHECKING:
 _MOST_MARCHES = 6
 #: Changes of the step from one to the next; order 3 of the local error.
 _SHRINK, _GROW, _SAFETY = 0.1, 3.0, 0.85
-#: First step of an interval, and the least one, as parts of the interval.
-_FIRST, _LEAST = 1.0 / 32.0, 1e-10
-#: First step after a jump, in the time in which the response changes; least part of the time that has a length.
-_FIRST_AFTER_JUMP, _INSTANT = 0.2, 1e-14
+#: First step of an interval, as a part of it; after a jump, in the time in which the response changes.
+_FIRST, _FIRST_AFTER_JUMP = 1.0 / 32.0, 0.2
+#: Least step, as a part of the time, of which rounding is a hundredth; most of them whose difference is too large, one
+#: for each jump of the response within an interval.
+_LEAST, _MOST_LEAST = 1e-14, 10
 
 
 class _TooLargeError(Exception):
-    """The difference of the chains has exceeded the accuracy."""
-
-    def __init__(self, ratio: float) -> None:
-        self.ratio = ratio
+    """The difference of the chains has exceeded the accuracy by a factor."""
 
 
 def march(
@@ -99,11 +97,10 @@ def march(
     if begin is not None and begin.share is not None:
         share = begin.share
     for _ in range(_MOST_MARCHES):
-        one = _March(mover, schedule, accuracy, share, times, fields, progress, extrapolate)
         try:
-            return one.run(begin)
+            return _March(mover, schedule, accuracy, share, times, fields, progress, extrapolate).run(begin)
         except _TooLargeError as error:
-            share *= max(0.05, 0.5 * error.ratio**-1.5)
+            share *= max(0.05, 0.5 * error.args[0] ** -1.5)
     raise ConvergenceError(
         f"the accuracy {accuracy:g} was not reached with steps that each add {share:.2g} of it; ask for less.",
         code="steps-not-converged",
@@ -179,8 +176,7 @@ class _March(Generic[State]):
     def _parts(self, start: float, end: float) -> list[tuple[float, float]]:
         """Return the parts of an interval between the times asked for."""
         stops = sorted({time for time in self.times or () if start < time < end})
-        edges = [start, *stops, end]
-        return list(itertools.pairwise(edges))
+        return list(itertools.pairwise([start, *stops, end]))
 
     def _stop_at_kink(self, time: float) -> None:
         """Record the state at a kink, take its jump if there is one, and record that too, unless it has been done."""
@@ -189,9 +185,8 @@ class _March(Generic[State]):
             self._pace = 0.0
         known = self._at.told >= time
         wanted = 0 if self.times is None else sum(1 for one in self.times if one == time)
-        jumps = schedule.jumps_at(time)
         before = schedule.at(time, after=False)
-        if not jumps:
+        if not schedule.jumps_at(time):
             if not known:
                 self._record(pair, before, asked=wanted > 0, times=max(wanted, 1))
             return
@@ -238,21 +233,27 @@ class _March(Generic[State]):
             self._by_ticks(pair, start, np.asarray(ticks))
 
     def _freely(self, pair: Pair[State], start: float, end: float) -> None:
-        time, step = start, self._pace or self._first_step(start, end)
+        least, failed = _LEAST * max(abs(start), abs(end)), 0
+        time, step = start, self._pace or max(least, self._first_step(start, end))
         while time < end:
             # avoid a tiny last step
-            left = end - time
-            proposed = step
+            left, proposed = end - time, step
             step = left if step >= left else min(step, 0.5 * left)
             reached = end if step == left else time + step
             tried = self._try(pair, [time, 0.5 * (time + reached), reached])
             ratio = self._ratio(pair, tried)
-            if ratio > 1.0 and step > _LEAST * (end - start):
+            if ratio > 1.0 and step > least:
                 self.rejected += 1
-                step *= max(_SHRINK, _SAFETY * ratio ** (-1.0 / 3.0))
+                step *= _growth(ratio)
                 continue
+            failed += ratio > 1.0
+            if failed > _MOST_LEAST:
+                raise ConvergenceError(
+                    f"at time {time:.6g} s the error does not fall with shorter steps; ask for less accuracy.",
+                    code="steps-not-converged",
+                )
             # A step shortened by the end of a part is no guide to the length of the next one.
-            step = max(proposed if step < proposed and ratio < 1.0 else 0.0, step * _growth(ratio))
+            step = max(proposed if step < proposed and ratio < 1.0 else least, step * _growth(ratio))
             pair = self._take(tried, reached, end, step)
             time = reached
 
@@ -263,8 +264,7 @@ class _March(Generic[State]):
         """
         step = _FIRST * (end - start)
         clock = self.schedule.at(start + step).clock - self.schedule.at(start).clock
-        quick = step / clock * _FIRST_AFTER_JUMP * self.mover.quickest
-        return min(step, max(quick, _INSTANT * max(abs(start), abs(end))))
+        return min(step, step / clock * _FIRST_AFTER_JUMP * self.mover.quickest)
 
     def _by_ticks(self, pair: Pair[State], start: float, ticks: Array) -> None:
         """March by whole ticks: two or more for the coarse chain, half as many for the fine one."""
@@ -278,11 +278,10 @@ class _March(Generic[State]):
             ratio = self._ratio(pair, tried)
             if ratio > 1.0 and count > 2:
                 self.rejected += 1
-                count = max(2, 2 * int(0.5 * count * max(_SHRINK, _SAFETY * ratio ** (-1.0 / 3.0))))
-                continue
-            self._limited |= ratio > 1.0
-            place += count
-            pair = self._take(tried, float(edges[place]), float(ticks[-1]), 0.0)
+            else:
+                self._limited |= ratio > 1.0
+                place += count
+                pair = self._take(tried, float(edges[place]), float(ticks[-1]), 0.0)
             count = max(2, 2 * int(0.5 * count * _growth(ratio)))
 
     def _try(self, pair: Pair[State], times: list[float]) -> Pair[State]:
@@ -347,4 +346,4 @@ class _March(Generic[State]):
 
 
 def _growth(ratio: float) -> float:
-    return min(_GROW, float(_SAFETY * max(ratio, 1e-6) ** (-1.0 / 3.0)))
+    return max(_SHRINK, min(_GROW, float(_SAFETY * max(ratio, 1e-6) ** (-1.0 / 3.0))))
