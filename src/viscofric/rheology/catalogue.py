@@ -1,4 +1,4 @@
-"""Predefined materials: published parameters with their source, and one synthetic fluoroelastomer."""
+"""Predefined materials: published parameters with their source, and two synthetic rubbers."""
 
 from __future__ import annotations
 
@@ -175,9 +175,38 @@ def synthetic_fluoroelastomer() -> Material:
     >>> f"{rubber.spectrum.E0 / 1e6:.1f} MPa to {rubber.spectrum.E_inf / 1e9:.1f} GPa"
     '3.0 MPa to 1.5 GPa'
     """
-    rubber, between, glass = 3e6, 12e6, 1.5e9  # Pa
-    fast = {"centre": -3.85, "long": 0.3, "short": 1.2}  # decades of seconds
-    slow = {"centre": 4.5, "long": 0.5, "short": 2.5}
+    spectrum = _two_transitions(
+        (3e6, 12e6, 1.5e9),
+        fast={"centre": -3.85, "long": 0.3, "short": 1.2},
+        slow={"centre": 4.5, "long": 0.5, "short": 2.5},
+    )
+    shift = WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-18 degC", reference="30 degC")
+    return Material(spectrum, shift, poisson_ratio=0.5, name="synthetic fluoroelastomer")
+
+
+def _synthetic_tread_rubber() -> Material:
+    """Return a SYNTHETIC rubber with the loss of a tread compound of high wet grip; it was assumed, not measured.
+
+    At 20 °C: a broad glass transition (12 MPa to 1.6 GPa) whose tan δ peaks at 1.1 near 1e6 rad/s, and a very broad
+    relaxation below it (12 MPa to 4 MPa), tan δ of about 0.1, as of a filled rubber at small strain.
+    """
+    spectrum = _two_transitions(
+        (4e6, 12e6, 1.6e9),
+        fast={"centre": -3.0, "long": 0.6, "short": 1.3},
+        slow={"centre": 0.5, "long": 2.5, "short": 2.5},
+    )
+    shift = WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-15 degC", reference="20 degC")
+    return Material(spectrum, shift, poisson_ratio=0.5, name="synthetic tread rubber")
+
+
+def _two_transitions(
+    moduli: tuple[float, float, float], fast: dict[str, float], slow: dict[str, float]
+) -> RetardationSpectrum:
+    """Return half-Gaussian pairs over log10 τ (s): the glass transition, and a relaxation below the rubber plateau.
+
+    `moduli` are those of the relaxed rubber, between the two, and of the glass, Pa.
+    """
+    rubber, between, glass = moduli
     ends = [(peak["centre"] - WIDTH * peak["short"], peak["centre"] + WIDTH * peak["long"]) for peak in (fast, slow)]
     first = math.ceil(min(low for low, _ in ends) * math.log(10.0))
     last = math.floor(max(high for _, high in ends) * math.log(10.0))
@@ -185,10 +214,7 @@ def synthetic_fluoroelastomer() -> Material:
     glass_transition = _half_gaussians(np.log10(tau), **fast)
     relaxation = _half_gaussians(np.log10(tau), **slow)
     C = glass_transition * (1 / between - 1 / glass) + relaxation * (1 / rubber - 1 / between)
-    shift = WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-18 degC", reference="30 degC")
-    return Material(
-        RetardationSpectrum(rubber, glass, C, tau), shift, poisson_ratio=0.5, name="synthetic fluoroelastomer"
-    )
+    return RetardationSpectrum(rubber, glass, C, tau)
 
 
 def _half_gaussians(log10_tau: Array, centre: float, long: float, short: float) -> Array:
@@ -232,5 +258,14 @@ _ENTRIES = (
         "Assumed for tests and examples; not a measurement.",
         "A glass transition and a slow relaxation below the rubber plateau, at 30 °C; see synthetic_fluoroelastomer.",
         synthetic_fluoroelastomer,
+    ),
+    CatalogueEntry(
+        "synthetic tread rubber",
+        "SYNTHETIC",
+        "Retardation spectrum, 52 modes; WLF above and Arrhenius below the glass transition.",
+        "Assumed for examples of rough surfaces; not a measurement.",
+        "tan δ peaks at 1.1 near 1e6 rad/s at 20 °C, and is about 0.1 up to 10 rad/s: that of a tread compound of high "
+        "wet grip at small strain.",
+        _synthetic_tread_rubber,
     ),
 )
