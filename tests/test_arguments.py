@@ -587,7 +587,7 @@ CALLS: dict[str, Any] = {
     "MaterialSamples.band": lambda: (samples(), {"value": lambda one: one.spectrum.E0, "level": 0.9}),
     "sample_materials": lambda: {"fit": superposition(), "spectrum": None, "samples": 20, "seed": 0, "law": None,
         "poisson_ratio": 0.5, "name": ""},
-    "RoughFriction.interval": lambda: (rough_friction(), {"probability": 0.9}),
+    "RoughFriction.interval": lambda: (rough_friction(), {"probability": 0.9, "of": "hysteresis"}),
     "predict_rough_friction": lambda: {"material": rubber(), "surfaces": road(), "speeds": [0.1], "pressure": 5e3,
         "temperatures": None, "interface": vf.ConstantShearStress(3e5), "workers": 1, "progress": None,
         "tolerance": 1e-6},

@@ -83,3 +83,22 @@ def test_parts_are_stacked_to_the_total(contacts):
     with pytest.raises(vf.InputError) as refused:
         report.plot_friction_parts(axes, contacts)
     assert refused.value.code == "no-coulomb"
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_parts_of_rough_surfaces_are_means_with_the_interval_of_the_total(count):
+    asked = {"shape": (32, 32), "spacing": "30 um", "shortest": "160 um", "rms_slope": 0.2}
+    tracks = [vf.self_affine(0.8, **asked, seed=seed) for seed in range(count)]
+    rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+    law = vf.ConstantShearStress("20 kPa", covariance=[[1e6]])
+    found = vf.predict_rough_friction(rubber, tracks, speeds=[0.01, 0.1], pressure="20 kPa", interface=law)
+    axes = Figure().subplots()
+    report.plot_friction_parts(axes, found)
+    (bars,) = axes.containers
+    np.testing.assert_allclose(bars.lines[0].get_ydata(), found.total.mean(axis=-1)[0])
+    tops = [segment[1][1] for segment in bars.lines[2][0].get_segments()]
+    if count == 1:
+        upper = (found.total + 1.95996 * np.hypot(found.friction_error, found.interface_error))[0, :, 0]
+    else:
+        upper = found.interval(of="total")[1][0]
+    np.testing.assert_allclose(tops, upper, rtol=1e-4)

@@ -84,5 +84,11 @@ def test_friction_curves_stand_beside_the_theory(road):
     figures.plot_rough_friction(axes, found, {"Persson": theory}, area=True)
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), found.mean_area[0])
     axes = new_figure().subplots()
+    both = {"cold": found, "warm": found}
+    figures.plot_rough_friction(axes, both, {"Persson, warm": theory, "Persson, cold": theory})
+    cold, warm, warm_theory, cold_theory = axes.lines
+    assert warm_theory.get_color() == warm.get_color() != cold.get_color() == cold_theory.get_color()
+    assert warm.get_label() == "solved, warm, 2 surfaces"
+    axes = new_figure().subplots()
     figures.plot_friction_by_cut_off(axes, [theory, theory], ["10 µm", "1 µm"])
     assert len(axes.lines) == 2

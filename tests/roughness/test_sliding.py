@@ -138,6 +138,21 @@ def test_an_ensemble_is_solved_surface_by_surface_and_says_how_they_scatter():
         vf.predict_rough_friction(RUBBER, roads[0], speeds=0.01, pressure="20 kPa").interval()
 
 
+def test_the_interval_of_total_friction_has_the_scatter_of_the_surfaces_and_the_error_of_the_law():
+    """The law's error is shared by the surfaces: more of them do not make it smaller."""
+    asked = {"surfaces": [road(32, seed, waves=6) for seed in range(3)], "speeds": 0.1, "pressure": "20 kPa"}
+    law = vf.ConstantShearStress("0.1 MPa", covariance=[[1e8]])  # known to a tenth
+    found = vf.predict_rough_friction(RUBBER, **asked, interface=law)
+    lower, upper = found.interval(of="total")
+    # Student's t for two degrees of freedom and 95 %: 4.3027.
+    scatter = 4.3027 * found.total.std(axis=-1, ddof=1) / math.sqrt(3.0)
+    shared = 1.96 * 0.1 * found.interface_friction.mean(axis=-1)
+    assert upper - lower == pytest.approx(2.0 * np.hypot(scatter, shared), rel=1e-4)
+    assert 0.5 * (lower + upper) == pytest.approx(found.total.mean(axis=-1), rel=1e-12)
+    with refused("no-interface"):
+        vf.predict_rough_friction(RUBBER, **asked).interval(of="total")
+
+
 @pytest.mark.slow  # starts processes
 def test_several_processes_give_the_same_digits():
     roads = [road(64, seed).to_surface() for seed in range(2)]

@@ -7,7 +7,8 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict, Unpack
+from statistics import NormalDist
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from viscofric.arguments import insist_on_function
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.datasets import dataset
-from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.errors import ConvergenceError, InputError, brief, check_choice
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.interface.friction import friction_on_area, insist_on_interface
 from viscofric.rheology.material import Material, insist_on_material
@@ -113,15 +114,19 @@ class RoughFriction:
         """Mean corrected contact area fraction over the surfaces, (m, n) array."""
         return np.asarray(self.corrected_area_fraction.mean(axis=-1))
 
-    def interval(self, probability: float = 0.95) -> tuple[Array, Array]:
+    def interval(
+        self, probability: float = 0.95, *, of: Literal["hysteresis", "total"] = "hysteresis"
+    ) -> tuple[Array, Array]:
         """Return the confidence interval of the mean friction of all such surfaces.
 
-        By Student's t, for friction that scatters normally from surface to surface.
+        By Student's t, for friction that scatters normally from surface to surface.  That of the total also has the
+        error of the law of the interface, which all surfaces share.  The error of the grid is not included.
 
         Parameters
         ----------
         probability : float
             Between 0 and 1.
+        of : {"hysteresis", "total"}
 
         Returns
         -------
@@ -130,9 +135,16 @@ class RoughFriction:
         Raises
         ------
         InputError
-            If there is one surface only, or the probability is out of range.
+            If there is one surface only, the probability is out of range, or there is no interface.
         """
-        return interval_of_mean(self.friction_coefficient, probability)
+        check_choice(of, "of", "hysteresis", "total")
+        if of == "hysteresis":
+            return interval_of_mean(self.friction_coefficient, probability)
+        mean, (lower, _) = self.total.mean(axis=-1), interval_of_mean(self.total, probability)
+        assert self.interface_error is not None
+        shared = NormalDist().inv_cdf(0.5 + 0.5 * probability) * self.interface_error.mean(axis=-1)
+        half = np.hypot(mean - lower, shared)
+        return mean - half, mean + half
 
     def to_dataset(self) -> xarray.Dataset:
         """Return everything over temperature, speed and surface, with the nominal pressure as an attribute."""

@@ -25,6 +25,7 @@ from viscofric.report.results import group, is_synthetic, nearest, nominal_tempe
 from viscofric.report.sweeps import SAMPLE, labelled, solved_cases, sweep_axes, thinned
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
+from viscofric.roughness.ensemble import RoughFriction
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -116,27 +117,28 @@ def _plot_law(axes: Axes, line: xr.Dataset, dashes: Any, *, banded: bool) -> Lin
     return Line2D([], [], color=colour, linestyle=dashes, label=str(line.attrs["law"]))
 
 
-def plot_friction_parts(axes: Axes, curves: FrictionCurves | xr.Dataset) -> None:
+def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | xr.Dataset) -> None:
     """Draw predicted friction against speed with its parts, hysteresis and interface, stacked.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    curves : FrictionCurves or xarray.Dataset
-        Of `predict_friction` with an interface, at one temperature and load (`FrictionCurves.at_temperature`); the
-        total has its 95 % interval.  A dataset has `speed`, `temperature`, `friction_coefficient`,
-        `friction_error`, `interface_friction`, `interface_error` and perhaps `friction_material_error` along `case`.
+    curves : FrictionCurves, RoughFriction or xarray.Dataset
+        Predicted with an interface, at one temperature and load (`FrictionCurves.at_temperature`); the total has its
+        95 % interval.  Of several rough surfaces, the mean.  A dataset has `speed`, `temperature`,
+        `friction_coefficient`, `friction_error`, `interface_friction`, `interface_error` and perhaps
+        `friction_material_error` along `case`.
 
     Raises
     ------
     InputError
         If there is no interfacial part, or are several temperatures.
     """
-    parts = _parts(curves)
+    parts = _parts_of_mean(curves) if isinstance(curves, RoughFriction) else _parts(curves)
     if not np.isfinite(parts.interface).any():
         raise InputError("the friction curves have no interfacial part; predict with interface=….", code="no-coulomb")
     nominal = nominal_temperatures(parts.temperature)
-    if nominal.size != 1:
+    if nominal.size > 1:
         raise InputError(
             f"the friction curves have {nominal.size} temperatures; choose one with at_temperature().",
             code="several-temperatures",
@@ -148,7 +150,7 @@ def plot_friction_parts(axes: Axes, curves: FrictionCurves | xr.Dataset) -> None
     axes.fill_between(speed, hysteresis, total, color=ORANGE, alpha=0.6, linewidth=0, label="interface")
     axes.errorbar(speed, total, yerr=half, color=INK, marker="o", markersize=3, elinewidth=1.0, label="total, 95 %")
     axes.set(xscale="log", ylabel=r"friction coefficient $\mu$", ylim=(0.0, 1.08 * float(np.nanmax(total + half))))
-    axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(float(nominal[0])))
+    axes.set_xlabel(r"speed $v$ (mm/s)" + "".join(at_temperature(one) for one in nominal.tolist()))
     speed_ticks(axes.xaxis)
     plain_numbers(axes, "y")
     axes.legend(title="predicted", alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -173,6 +175,20 @@ def _parts(curves: FrictionCurves | xr.Dataset) -> _Parts:
     squares = [np.nan_to_num(values(data, name)) ** 2 for name in errors]
     speed, temperature, hysteresis, interface = (values(data, name) for name in ("speed", "temperature", *names))
     return _Parts(speed, temperature, hysteresis, interface, np.sqrt(np.sum(squares, axis=0)))
+
+
+def _parts_of_mean(found: RoughFriction) -> _Parts:
+    """Return the mean parts over rough surfaces; of one surface with the errors of its grid and of the law."""
+    total = found.total.mean(axis=-1)
+    if len(found.surfaces) > 1:
+        lower, upper = found.interval(of="total")
+        error = (upper - lower) / (2.0 * LEVEL_95)
+    else:
+        assert found.interface_error is not None
+        error = np.hypot(found.friction_error, found.interface_error)[..., 0]
+    kelvin, speed = np.meshgrid(found.temperature, found.speed, indexing="ij")
+    each = speed, kelvin, found.mean_friction, total - found.mean_friction, error
+    return _Parts(*(np.ravel(one) for one in each))
 
 
 def stress_figure(tree: xr.DataTree) -> Figure | None:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
 
-from viscofric.report.figures.style import INK, Unit, decade_ticks, looks, new_figure, speed_ticks, unit_for
+from viscofric.report.figures.style import INK, Look, Unit, decade_ticks, looks, new_figure, speed_ticks, unit_for
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from viscofric.roughness.topography import Topography
 
 
+_DASHES = ("-", "--", ":", "-.")
 #: More points along an edge than this do not show; maps draw every n-th.
 _MOST_POINTS = 512
 #: Share of the loaded points within the colours of a pressure.
@@ -175,33 +177,57 @@ def plot_friction_by_wavelength(axes: Axes, parts: Mapping[str, FrictionByWavele
 
 
 def plot_rough_friction(
-    axes: Axes, found: RoughFriction, theories: Mapping[str, PerssonTheory] | None = None, *, area: bool = False
+    axes: Axes,
+    found: RoughFriction | Mapping[str, RoughFriction],
+    theories: Mapping[str, PerssonTheory] | None = None,
+    *,
+    area: bool = False,
 ) -> None:
-    """Draw friction on an ensemble of surfaces over the speed: the mean, its 95 % interval, and the theory beside it.
+    """Draw friction on ensembles of surfaces over the speed: the mean, its 95 % interval, and the theory beside it.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    found : RoughFriction
+    found : RoughFriction, or mapping of str to them
+        Several by what the legend calls them, such as "isothermal" and "heated".
     theories : mapping of str to PerssonTheory, optional
-        By what the legend calls them; for the same temperatures.
+        By what the legend calls them; for the same temperatures.  Lines have the colour of the ensemble whose name is
+        part of theirs, else that of the first.
     area : bool
         Whether to draw the corrected contact area fraction instead, without an interval.
     """
-    several = len(found.surfaces) > 1 and not area
-    for row, look in enumerate(looks(len(found.temperature))):
-        kelvin = float(found.temperature[row])
-        where = "" if math.isnan(kelvin) else f", {shown_celsius(kelvin, 'z.4g')} °C"
-        mean = (found.mean_area if area else found.mean_friction)[row]
-        name = f"solved, {len(found.surfaces)} surfaces{where}" if len(found.surfaces) > 1 else f"solved{where}"
-        axes.plot(found.speed, mean, marker=look.marker, color=look.colour, linestyle="none", label=name)
-        if several:
-            lower, upper = found.interval()
-            axes.fill_between(found.speed, lower[row], upper[row], color=look.colour, alpha=0.25, linewidth=0.0)
-        for dashes, (title, theory) in zip(("-", "--", ":", "-."), (theories or {}).items(), strict=False):
+    several = found if isinstance(found, Mapping) else {"": found}
+    rows = max(len(one.temperature) for one in several.values())
+    places = [(name, row) for name in several for row in range(rows)]
+    dashes = dict.fromkeys(places, 0)
+    look_of = dict(zip(places, looks(len(places)), strict=True))
+    for (name, row), look in look_of.items():
+        _plot_solved(axes, several[name], row, look, f", {name}" if name else "", area=area)
+    for title, theory in (theories or {}).items():
+        name = next((each for each in several if each in title), next(iter(several)))
+        for row in range(rows):
             values = theory.contact_area_fraction if area else theory.friction_coefficient
-            axes.plot(theory.speed, values[row], color=look.colour, linestyle=dashes, label=f"{title}{where}")
+            dash = _DASHES[dashes[name, row] % len(_DASHES)]
+            label = title + _where(theory.temperature[row])
+            axes.plot(theory.speed, values[row], color=look_of[name, row].colour, linestyle=dash, label=label)
+            dashes[name, row] += 1
     _speed_axes(axes, "contact area over nominal area" if area else "friction coefficient")
+
+
+def _plot_solved(axes: Axes, found: RoughFriction, row: int, look: Look, name: str, *, area: bool) -> None:
+    """Draw the mean over the surfaces at one temperature, of friction with its 95 % interval."""
+    count = len(found.surfaces)
+    label = f"solved{name}" + (f", {count} surfaces" if count > 1 else "") + _where(found.temperature[row])
+    mean = (found.mean_area if area else found.mean_friction)[row]
+    axes.plot(found.speed, mean, marker=look.marker, color=look.colour, linestyle="none", label=label)
+    if count > 1 and not area:
+        lower, upper = found.interval()
+        axes.fill_between(found.speed, lower[row], upper[row], color=look.colour, alpha=0.25, linewidth=0.0)
+
+
+def _where(kelvin: float) -> str:
+    """Return what the legend says of a temperature, if one is known."""
+    return "" if math.isnan(kelvin) else f", {shown_celsius(float(kelvin), 'z.4g')} °C"
 
 
 def plot_friction_by_cut_off(
