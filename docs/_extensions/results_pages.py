@@ -37,6 +37,8 @@ _WORDS = {
     "/friction_shift_factors": "log10 α found from the measured friction alone, beside that of the material.",
     "/interface": "With a fitted `[interface]`: shear stress at the measured points.",
     "/interface_law": "Its law at the reference temperature.",
+    "/heating": "With `[heating]`: the cases at the temperatures to which their own friction heats them.",
+    "/temperature_map": "Its warmest contact: rise of temperature of the rubber's face.",
     "/agreement": "Prediction against measurement, at each temperature.",
     "/assumptions": "Assumptions of the predictions, and their checks.",
     "/history": "With `[history]`: the cases over time.",

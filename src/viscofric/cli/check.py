@@ -165,7 +165,7 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     expected = record["expected"]
     effort = f"{duration(expected['seconds'])} on one core, {_bytes(expected['memory_per_process'])} for each process"
     lines.append(("to solve", f"about {_rounded(expected['solves'])} contacts: {effort}"))
-    for name, noun in (("histories", "contacts over time"), ("impacts", "impacts")):
+    for name, noun in (("heating", "heated contacts"), ("histories", "contacts over time"), ("impacts", "impacts")):
         if name in expected:
             one = expected[name]
             lines.append(("also", f"{one['contacts']:,} {noun}: {duration(one['seconds'])} on one core"))

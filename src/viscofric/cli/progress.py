@@ -25,6 +25,7 @@ _WORDS = {
     "measurement": "Measurement: Coulomb and viscoelastic friction",
     "shift": "Measurement: one friction curve of all temperatures",
     "contacts": "Contacts: requested, measured, along the master curve",
+    "heating": "Heated curves",
     "histories": "Contacts over time",
     "impacts": "Impacts",
     "report": "Figures and report",

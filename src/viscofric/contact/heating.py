@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import scipy.fft
 
 from viscofric.contact.fields.dissipation import dissipation
-from viscofric.heat.heating import ThermalResistances
+from viscofric.heat.heating import HeatBalance, ThermalResistances
 from viscofric.heat.influence import Diffusion
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 #: Cells along the contact, and room behind, ahead of and beside it, in half lengths of the contact.
-_CELLS = 18
+_CELLS, _MAPPED = 18, 40
 _BEHIND, _AHEAD, _BESIDE = 2.0, 0.6, 0.6
 
 
@@ -49,14 +49,13 @@ def thermal_resistances(
     as it is released below (in a half-space); what is released farther behind does not reach the contact.
     """
     speed, (_, loss) = abs(solution.speed), heats(solution, heating)
-    cells = _Cells.of(solution)
-    radius = 0.5 * solution.contact_area if cells.is_line else math.sqrt(solution.contact_area / math.pi)
+    cells = _Cells.of(solution, _CELLS)
+    radius = cells.radius(solution)
     flux = cells.pressure[None] / cells.pressure.sum()
     face = cells.inside[None]
     released = dissipation(cells.x, cells.y, cells.pressure, modes, poisson_ratio, speed, radius)
     found = float(released.power.sum())
-    # Coarse cells exaggerate the loss at the edge where all modes are fast; what is missing lies farther behind.
-    power = released.power / max(loss, found) if found > 0.0 else released.power
+    power = _per_loss(released, loss)
     weight = released.power / found if found > 0.0 else released.power
     other_speed = abs(speed - heating.sliding(speed))
     other = math.inf
@@ -66,8 +65,7 @@ def thermal_resistances(
 
     def factors(lengths: Array) -> Array:
         """Return those of `Diffusion.influence`: on the face, from each depth to it or back, and between depths."""
-        to_face = np.exp(-np.square(released.depth[:, None] / lengths))
-        return np.concatenate([np.ones((1, len(lengths))), to_face, between(lengths)])
+        return np.concatenate([_to_face(released, lengths), between(lengths)])
 
     found_influence = cells.influence(Diffusion(heating.rubber, speed), factors)
     on_face, to_face, below = np.split(found_influence, [1, 1 + layers])
@@ -79,6 +77,56 @@ def thermal_resistances(
         track=heating.track_resistance(radius, speed),
         counterface=other,
     )
+
+
+class FaceTemperature(NamedTuple):
+    """Rise of temperature (nx, ny), K, of the rubber's surface at x (nx,) and y (ny,), m; the contact moves towards +x.
+
+    `contact` (nx, ny) is the share of each cell that lies in the contact.
+    """
+
+    x: Array
+    y: Array
+    rise: Array
+    contact: Array
+
+
+def face_temperature(
+    solution: ContactSolution,
+    modes: Modes,
+    poisson_ratio: float,
+    heating: Heating,
+    interface: InterfaceLaw | None = None,
+) -> FaceTemperature:
+    """Return where the rubber's surface is how warm, under and behind a contact; see `thermal_resistances`.
+
+    The heat is shared such that both faces are equally warm on average; where they touch they may differ.
+    """
+    coulomb, loss = heats(solution, heating, interface)
+    balance = HeatBalance.of(thermal_resistances(solution, modes, poisson_ratio, heating), coulomb, loss)
+    speed, cells = abs(solution.speed), _Cells.of(solution, _MAPPED)
+    radius = cells.radius(solution)
+    released = dissipation(cells.x, cells.y, cells.pressure, modes, poisson_ratio, speed, radius)
+    entering = (coulomb - balance.counterface_heat) * cells.pressure / cells.pressure.sum()
+    influence = cells.influence(Diffusion(heating.rubber, speed), lambda lengths: _to_face(released, lengths))
+    heat = np.concatenate([entering[None], loss * _per_loss(released, loss)])
+    rise = cells.rise(influence, heat) + balance.track_rise
+    return FaceTemperature(cells.x, cells.y, rise, cells.inside / cells.inside.max())
+
+
+def _per_loss(released: Dissipation, loss: float) -> Array:
+    """Return the shares of the layers' cells in the loss.
+
+    Coarse cells exaggerate the loss at the edge where all modes are fast; what is missing lies farther behind.
+    """
+    found = float(released.power.sum())
+    return released.power / max(loss, found) if found > 0.0 else released.power
+
+
+def _to_face(released: Dissipation, lengths: Array) -> Array:
+    """Return the factors of `Diffusion.influence` on the face, and from each depth to it."""
+    to_face = np.exp(-np.square(released.depth[:, None] / lengths))
+    return np.concatenate([np.ones((1, len(lengths))), to_face])
 
 
 def _between_depths(released: Dissipation) -> Callable[[Array], Array]:
@@ -110,23 +158,27 @@ class _Cells:
         self.cell = x[1] - x[0], math.inf if self.is_line else y[1] - y[0]
 
     @classmethod
-    def of(cls, solution: ContactSolution) -> _Cells:
+    def of(cls, solution: ContactSolution, across_contact: int) -> _Cells:
+        """Return so many cells along the contact, those of the solution put together, and room around it."""
         pressure = solution.pressure[::-1] if solution.speed < 0.0 else solution.pressure
         loaded = np.asarray(pressure > 0.0, dtype=np.float64)
-        step = float(solution.x[1] - solution.x[0])
         rows = np.flatnonzero(loaded.any(axis=1))
         length = int(rows[-1] - rows[0] + 1)
-        size = max(1, round(length / _CELLS))
+        size = max(1, round(length / across_contact))
         half = 0.5 * length
+        forward = solution.x if solution.speed >= 0.0 else -solution.x[::-1]
         along = cls._room(rows, size, _BEHIND * half, _AHEAD * half)
         if pressure.shape[1] == 1:
             blocks = [_blocks(one[:, 0], along, size)[:, None] / size for one in (pressure, loaded)]
-            return cls(_row(along[1], step * size), np.zeros(1), *blocks)
+            return cls(_row(along, size, forward), np.zeros(1), *blocks)
         columns = np.flatnonzero(loaded.any(axis=0))
         across = cls._room(columns, size, _BESIDE * half, _BESIDE * half)
         both = [_blocks(_blocks(one, along, size).T, across, size).T / size**2 for one in (pressure, loaded)]
-        width = float(solution.y[1] - solution.y[0])
-        return cls(_row(along[1], step * size), _row(across[1], width * size), *both)
+        return cls(_row(along, size, forward), _row(across, size, solution.y), *both)
+
+    def radius(self, solution: ContactSolution) -> float:
+        """Return the half-width of a line contact, or the radius of a disc of equal area, m."""
+        return 0.5 * solution.contact_area if self.is_line else math.sqrt(solution.contact_area / math.pi)
 
     @staticmethod
     def _room(loaded: Indices, size: int, before: float, after: float) -> tuple[int, int]:
@@ -143,6 +195,14 @@ class _Cells:
         area = self.cell[0] if self.is_line else self.cell[0] * self.cell[1]
         return np.asarray(diffusion.influence(x, y, self.cell, depth).reshape(-1, 2 * nx - 1, ny) / area)
 
+    def rise(self, influence: Array, heat: Array) -> Array:
+        """Return the rise (nx, ny), K, by heat (m, nx, ny), W, of layers that each have an influence."""
+        nx, ny = self.pressure.shape
+        both = np.concatenate([influence[..., :0:-1], influence], axis=-1)
+        padded = [scipy.fft.next_fast_len(size, real=True) for size in both.shape[1:]]
+        spectrum = scipy.fft.rfft2(both, padded) * scipy.fft.rfft2(heat, padded)
+        return np.asarray(scipy.fft.irfft2(spectrum.sum(0), padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])
+
     def mean_rise(self, influence: Array, heat: Array, weight: Array) -> float:
         """Return the rise, K, by heat (m, nx, ny), W, averaged with weights (n, nx, ny), over all pairs of layers."""
         nx, ny = self.pressure.shape
@@ -157,8 +217,11 @@ class _Cells:
         return float(np.sum(sides[..., rows, :].reshape(influence.shape) * influence))
 
 
-def _row(count: int, step: float) -> Array:
-    return np.asarray(step * np.arange(count), dtype=np.float64)
+def _row(blocks: tuple[int, int], size: int, centres: Array) -> Array:
+    """Return the centres of a number of blocks of cells from a first cell on, given those of the cells."""
+    step = float(centres[1] - centres[0])
+    first = centres[0] + step * (blocks[0] + 0.5 * (size - 1))
+    return np.asarray(first + step * size * np.arange(blocks[1]), dtype=np.float64)
 
 
 def _blocks(values: Array, rows: tuple[int, int], size: int) -> Array:

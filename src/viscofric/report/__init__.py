@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         plot_friction_curves,
         plot_friction_master_curve,
     )
+    from viscofric.report.figures.heating import plot_heated_friction, plot_temperature_rise
     from viscofric.report.figures.identified import plot_fitted_records, plot_identified_modulus
     from viscofric.report.figures.interface import plot_friction_parts, plot_shear_stress
     from viscofric.report.figures.motion import (
@@ -60,6 +61,8 @@ _HOME = {
     "plot_friction_master_curve": "viscofric.report.figures.friction",
     "plot_friction_parts": "viscofric.report.figures.interface",
     "plot_shear_stress": "viscofric.report.figures.interface",
+    "plot_heated_friction": "viscofric.report.figures.heating",
+    "plot_temperature_rise": "viscofric.report.figures.heating",
     "plot_fitted_records": "viscofric.report.figures.identified",
     "plot_identified_modulus": "viscofric.report.figures.identified",
     "plot_isotherms": "viscofric.report.figures.rubber",
@@ -98,6 +101,7 @@ __all__ = [
     "plot_friction_loop",
     "plot_friction_master_curve",
     "plot_friction_parts",
+    "plot_heated_friction",
     "plot_identified_modulus",
     "plot_isotherms",
     "plot_kramers_kronig",
@@ -112,6 +116,7 @@ __all__ = [
     "plot_shift_comparison",
     "plot_shift_factors",
     "plot_temperature_ramps",
+    "plot_temperature_rise",
     "plot_transient",
     "plot_van_gurp_palmen",
     "plot_vertical_shift",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.report.figures.heating import MOST_PANELS as HEATED
 from viscofric.report.figures.histories import MOST_LINES as HISTORIES
 from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
 from viscofric.report.figures.stored_contacts import shown_contacts
@@ -23,6 +25,7 @@ from viscofric.report.results import (
 from viscofric.report.sweeps import (
     MOST_LINES,
     MOST_PANELS,
+    SAMPLE,
     SEED,
     labelled,
     layout_of,
@@ -30,7 +33,7 @@ from viscofric.report.sweeps import (
     solved_cases,
     sweep_axes,
 )
-from viscofric.report.texts.numbers import degrees, prefixed
+from viscofric.report.texts.numbers import degrees, prefixed, speed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,6 +70,13 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         "to it, with its 95 % band.",
         "friction_parts": "Predicted friction against speed, with its parts: hysteresis of the material, and shear "
         "stress of the interface on the predicted contact area. Bars: 95 % interval of the total.",
+        "heated_friction": "Contacts that their own friction heats: viscoelastic friction against speed, beside the "
+        f"isothermal one, and the rise of temperature with its parts, all predicted.{_few_heated(tree)} Where two "
+        "states are stable, a rising speed follows the cold ones and a falling speed the hot ones.",
+        "heated_parts": "Predicted friction with heating against speed, with its parts: hysteresis of the material, "
+        f"and {'Coulomb friction as given' if _heat_of(tree) == 'given' else 'shear stress of the interface'}"
+        f".{_few_heated(tree)}",
+        "temperature_map": _of_temperature_map(tree),
         "friction_shift_factors": "Shift factors from friction alone, by superposition of its curves, "
         "and those of the modulus, with their standard errors.",
         "ramps": "Left: storage (filled) and loss modulus (open) as measured, against the temperature, at each "
@@ -92,6 +102,30 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
         "ahead. The difference grows with the retardation times.",
         "convergence": _of_convergence(tree),
     }
+
+
+def _heat_of(tree: xr.DataTree) -> str:
+    heating = group(tree, "heating")
+    return "" if heating is None else str(heating.attrs["heat_of"])
+
+
+def _few_heated(tree: xr.DataTree) -> str:
+    """Say how many of the heated curves are drawn, if not all."""
+    heating = group(tree, "heating")
+    count = 1 if heating is None else math.prod(n for name, n in heating.sizes.items() if name not in ("speed", SAMPLE))
+    return f" {HEATED} of {count} curves are drawn." if count > HEATED else ""
+
+
+def _of_temperature_map(tree: xr.DataTree) -> str:
+    data = group(tree, "temperature_map")
+    if data is None:
+        return ""
+    at = f"{degrees(float(data.attrs['temperature']))}, {speed(float(data.attrs['speed']))}"
+    seen = "along the motion" if data.sizes["y"] == 1 else "seen from above, and on the centre line"
+    return (
+        f"Rise of temperature of the rubber's face at the warmest contact ({at}), predicted, {seen}; the indenter "
+        "moves to the right. Friction counts with one mean temperature."
+    )
 
 
 def _of_sweep(tree: xr.DataTree) -> str:

@@ -132,6 +132,7 @@ def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
     found = [
         ("Friction", ("friction_master_curve", "coulomb_friction", "friction_shift_factors")),
         ("Interface", ("friction_parts", "shear_stress")),
+        ("Heating", ("heated_friction", "heated_parts", "temperature_map")),
         ("Contact", ("contacts", "recovery_trail")),
         ("Contacts over time", ("contacts_over_time", "impacts")),
         ("Material", tuple(RUBBER_FIGURES)),

@@ -15,7 +15,7 @@ from viscofric.study.histories import case_histories, checked_table
 from viscofric.study.impacts import impacts_of
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.measurement import read_measurement
-from viscofric.study.planning.estimates import SECONDS_OF_IMPACT, estimate, seconds_over_time
+from viscofric.study.planning.estimates import HEATED_CURVE, SECONDS_OF_IMPACT, estimate, seconds_over_time
 from viscofric.study.rubber import shift_of
 
 if TYPE_CHECKING:
@@ -62,6 +62,11 @@ class CheckedStudy:
         """Number and estimated processor time, s, of the contacts over time and of the impacts, if there are any."""
         history, impact, cases = self.study.history, self.study.impact, self.sweep.cases
         found = {}
+        if self.study.heating is not None:
+            materials = [rubber.material for rubber in self.rubbers]
+            alone = estimate(cases, materials, accuracy=self.study.solver.accuracy, each=True)
+            times = len(self.study.heating.coulomb) * len(self.study.heating.slip or (0.0,))
+            found["heating"] = (times * len(cases), times * HEATED_CURVE * alone.seconds)
         if history is not None:
             dwells = len(history.dwell)
             moves = case_histories(self.study, history)(cases[0], history.dwell[0]).moves

@@ -15,9 +15,10 @@ from viscofric.notes import Note, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
+from viscofric.study.heating import Heatings
 from viscofric.study.histories import Histories
 from viscofric.study.impacts import Impacts
-from viscofric.study.interface import interface_results
+from viscofric.study.interface import StudyInterface, interface_columns, study_interface
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
@@ -127,11 +128,14 @@ def run_study(
         rubbers, measured = _inputs(study, _staged(progress))
         contacts = Contacts(study, rubbers, measured)
         arguments = study, contacts.sweep, contacts.plan.rubbers
-        singles = [one for one in (Histories.of(*arguments), Impacts.of(*arguments)) if one is not None]
+        over_time = Histories.of(*arguments), Impacts.of(*arguments)
         damaged = run_plan(contacts.plan, store, executor, progress)
+        interface = study_interface(contacts)
+        heatings = Heatings.of(*arguments, interface.law)
+        singles: list[Singles] = [one for one in (heatings, *over_time) if one is not None]
         for one in singles:
             damaged += run_plan(one, store, executor, _as_stage(progress, one.STAGE))
-        tree = tree_of(contacts, _damage(damaged, finished_only), singles)
+        tree = tree_of(contacts, _damage(damaged, finished_only), singles, interface)
         tree.attrs |= {"study_file": path.name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)
         results = StudyResults(tree, folder)
@@ -192,8 +196,16 @@ def _damage(labels: Sequence[str], finished_only: bool) -> list[str]:
     return [Note("damaged-cases", f"{many} not match the checksum) and {done}: {shown}.")]
 
 
-def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), singles: Sequence[Singles] = ()) -> xarray.DataTree:
-    """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved."""
+def tree_of(
+    contacts: Contacts,
+    doubtful: Iterable[str] = (),
+    singles: Sequence[Singles] = (),
+    interface: StudyInterface | None = None,
+) -> xarray.DataTree:
+    """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved.
+
+    `interface` is that of `study_interface`, which is called if it is not given.
+    """
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
@@ -210,8 +222,9 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), singles: Sequence[
     def within(part: Solved) -> list[bool] | None:
         return all_within(rubbers, part.of_records, part.records) if known else None
 
-    rubbed = interface_results(contacts, requested, at_points)
-    groups |= rubbed.groups
+    interface = study_interface(contacts) if interface is None else interface
+    rubbed = interface_columns(contacts, interface, requested)
+    groups |= interface.groups
     groups["/prediction"] = prediction(
         contacts.sweep,
         requested.outcomes,
@@ -228,17 +241,19 @@ def tree_of(contacts: Contacts, doubtful: Iterable[str] = (), singles: Sequence[
             pairs = zip(at_points.cases, points, strict=True)
             inside = [one is not None and rubbers[0].is_within(case, one) for case, one in pairs]
             groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
-    groups |= {one.GROUP: found for one in singles if (found := one.dataset()) is not None}
+    for one in singles:
+        groups |= one.groups()
     checked = assumption_checks(contacts, requested, at_points)
     groups |= assumptions(checked)
     tree = xarray.DataTree.from_dict(groups)
+    of_friction = [*(measured.notes if measured else ()), *interface.notes, *rubbed.notes]
     notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
     said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
     tree.attrs = {
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
         **{name: text for name, text in (("citation", study.citation), ("licence", study.licence)) if text},
-        "notes": _listed([*notes, *study.notes, *(measured.notes if measured else ()), *rubbed.notes]),
+        "notes": _listed([*notes, *study.notes, *of_friction]),
         "warnings": _listed(
             [
                 *doubtful,

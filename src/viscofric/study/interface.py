@@ -28,40 +28,61 @@ _POINTS = 101
 _BEYOND = 0.2  # decades that these reach beyond the measured ones
 
 
-class InterfaceResults(NamedTuple):
-    """Groups of the results, columns of the solved cases, and notes."""
+class StudyInterface(NamedTuple):
+    """Law of the interface, None without [interface] or if it cannot be fitted; groups of the results, and notes."""
 
+    law: InterfaceLaw | None
     groups: dict[str, xarray.Dataset]
+    notes: list[Note]
+
+
+def study_interface(contacts: Contacts) -> StudyInterface:
+    """Return the interface of a study whose contacts are solved: its law, given or fitted; a failed fit is a note."""
+    found, table = StudyInterface(None, {}, []), contacts.study.interface
+    if table is None:
+        return found
+    try:
+        law = table.given() if table.is_given else _fitted(table, contacts.results()[1], contacts.measured, found)
+    except InputError as error:
+        return found._replace(notes=[*found.notes, _not_predicted(error)])
+    return found._replace(law=law)
+
+
+def _not_predicted(error: InputError) -> Note:
+    return error.note.at("Friction of the interface was not predicted").coded("no-interface")
+
+
+class InterfaceColumns(NamedTuple):
+    """Columns of the solved cases, and notes."""
+
     columns: dict[str, Any]
     notes: list[Note]
 
 
-def interface_results(contacts: Contacts, requested: Solved, at_points: Solved) -> InterfaceResults:
-    """Return the interface's results; a law that cannot be fitted, or is not known at a case, is a note."""
-    found, table, layers = InterfaceResults({}, {}, []), contacts.study.interface, contacts.study.layer
-    if table is None:
-        return found
+def interface_columns(contacts: Contacts, interface: StudyInterface, requested: Solved) -> InterfaceColumns:
+    """Return the interface's part of the cases; a law that is not known at one of them is a note."""
+    table, law, layers = contacts.study.interface, interface.law, contacts.study.layer
+    if table is None or law is None:
+        return InterfaceColumns({}, [])
     thinnest = None if layers is None else Layer(min(layers.thickness), bonded=layers.base == "bonded")
     least = min(one.material.poisson_ratio for one in contacts.rubbers)
     try:
-        law = table.given() if table.is_given else _fitted(table, at_points, contacts.measured, found)
         curves = curves_of(requested.records)
         if requested.cases[0].geometry == "line":
             curves = replace(curves, load_unit="N/m")
         curves = with_interface(curves, law, table.slip, poisson_ratio=least, layer=thinnest)
     except InputError as error:
-        where = "Friction of the interface was not predicted"
-        return found._replace(notes=[*found.notes, error.note.at(where).coded("no-interface")])
-    assert curves.coulomb is not None
-    found.columns.update(
-        interface_friction=curves.coulomb, interface_error=curves.coulomb_error, total_friction=curves.total
-    )
-    found.notes.extend(map(note_of, curves.notes))
-    return found
+        return InterfaceColumns({}, [_not_predicted(error)])
+    columns = {
+        "interface_friction": curves.coulomb,
+        "interface_error": curves.coulomb_error,
+        "total_friction": curves.total,
+    }
+    return InterfaceColumns(columns, list(map(note_of, curves.notes)))
 
 
 def _fitted(
-    table: InterfaceTable, at_points: Solved, measured: Measurement | None, found: InterfaceResults
+    table: InterfaceTable, at_points: Solved, measured: Measurement | None, found: StudyInterface
 ) -> InterfaceLaw:
     """Fit the law to measured friction on the contacts solved at its points, and put both into the results."""
     assert measured is not None  # the run file needs it

@@ -147,7 +147,8 @@ def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | xr.
     speed, hysteresis = _MILLIMETRES * parts.speed[order], parts.hysteresis[order]
     total, half = hysteresis + parts.interface[order], LEVEL_95 * parts.error[order]
     axes.fill_between(speed, 0.0, hysteresis, color=BLUE, alpha=0.6, linewidth=0, label="hysteresis")
-    axes.fill_between(speed, hysteresis, total, color=ORANGE, alpha=0.6, linewidth=0, label="interface")
+    named = "Coulomb, given" if as_dataset(curves).attrs.get("heat_of") == "given" else "interface"
+    axes.fill_between(speed, hysteresis, total, color=ORANGE, alpha=0.6, linewidth=0, label=named)
     axes.errorbar(speed, total, yerr=half, color=INK, marker="o", markersize=3, elinewidth=1.0, label="total, 95 %")
     axes.set(xscale="log", ylabel=r"friction coefficient $\mu$", ylim=(0.0, 1.08 * float(np.nanmax(total + half))))
     axes.set_xlabel(r"speed $v$ (mm/s)" + "".join(at_temperature(one) for one in nominal.tolist()))

@@ -19,6 +19,7 @@ from viscofric.report.figures.friction import (
     plot_friction_master_curve,
     plot_friction_master_curves,
 )
+from viscofric.report.figures.heating import heated_parts_figure, heating_figure, temperature_map_figure
 from viscofric.report.figures.histories import histories_figure, impacts_figure
 from viscofric.report.figures.interface import parts_figure, stress_figure
 from viscofric.report.figures.maps import known_shifts, map_figure
@@ -264,6 +265,9 @@ FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "coulomb_friction": coulomb_friction,
     "shear_stress": stress_figure,
     "friction_parts": parts_figure,
+    "heated_friction": heating_figure,
+    "heated_parts": heated_parts_figure,
+    "temperature_map": temperature_map_figure,
     "friction_shift_factors": _friction_shift_factors,
     "contacts_over_time": histories_figure,
     "impacts": impacts_figure,

@@ -103,7 +103,7 @@ def scope(tree: xr.DataTree) -> list[str]:
         )
         points = f"{measurement.sizes['point']} {kind} points of friction"
         said.append(f"The prediction is compared with {points}{separated}. {enters}")
-    return said + _interface(tree)
+    return said + _interface(tree) + _heating(tree)
 
 
 def _interface(tree: xr.DataTree) -> list[str]:
@@ -120,6 +120,29 @@ def _interface(tree: xr.DataTree) -> list[str]:
     said = (
         f"The total friction has two parts: hysteresis, predicted from the material; and the interface, {low} to "
         f"{high} of the total, whose law of shear stress is {law}, and acts on the predicted contact area."
+    )
+    return [said]
+
+
+def _heating(tree: xr.DataTree) -> list[str]:
+    """Say what of the heat is given, fitted and predicted, and what heating changes."""
+    heating = group(tree, "heating")
+    if heating is None:
+        return []
+    changed = heating["friction_coefficient"].values / heating["isothermal_friction"].values
+    low, high = (signed_percent(float(end) - 1.0) for end in (np.nanmin(changed), np.nanmax(changed)))
+    rise = short(float(np.nanmax(heating["temperature_rise"].values)), 3)
+    kind = "synthetic" if is_synthetic(tree) else "measured"
+    law = "given" if group(tree, "interface") is None else f"fitted to {kind} Coulomb friction"
+    coulomb = {
+        "given": "a Coulomb friction that is given, not measured",
+        "interface": f"the interface, whose law is {law}",
+    }.get(str(heating.attrs["heat_of"]), "no Coulomb friction")
+    said = (
+        "Every case is also predicted at the temperature to which its own friction heats it, with the heat of "
+        f"{coulomb}, and of the predicted viscoelastic loss, in {heating.attrs['rubber']} against "
+        f"{heating.attrs['counterface']}. The rubber is up to {rise} K warmer; heating changes viscoelastic "
+        f"friction by {low} to {high}. Bands and the comparison with {kind} friction are isothermal."
     )
     return [said]
 

@@ -191,12 +191,12 @@ class Column(NamedTuple):
 
 @dataclass(frozen=True)
 class HistoryRecord(Record):
-    """Stored part of one contact over time, or of one impact.
+    """Stored part of one contact over time, of one impact, or of a friction curve with heating.
 
     Attributes
     ----------
     columns : dict of str to Column
-        Over the stored times, or one value of the whole, SI.
+        Over the stored times or speeds, or one value of the whole, SI.
     """
 
     columns: dict[str, Column] = field(default_factory=dict)

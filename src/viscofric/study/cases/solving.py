@@ -150,17 +150,20 @@ def written(value: Any) -> object:
         return modes_written(value)
     if isinstance(value, np.ndarray):
         return [value.shape, hashlib.sha256(np.ascontiguousarray(value).tobytes()).hexdigest()]
-    if hasattr(value, "described"):  # a surface, by what its heights are made from
+    if callable(getattr(value, "described", None)):  # a surface, by what its heights are made from
         return value.described()
+    if isinstance(value, list | tuple):
+        return [written(one) for one in value]
     if is_dataclass(value):
         return [type(value).__name__, *((entry.name, written(getattr(value, entry.name))) for entry in fields(value))]
     return value.item() if isinstance(value, np.generic) else value
 
 
-#: Files outside the solver that determine the records.
+#: Rooms, and files outside them, that determine the records.
+_ROOMS = ("heat", "rheology/shifts", "rheology/interface", "contact", "motion", "roughness", "readers/topography")
 _OWN = {
-    "friction": ("sensitivity.py",),
-    "study": ("cases/solving.py", "cases/record.py", "cases/surfaces.py", "cases/history.py"),
+    "friction": ("sensitivity.py", "prediction.py", "heating.py", "interface/prediction.py"),
+    "study": ("cases/solving.py", "cases/record.py", "cases/surfaces.py", "cases/history.py", "cases/heating.py"),
 }
 
 
@@ -168,7 +171,7 @@ _OWN = {
 def solver_fingerprint() -> str:
     """Return a digest of the solver's source, so that stored cases of another version are not reused."""
     digest = hashlib.sha256()
-    for room in ("contact", "motion", "roughness", "readers/topography"):
+    for room in _ROOMS:
         for name, source in _sources(files("viscofric") / room):
             digest.update(name.encode() + b"\0" + source)
     for room, names in _OWN.items():

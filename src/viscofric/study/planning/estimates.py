@@ -31,6 +31,8 @@ _SECONDS = {
 # On a rough surface, s: for each contact and each of its points, half as much in full contact (512² points of the
 # synthetic fluoroelastomer at 2 to 6 % of contact; the accuracy hardly matters).  Bytes for each point while solving.
 _SURFACE_SECONDS, _SURFACE_SECONDS_PER_POINT, _BYTES_PER_POINT = 0.012, 1.1e-6, 250.0
+#: Time of a friction curve with heating over that of its isothermal contacts (benchmarks/friction/heated.py).
+HEATED_CURVE = 2.8
 #: The derivatives take about as long as friction itself.
 _SENSITIVE = 2.0
 # Bytes: of a process that solves; of each cell of the finest window while it does; of a record and its sensitivity.

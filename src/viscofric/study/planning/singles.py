@@ -82,6 +82,11 @@ class Singles:
         """Return all results along their axes; None if all failed."""
         raise NotImplementedError
 
+    def groups(self) -> dict[str, xarray.Dataset]:
+        """Return all results by their groups; none if all failed."""
+        found = self.dataset()
+        return {} if found is None else {self.GROUP: found}
+
     def columns(self, dimensions: dict[str, int], along: str = "") -> dict[str, Any]:
         """Return the results as variables along dimensions, those of several values each also along `along`.
 

@@ -128,7 +128,7 @@ def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
 def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list[Any]]]:
     """Return names, units and values of a data set's columns, a row for each point, the last dimension running fastest.
 
-    Temperatures are in degC; missing values are None.
+    Temperatures are in degC, their differences in K; missing values are None.
     """
     known = [name for name in PLACES if name in dataset.coords]
     known += [str(name) for name in dataset.coords if name not in PLACES]
@@ -139,7 +139,7 @@ def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list
     for name in names:
         variable = dataset[name]
         values, unit = over_all_dimensions(dataset, name), str(variable.attrs.get("units", "1"))
-        if unit == "K":
+        if unit == "K" and name.startswith("temperature") and "rise" not in name:  # a difference stays as it is
             unit, values = "degC", np.round(values - CELSIUS_ZERO, _DECIMALS)
         units.append(unit)
         columns.append([_plain(value) for value in values.ravel().tolist()])

@@ -11,6 +11,8 @@
 ``/measurement_master``          measured friction over the reduced speed, at the load of the master curve
 ``/agreement``                   prediction and measurement compared, per temperature (if measured)
 ``/friction_shift_factors``      α(T) from friction alone, and that of the modulus (if measured curves overlap)
+``/heating``                     the cases at the temperatures to which their own friction heats them
+``/temperature_map``             rise of temperature of the rubber's face at the warmest of these contacts
 ``/interface``                   shear stress of the interface at the measured points (if a law was fitted to it)
 ``/interface_law``               that law at the reference temperature
 ``/assumptions``                 assumptions of the predictions, checked

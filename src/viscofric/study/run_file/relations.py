@@ -32,6 +32,7 @@ def relations(tables: Tables) -> Iterator[Problem]:
     yield from _measurement(tables)
     yield from _history(tables)
     yield from _interface(tables)
+    yield from _heating(tables)
     yield from _members(tables)
 
 
@@ -198,6 +199,23 @@ def _interface(tables: Tables) -> Iterator[Problem]:
         )
     if not interface.is_given and tables.get("measurement") is None:
         yield "interface", "needs a [measurement] with Coulomb friction, or a law with its constants"
+
+
+def _heating(tables: Tables) -> Iterator[Problem]:
+    heating, indenter = tables.get("heating"), tables.get("indenter")
+    if heating is None:
+        return
+    if tables.get("surface") is not None:
+        yield "heating", "needs an [indenter], but there is a rough [surface]"
+    if tables.get("layer") is not None:
+        yield "heating", "needs a half-space, but there is a [layer]"
+    if indenter is not None and indenter.LINE and heating.passes > 0:
+        yield "heating.passes", "are of round contacts; a cylinder leaves no circular track"
+    if tables.get("interface") is not None:
+        if max(heating.coulomb) > 0.0:
+            yield "heating.coulomb", "is given besides [interface], whose shear stress makes this heat; leave it out"
+        if heating.slip is not None:
+            yield "heating.slip", "is given besides [interface]; give interface.slip instead"
 
 
 def _members(tables: Tables) -> Iterator[Problem]:

@@ -18,6 +18,7 @@ from viscofric.study.run_file.contact import (
     LayerTable,
 )
 from viscofric.study.run_file.errors import place, problems, wrong, wrong_tables
+from viscofric.study.run_file.heating import HeatingTable
 from viscofric.study.run_file.history import HistoryTable, ImpactTable
 from viscofric.study.run_file.interface import InterfaceTable
 from viscofric.study.run_file.material import MaterialTable
@@ -72,6 +73,8 @@ class Study(Table):
     measurement : MeasurementTable or None
     interface : InterfaceTable or None
         The friction of a dry interface too.
+    heating : HeatingTable or None
+        Every case also at the temperature to which its own friction heats it.
     solver : SolverTable
     uncertainty : UncertaintyTable
     outputs : OutputsTable
@@ -98,6 +101,7 @@ class Study(Table):
     impact: ImpactTable | None = Field(None, description="Every ball or cone also falls on the rubber.")
     measurement: MeasurementTable | None = Field(None, description="Measured friction to compare with the prediction.")
     interface: InterfaceTable | None = Field(None, description="Friction of the dry interface, added to the rubber's.")
+    heating: HeatingTable | None = Field(None, description="Cases also at the temperature of their own friction.")
     solver: SolverTable = Field(SolverTable(), description="Accuracy of the predicted friction.")
     uncertainty: UncertaintyTable = Field(UncertaintyTable(), description="Uncertainty of the material.")
     outputs: OutputsTable = Field(OutputsTable(), description="Stored fields and formats of the results.")
@@ -164,6 +168,7 @@ TABLES: dict[str, type[BaseModel]] = {
     "impact": ImpactTable,
     "measurement": MeasurementTable,
     "interface": InterfaceTable,
+    "heating": HeatingTable,
     "solver": SolverTable,
     "uncertainty": UncertaintyTable,
     "outputs": OutputsTable,

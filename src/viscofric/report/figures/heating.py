@@ -1,0 +1,257 @@
+"""Figures of contacts that their own friction heats: friction, rise of temperature with its parts, and one map."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import matplotlib
+import numpy as np
+
+from viscofric.errors import InputError
+from viscofric.report.data import as_dataset
+from viscofric.report.figures.interface import plot_friction_parts
+from viscofric.report.figures.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    ORANGE,
+    PURPLE,
+    VERMILION,
+    Unit,
+    at_temperature,
+    new_figure,
+    plain_numbers,
+    slender_bar,
+    speed_ticks,
+    unit_for,
+)
+from viscofric.report.results import group, nominal_temperatures, number, values
+from viscofric.report.sweeps import axis_of, best_estimate, thinned
+from viscofric.report.texts.numbers import short
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from viscofric.arrays import Array
+    from viscofric.friction.heating import HeatedFrictionCurves
+
+_MILLIMETRES = 1e3
+#: Curves that a study's figures show.
+MOST_PANELS = 3
+#: A rise that is everywhere below this share of the largest is not drawn; two that differ by less than a share are one.
+_LEAST, _SAME = 1e-6, 0.02
+_RISES = (
+    ("temperature_rise", "that the rubber responds to", INK, "-"),
+    ("coulomb_rise", "by Coulomb friction", ORANGE, "--"),
+    ("loss_rise", "by the viscoelastic loss", BLUE, "--"),
+    ("track_rise", "of it by earlier passes", PURPLE, ":"),
+    ("face_rise", "of the face", VERMILION, "-."),
+    ("loss_weighted_rise", "where the loss is released", GREEN, "-."),
+)
+
+
+_MEANS = {"face_rise": ": of the face", "loss_weighted_rise": ": where the loss is released"}
+
+
+class _Friction(NamedTuple):
+    """Friction of one curve (n,) with its isothermal one, and that of its cold and its hot states."""
+
+    speed: Array
+    warm: Array
+    isothermal: Array
+    cold: Array
+    hot: Array
+
+
+def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) -> None:
+    """Draw viscoelastic friction with heating against speed, beside the isothermal one.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    curves : HeatedFrictionCurves or xarray.Dataset
+        Of `predict_friction` with heating, at one temperature (`FrictionCurves.at_temperature`).  Where contacts have a
+        cold and a hot state, both are drawn, and the hysteresis between them is shaded.  A dataset has the columns of
+        the group ``heating`` of a study along `case`.
+
+    Raises
+    ------
+    InputError
+        If there is no heating, or are several temperatures.
+    """
+    data, kelvin = _one_curve(curves)
+    one = _friction(data)
+    speed = _MILLIMETRES * one.speed
+    axes.plot(speed, one.isothermal, color=GREY, linestyle="--", label="isothermal")
+    two = one.hot != one.cold
+    if np.any(two):
+        axes.fill_between(speed, one.cold, one.hot, color=VERMILION, alpha=0.2, linewidth=0.0, label="hysteresis")
+        axes.plot(speed, one.cold, color=BLUE, marker="o", markersize=3, label="heated, speed rising")
+        axes.plot(speed, one.hot, color=VERMILION, marker="s", markersize=3, label="heated, speed falling")
+    else:
+        axes.plot(speed, one.warm, color=INK, marker="o", markersize=3, label="heated")
+    axes.set(xscale="log", ylabel=r"viscoelastic friction $\mu$")
+    axes.set_ylim(0.0, 1.08 * float(np.nanmax(np.concatenate([one.isothermal, one.cold, one.hot]))))
+    axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(kelvin))
+    speed_ticks(axes.xaxis)
+    plain_numbers(axes, "y")
+    axes.legend(title="predicted", alignment="left")
+
+
+def plot_temperature_rise(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) -> None:
+    """Draw the rise of temperature of contacts against speed, with its parts; see `plot_heated_friction`.
+
+    The rise that the rubber responds to is that of the face, or that weighted with the loss (`Heating.average`); both
+    are drawn.  Its parts are those by Coulomb friction and by the loss, and what of both is due to earlier passes.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    curves : HeatedFrictionCurves or xarray.Dataset
+
+    Raises
+    ------
+    InputError
+        If there is no heating, or are several temperatures.
+    """
+    data, kelvin = _one_curve(curves)
+    speed = _MILLIMETRES * values(data, "speed")
+    largest = max(float(np.nanmax(values(data, name))) for name, *_ in _RISES)
+    response = values(data, "temperature_rise")
+    for name, words, colour, dashes in _RISES:
+        rise = values(data, name)
+        is_response = name in _MEANS and np.allclose(rise, response, rtol=_SAME, atol=0.0)
+        if np.nanmax(rise) > _LEAST * largest and not is_response:
+            named = next((_MEANS[one] for one in _MEANS if np.allclose(values(data, one), response, rtol=_SAME)), "")
+            said = f"{words}{named}" if name == "temperature_rise" else words
+            shown = np.where(rise > 0.0, rise, math.nan)
+            axes.plot(speed, shown, color=colour, linestyle=dashes, marker=".", label=said)
+    axes.set(xscale="log", yscale="log", ylabel=r"rise of temperature $\Delta T$ (K)")
+    axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(kelvin))
+    speed_ticks(axes.xaxis)
+    axes.legend(title="predicted mean rise", alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+def _one_curve(curves: HeatedFrictionCurves | xr.Dataset) -> tuple[xr.Dataset, float]:
+    """Return the data set of one temperature in ascending speed, and the temperature; raise `InputError` for others."""
+    data = as_dataset(curves)
+    if "temperature_rise" not in data:
+        raise InputError("the friction curves have no heating; predict with heating=….", code="no-heating")
+    nominal = nominal_temperatures(values(data, "temperature"))
+    if nominal.size != 1:
+        raise InputError(
+            f"the friction curves have {nominal.size} temperatures; choose one with at_temperature().",
+            code="several-temperatures",
+        )
+    (along,) = data["temperature_rise"].dims
+    return data.isel({along: np.argsort(values(data, "speed"), kind="stable")}), float(nominal[0])
+
+
+def _friction(data: xr.Dataset) -> _Friction:
+    of_study = "isothermal_friction" in data
+    names = ("friction_coefficient", "isothermal_friction", "cold_friction", "hot_friction")
+    names = names if of_study else ("viscoelastic", "isothermal", "cold_viscoelastic", "hot_viscoelastic")
+    return _Friction(*(values(data, name) for name in ("speed", *names)))
+
+
+def heating_figure(tree: xr.DataTree) -> Figure | None:
+    """Return heated friction beside the isothermal one, and the rise of temperature, of at most three curves."""
+    curves = _shown(tree)
+    if not curves:
+        return None
+    figure = new_figure(11.0, 3.4 * len(curves))
+    for (left, right), (words, curve) in zip(figure.subplots(len(curves), 2, squeeze=False), curves, strict=True):
+        plot_heated_friction(left, curve)
+        plot_temperature_rise(right, curve)
+        left.set_title(words)
+    return figure
+
+
+def heated_parts_figure(tree: xr.DataTree) -> Figure | None:
+    """Return the parts of heated friction, hysteresis and Coulomb friction or interface, of at most three curves."""
+    curves = [(words, rubbed) for words, one in _shown(tree) if (rubbed := _with_coulomb(one)) is not None]
+    if not curves:
+        return None
+    figure = new_figure(7.4, 3.2 * len(curves))
+    for axes, (words, curve) in zip(figure.subplots(len(curves), 1, squeeze=False)[:, 0], curves, strict=True):
+        plot_friction_parts(axes, curve)
+        axes.set_title(words)
+    return figure
+
+
+def _with_coulomb(curve: xr.Dataset) -> xr.Dataset | None:
+    """Return a curve whose given Coulomb friction, if any, is its interface; None without either."""
+    if "interface_friction" in curve:
+        return curve
+    if "coulomb" not in curve or not np.any(values(curve, "coulomb") > 0.0):
+        return None
+    given = curve["friction_coefficient"] * 0.0 + values(curve, "coulomb")
+    return curve.assign(interface_friction=given, interface_error=0.0 * given)
+
+
+def _shown(tree: xr.DataTree) -> list[tuple[str, xr.Dataset]]:
+    """Return at most three curves over speed along `case`, each with what tells it apart from the others."""
+    data = group(tree, "heating")
+    if data is None or "speed" not in data.dims:
+        return []
+    best = best_estimate(data)
+    others = [str(name) for name, size in best.sizes.items() if name != "speed" and size > 1]
+    axes = [axis_of(best, name) for name in others]
+    shape = tuple(len(axis) for axis in axes)
+    found = []
+    for place in thinned(math.prod(shape), MOST_PANELS):
+        at = [int(one) for one in np.unravel_index(place, shape)] if shape else []
+        words = ", ".join(axis.labels[index] for axis, index in zip(axes, at, strict=True))
+        words = words.replace("coulomb", "Coulomb friction")
+        curve = best.isel(dict(zip(others, at, strict=True))).reset_coords()
+        curve = curve.broadcast_like(curve["friction_coefficient"]).rename(speed="case")
+        curve = curve.assign(speed=("case", best["speed"].values)).drop_vars("case", errors="ignore")
+        solved = np.isfinite(values(curve, "friction_coefficient"))
+        if solved.sum() > 1:
+            found.append((words, curve.isel(case=np.flatnonzero(solved))))
+    return found
+
+
+def temperature_map_figure(tree: xr.DataTree) -> Figure | None:
+    """Return the rise of temperature of the rubber's face at the warmest contact: seen from above, and along it."""
+    data = group(tree, "temperature_map")
+    if data is None:
+        return None
+    line = data.sizes["y"] == 1
+    figure = new_figure(6.2, 3.2 if line else 5.6)
+    panels = [figure.subplots()] if line else list(figure.subplots(2, 1, height_ratios=[1.6, 1.0]))
+    if not line:
+        mesh = _plot_map(panels[0], data)
+        slender_bar(figure, mesh, panels[:1], r"rise of temperature $\Delta T$ (K)")
+    _plot_centre_line(panels[-1], data)
+    if not line:
+        panels[1].set_xlim(panels[0].get_xlim())
+    return figure
+
+
+def _plot_map(axes: Axes, data: xr.Dataset) -> Any:
+    x, y = _MILLIMETRES * values(data, "x"), _MILLIMETRES * values(data, "y")
+    colours = matplotlib.colormaps["inferno"]
+    mesh = axes.pcolormesh(x, y, data["rise"].values.T, cmap=colours, shading="nearest", rasterized=True)
+    axes.contour(x, y, data["contact"].values.T, levels=[0.5], colors=["white"], linewidths=0.9)
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    axes.set(xlabel="along the motion $x$ (mm) →", ylabel="across $y$ (mm)")
+    return mesh
+
+
+def _plot_centre_line(axes: Axes, data: xr.Dataset) -> None:
+    middle = data.sizes["y"] // 2
+    x, rise = values(data, "x"), data["rise"].values[:, middle]
+    inside = data["contact"].values[:, middle] > 0.5
+    unit = unit_for(float(np.abs(x).max())) if data.sizes["y"] == 1 else Unit(1.0 / _MILLIMETRES, "mm")
+    axes.axvspan(x[inside][0] / unit.size, x[inside][-1] / unit.size, color=GREY, alpha=0.2, linewidth=0.0)
+    axes.plot(x / unit.size, rise, color=VERMILION, label="centre line")
+    mean = number(data.attrs, "face_rise")
+    axes.axhline(mean, color=INK, linewidth=0.8, linestyle="--", label=f"mean of the contact, {short(mean, 3)} K")
+    axes.set(xlabel=f"along the motion $x$ ({unit.name}) →", ylabel=r"$\Delta T$ (K)", ylim=(0.0, None))
+    axes.legend(loc="best")

@@ -1,0 +1,121 @@
+"""Contacts of a study that their own friction heats: the curve of one temperature, and the map of one contact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.contact.fields.dissipation import Modes
+from viscofric.contact.heating import face_temperature
+from viscofric.contact.steady import solve_steady
+from viscofric.errors import ViscofricError
+from viscofric.friction.prediction import predict_friction
+from viscofric.notes import note_of
+from viscofric.study.cases.record import Column, HistoryRecord
+
+if TYPE_CHECKING:
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.friction.heating import HeatedFrictionCurves
+    from viscofric.heat.heating import Heating
+    from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.rheology.material import Material
+
+#: Column of the results -> that of heated friction curves, unit, and meaning.
+COLUMNS = {
+    "friction_coefficient": ("viscoelastic", "1", "viscoelastic friction coefficient with heating"),
+    "friction_error": ("viscoelastic_error", "1", "numerical error estimate of the friction coefficient"),
+    "isothermal_friction": ("isothermal", "1", "viscoelastic friction coefficient without heating"),
+    "temperature_rise": ("temperature_rise", "K", "mean rise of temperature that the rubber responds to"),
+    "coulomb_rise": ("coulomb_rise", "K", "rise of temperature due to Coulomb friction"),
+    "loss_rise": ("loss_rise", "K", "rise of temperature due to the viscoelastic loss"),
+    "track_rise": ("track_rise", "K", "rise of temperature by earlier passes"),
+    "face_rise": ("face_rise", "K", "mean rise of temperature of the face"),
+    "loss_weighted_rise": ("loss_weighted_rise", "K", "mean rise of temperature where the loss is released"),
+    "cold_friction": ("cold_viscoelastic", "1", "viscoelastic friction coefficient as the speed rises"),
+    "cold_rise": ("cold_rise", "K", "rise of temperature as the speed rises"),
+    "hot_friction": ("hot_viscoelastic", "1", "viscoelastic friction coefficient as the speed falls"),
+    "hot_rise": ("hot_rise", "K", "rise of temperature as the speed falls"),
+    "mean_pressure": ("mean_pressure", "Pa", "load over contact area"),
+    "interface_friction": ("coulomb", "1", "friction coefficient of the interface with heating"),
+    "interface_error": ("coulomb_error", "1", "standard error of the friction coefficient of the interface"),
+}
+#: Notes of the curves that the study has anyway: of the isothermal contacts, or counted over all cases.
+_KEPT = ("interface-extrapolated", "interface-pressure")
+
+
+def solve_heated(
+    material: Material,
+    *,
+    indenter: Indenter,
+    speeds: tuple[float, ...],
+    temperature: float,
+    load: float,
+    heating: Heating,
+    interface: InterfaceLaw | None = None,
+    fields: bool = False,
+    **settings: Any,
+) -> HistoryRecord:
+    """Solve contacts of one temperature and load at all speeds, each at the temperature to which it heats itself.
+
+    Speeds at which there is no solution are left out, with a warning each; if there is none at any, the error of the
+    first is raised.  `fields` is not used; `settings` are further arguments of `predict_friction`, SI.
+    """
+    common = {"temperatures": temperature, "load": load, "heating": heating, "interface": interface, **settings}
+    said: list[str] = []
+    try:
+        curves: list[Any] = [predict_friction(material, indenter, speeds=list(speeds), **common)]
+    except ViscofricError:
+        curves, wrong = [], []
+        for speed in speeds:
+            try:
+                curves.append(predict_friction(material, indenter, speeds=speed, **common))
+            except ViscofricError as error:
+                wrong.append(error)
+                said.append(f"{error} (at {speed:g} m/s)")
+        if not curves:
+            raise wrong[0] from None
+    notes = [note_of(note) for one in curves for note in one.notes]
+    said += [str(note) for note in notes if note.code in _KEPT]
+    return HistoryRecord({}, tuple(dict.fromkeys(said)), columns=_columns(curves))
+
+
+def _columns(curves: list[HeatedFrictionCurves]) -> dict[str, Column]:
+    def joined(name: str) -> list[float]:
+        return [value for one in curves for value in getattr(one, name).tolist()]
+
+    found = {"speed": Column(joined("speed"), "m/s", "speed")}
+    for name, (theirs, unit, words) in COLUMNS.items():
+        if getattr(curves[0], theirs) is not None:
+            found[name] = Column(joined(theirs), unit, words)
+    return found
+
+
+def solve_temperature_map(
+    material: Material,
+    *,
+    indenter: Indenter,
+    speed: float,
+    temperature: float,
+    rise: float,
+    heating: Heating,
+    interface: InterfaceLaw | None = None,
+    fields: bool = False,
+    **settings: Any,
+) -> HistoryRecord:
+    """Return the rise of temperature of the rubber's face in and around a contact that is so much warmer, K.
+
+    `x` and `y` are those of each cell, and `contact` the part of it in the contact.  See `solve_heated`.
+    """
+    solution = solve_steady(material, indenter, speed=speed, temperature=temperature + rise, **settings)
+    spectrum = material.modes_at(temperature + rise)
+    modes = Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+    found = face_temperature(solution, modes, material.poisson_ratio, heating, interface)
+    x, y = np.meshgrid(found.x, found.y, indexing="ij")
+    columns = {
+        "x": Column(x.ravel().tolist(), "m", "position along the motion, from the axis"),
+        "y": Column(y.ravel().tolist(), "m", "position across the motion"),
+        "rise": Column(found.rise.ravel().tolist(), "K", "rise of temperature of the rubber's face"),
+        "contact": Column(found.contact.ravel().tolist(), "1", "share of the cell that lies in the contact"),
+    }
+    return HistoryRecord({}, (), columns=columns)

@@ -1,0 +1,268 @@
+"""Friction curves of a study whose contacts heat themselves, where its run file has a [heating]."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.contact.heated import THIN
+from viscofric.errors import InputError
+from viscofric.notes import Note
+from viscofric.study.cases.case import moved
+from viscofric.study.cases.heating import COLUMNS, solve_heated, solve_temperature_map
+from viscofric.study.cases.record import Failure, HistoryRecord
+from viscofric.study.cases.solving import Task
+from viscofric.study.planning.singles import Singles
+from viscofric.study.results.tree import axis_coordinates, meaning_of
+from viscofric.thermal import BODIES
+from viscofric.units import shown_celsius
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.arrays import Array
+    from viscofric.heat.heating import Heating
+    from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.rheology.material import Material
+    from viscofric.study.cases.case import Case, Rubbers
+    from viscofric.study.cases.sweep import Sweep
+    from viscofric.study.run_file.heating import HeatingTable
+    from viscofric.study.run_file.study import Study
+    from viscofric.thermal import ThermalProperties
+
+_GROUP, _MAP = "/heating", "/temperature_map"
+_SLIP = {"units": "m/s", "long_name": "sliding velocity between both surfaces"}
+_COULOMB = {"units": "1", "long_name": "Coulomb friction coefficient, given"}
+_TOTAL = {"units": "1", "long_name": "friction coefficient of hysteresis and interface together, with heating"}
+
+
+def _words(body: ThermalProperties) -> str:
+    """Return name, origin and thermal properties of a body."""
+    origin = "typical handbook values" if body in BODIES.values() else "given"
+    return f"{body.name} ({origin}: {body.conductivity:.3g} W/(m K), {1e6 * body.diffusivity:.3g} mm²/s)"
+
+
+class Heatings(Singles):
+    """The cases that differ by speed alone as one curve each, for every Coulomb friction and slip; then one map.
+
+    The map is that of the warmest contact of the best estimate of the material.
+    """
+
+    STAGE, GROUP, NOUN = "heating", _GROUP, "heated curves"
+
+    def __init__(
+        self, study: Study, table: HeatingTable, sweep: Sweep, rubbers: Rubbers, interface: InterfaceLaw | None
+    ) -> None:
+        self._study, self._table, self._sweep, self._rubbers = study, table, sweep, rubbers
+        self._interface = interface
+        self._material: dict[tuple[int, int | None], Material] = {}
+        slip = study.interface.slip if study.interface is not None else None
+        self._slips: tuple[float | None, ...] = table.slip or (slip,)
+        self._members: list[tuple[list[int], int, int]] = []  # cases, place of Coulomb friction and of slip
+        alike: dict[Case, list[int]] = {}
+        for number, case in enumerate(sweep.cases):
+            alike.setdefault(moved(case, speed=0.0), []).append(number)
+        for cases in alike.values():
+            for first in range(len(table.coulomb)):
+                self._members += [(cases, first, second) for second in range(len(self._slips))]
+        super().__init__([self._task(*one) for one in self._members])
+        self._mapped = False
+
+    @classmethod
+    def of(cls, study: Study, sweep: Sweep, rubbers: Rubbers, interface: InterfaceLaw | None) -> Heatings | None:
+        """Return the plan of a study, None without [heating]; `interface` is the law of its [interface]."""
+        table = study.heating
+        return None if table is None else cls(study, table, sweep, rubbers, interface)
+
+    def wanted(self) -> list[Task]:
+        """Return the tasks without a result: the curves, and then the map."""
+        first = super().wanted()
+        if not first and not self._mapped:
+            self._mapped = True
+            self.tasks = [*self.tasks, *self._map_task()]
+        return first or super().wanted()
+
+    @property
+    def warnings(self) -> list[Note]:
+        """Notes on curves, and those on contacts with two states or a thin warm skin, counted over all."""
+        data = self.dataset()
+        return [*super().warnings, *(() if data is None else self._counted(data))]
+
+    def groups(self) -> dict[str, xarray.Dataset]:
+        """Return all results by their groups."""
+        return super().groups() | self._map()
+
+    def dataset(self) -> xarray.Dataset | None:
+        """Return the curves along the axes of the sweep, of Coulomb friction and of slip; None if all failed."""
+        import xarray
+
+        table, axes = self._table, self._sweep.axes
+        size = len(self._sweep.cases), len(table.coulomb), len(self._slips)
+        names = [name for name in COLUMNS if any(name in one.columns for one in self._curves)]
+        if not names:
+            return None
+        values = {name: np.full(size, math.nan) for name in names}
+        for (cases, first, second), outcome in zip(self._members, self.outcomes, strict=False):
+            if not isinstance(outcome, HistoryRecord):
+                continue
+            row_of = {speed: row for row, speed in enumerate(outcome.columns["speed"].values)}
+            for number in cases:
+                row = row_of.get(self._sweep.cases[number].speed, -1)
+                for name in names if row >= 0 else ():
+                    values[name][number, first, second] = outcome.columns[name].values[row]
+        dimensions = {axis.name: len(axis) for axis in axes} | {"coulomb": size[1], "slip": size[2]}
+        long = [name for name, count in dimensions.items() if count > 1]
+        variables: dict[str, Any] = {
+            name: (long, column.reshape([dimensions[one] for one in long]), self._about(name))
+            for name, column in values.items()
+        }
+        coordinates = {
+            name: value
+            for axis in axes
+            for name, value in axis_coordinates(axis, meaning_of(self._sweep.geometry)).items()
+        }
+        coordinates |= self._heat_coordinates()
+        attributes: dict[str, Any] = {"counterface": _words(table.counterface), "rubber": _words(table.rubber)}
+        attributes |= {
+            "average": table.average,
+            "branch": table.branch,
+            "passes": table.passes,
+            "heat_of": self._heat_of,
+        }
+        found = xarray.Dataset(variables, coordinates, attributes)
+        if self._interface is not None or max(table.coulomb) > 0.0:
+            by = found["interface_friction"] if self._interface is not None else found["coulomb"]
+            found["total_friction"] = (found["friction_coefficient"] + by).transpose(*long).assign_attrs(_TOTAL)
+        return found
+
+    @property
+    def _heat_of(self) -> str:
+        """What makes the Coulomb heat: "interface", "given" or "none"."""
+        return "interface" if self._interface is not None else "given" if max(self._table.coulomb) > 0.0 else "none"
+
+    @property
+    def _curves(self) -> list[HistoryRecord]:
+        return [one for one in self.outcomes[: len(self._members)] if isinstance(one, HistoryRecord)]
+
+    def _about(self, name: str) -> dict[str, str]:
+        _, unit, words = COLUMNS[name]
+        return {"units": unit, "long_name": words}
+
+    def _heat_coordinates(self) -> dict[str, Any]:
+        table, found = self._table, {}
+        coulomb = ("coulomb", list(table.coulomb)) if len(table.coulomb) > 1 else ((), table.coulomb[0])
+        if self._interface is None:
+            found["coulomb"] = (*coulomb, _COULOMB)
+        if self._slips[0] is not None:
+            slip = ("slip", list(self._slips)) if len(self._slips) > 1 else ((), self._slips[0])
+            found["slip"] = (*slip, _SLIP)
+        return found
+
+    def _task(self, cases: list[int], first: int, second: int) -> Task | Failure:
+        case: Any = self._sweep.cases[cases[0]]
+        label = f"heated curve at {shown_celsius(case.temperature, 'z.4g')} °C{case.body_label}"
+        label += f", Coulomb friction {self._table.coulomb[first]:g}" if len(self._table.coulomb) > 1 else ""
+        label += f", slip {self._slips[second]:g} m/s" if len(self._slips) > 1 else ""
+        label += "" if case.sample is None else f", sample {case.sample}"
+        try:
+            speeds = tuple(self._sweep.cases[number].speed for number in cases)
+            return Task(solve_heated, self._arguments(case, first, second) | {"speeds": speeds}, label)
+        except InputError as error:
+            return Failure.of(error, label)
+
+    def _heating(self, first: int, second: int) -> Heating:
+        return self._table.heating(self._table.coulomb[first], self._slips[second])
+
+    def _arguments(self, case: Any, first: int, second: int) -> dict[str, Any]:
+        return {
+            "material": self._of(case),
+            "indenter": case.indenter,
+            "temperature": case.temperature,
+            "load": float(case.load),
+            "heating": self._heating(first, second),
+            "interface": self._interface,
+            "accuracy": self._study.solver.accuracy,
+            "indenter_modulus": case.modulus,
+            "indenter_poisson_ratio": case.poisson_ratio,
+            "fields": False,
+        }
+
+    def _of(self, case: Case) -> Material:
+        """Return the material of a case without its fit, which is large and does not affect the result."""
+        key = case.material, case.sample
+        if key not in self._material:
+            material = self._rubbers.of(case)
+            if material.shift is None:
+                raise InputError("heating: needs a material with shift factors.", code="no-shift")
+            self._material[key] = replace(material, spectrum=replace(material.modes_at(None), fit=None))
+        return self._material[key]
+
+    def _map_task(self) -> list[Task]:
+        """Return the task of the warmest contact; none if there is no warm one."""
+        best, warmest = None, 0.0
+        for member, outcome in zip(self._members, self.outcomes, strict=True):
+            if not isinstance(outcome, HistoryRecord) or self._sweep.cases[member[0][0]].sample is not None:
+                continue
+            rises = np.array(outcome.columns["face_rise"].values)
+            if rises.max() > warmest:
+                best, warmest, row = (member, outcome), float(rises.max()), int(rises.argmax())
+        if best is None:
+            return []
+        (cases, first, second), outcome = best
+        case: Any = self._sweep.cases[cases[0]]
+        speed, rise = (float(outcome.columns[name].values[row]) for name in ("speed", "temperature_rise"))
+        arguments = self._arguments(case, first, second) | {"speed": speed, "rise": rise}
+        self._shown = {"speed": speed, "temperature": case.temperature, "load": float(case.load), "face_rise": warmest}
+        return [Task(solve_temperature_map, arguments, f"temperature of {moved(case, speed=speed).label}")]
+
+    def _map(self) -> dict[str, xarray.Dataset]:
+        """Return the map as a group of its own."""
+        import xarray
+
+        (found,) = self.outcomes[len(self._members) :] or [None]
+        if not isinstance(found, HistoryRecord):
+            return {}
+        x, y, rise, contact = (np.array(found.columns[name].values) for name in ("x", "y", "rise", "contact"))
+        shape = np.unique(x).size, np.unique(y).size
+        about = {name: {"units": one.unit, "long_name": one.words} for name, one in found.columns.items()}
+        variables: dict[str, Any] = {
+            name: (("x", "y"), values.reshape(shape), about[name])
+            for name, values in (("rise", rise), ("contact", contact))
+        }
+        coordinates = {"x": ("x", np.unique(x), about["x"]), "y": ("y", np.unique(y), about["y"])}
+        return {_MAP: xarray.Dataset(variables, coordinates, self._shown)}
+
+    def _counted(self, data: xarray.Dataset) -> list[Note]:
+        found, of = [], int(np.isfinite(data["friction_coefficient"].values).sum())
+        cold, hot = (data[name].values for name in ("cold_rise", "hot_rise"))
+        two = np.isfinite(cold) & (hot != cold)
+        if two.any():
+            apart = hot[two] - cold[two]
+            said = (
+                f"In {two.sum()} of {of} heated contacts there are a cold and a hot state, up to {apart.max():.3g} K "
+                "apart; the speeds before decide which one a contact is in."
+            )
+            found.append(Note("two-thermal-states", said, values={"contacts": int(two.sum()), "apart": apart.max()}))
+        skin = self._skin(data)
+        thin = (skin < THIN) & (data["temperature_rise"].values > 0.0)
+        if self._table.average == "contact" and thin.any():
+            face, below = (float(data[name].values[thin].max()) for name in ("face_rise", "loss_weighted_rise"))
+            said = (
+                f"In {thin.sum()} of {of} heated contacts, heat spreads less than {THIN:g} contact radii deep while "
+                f"they pass: faces are up to {face:.2g} K warmer, the rubber where the loss is released up to "
+                f"{below:.2g} K; for friction at the latter, give heating.average = 'loss'."
+            )
+            found.append(
+                Note("thin-skin", said, values={"contacts": int(thin.sum()), "face_rise": face, "below": below})
+            )
+        return found
+
+    def _skin(self, data: xarray.Dataset) -> Array:
+        """Return √(2κa/v)/a of all contacts, a from their area."""
+        area = data["load"] / data["mean_pressure"]
+        radius = 0.5 * area if self._sweep.geometry == "line" else np.sqrt(area / math.pi)
+        skin = np.sqrt(2.0 * self._table.rubber.diffusivity / (data["speed"] * radius))
+        return np.asarray(skin.transpose(*data["mean_pressure"].dims).values)

@@ -1,0 +1,200 @@
+"""Studies with [heating]: every case at the temperature of its own friction, its axes, and what is refused."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.errors import ConvergenceError, StudyError
+from viscofric.notes import codes
+from viscofric.report.captions import captions
+from viscofric.report.figures.heating import heated_parts_figure, heating_figure, temperature_map_figure
+from viscofric.report.texts.study import scope
+from viscofric.study.cases import heating as cases
+from viscofric.study.checking import check_study
+from viscofric.study.results.columns import columns_of
+from viscofric.study.run_file.study import parse_study
+from viscofric.thermal import FILLED_RUBBER, PTFE, STEEL
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+BASE = """
+[material]
+catalogue = "synthetic fluoroelastomer"
+[indenter]
+shape = "cylinder"
+radius = "10 mm"
+[conditions]
+load = "500 N/m"
+speed = ["50 mm/s", "200 mm/s"]
+temperature = ["60 degC", "90 degC"]
+[solver]
+accuracy = 0.1
+cases = "each"
+[outputs]
+fields = "none"
+"""
+HEATING = '[heating]\ncounterface = "PTFE"\ncoulomb = [0.2, 0.5]\n'
+BALL = BASE.replace('shape = "cylinder"\n', "").replace("500 N/m", "2 N")
+
+
+def run(folder: Path, text: str, base: str = BASE) -> vf.StudyResults:
+    path = folder / "study.toml"
+    path.write_text(base + text, encoding="utf-8")
+    return vf.run_study(path)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> vf.StudyResults:
+    return run(tmp_path_factory.mktemp("heating"), HEATING)
+
+
+@pytest.mark.slow
+def test_every_case_is_heated_by_each_coulomb_friction(results: vf.StudyResults) -> None:
+    """The same numbers as those of the Python interface, to all digits."""
+    data = results.tree["heating"].to_dataset()
+    assert dict(data.sizes) == {"temperature": 2, "speed": 2, "coulomb": 2}
+    direct = vf.predict_friction(
+        vf.synthetic_fluoroelastomer(),
+        vf.Cylinder("10 mm"),
+        speeds=[0.05, 0.2],
+        temperatures="90 degC",
+        load="500 N/m",
+        accuracy=0.1,
+        heating=vf.Heating(rubber=FILLED_RUBBER, counterface=PTFE, coulomb=0.5),
+    )
+    assert isinstance(direct, vf.HeatedFrictionCurves)
+    found = data.isel(temperature=1, coulomb=1)
+    np.testing.assert_array_equal(found["friction_coefficient"], direct.viscoelastic)
+    np.testing.assert_array_equal(found["temperature_rise"], direct.temperature_rise)
+    np.testing.assert_array_equal(found["isothermal_friction"], direct.isothermal)
+    np.testing.assert_array_equal(found["isothermal_friction"], results.dataset["friction_coefficient"][1])
+    np.testing.assert_allclose(data["total_friction"], data["friction_coefficient"] + data["coulomb"])
+    assert np.all(data["temperature_rise"].diff("coulomb") > 0.0)
+    assert "thin-skin" in codes(results.warnings)
+
+
+@pytest.mark.slow
+def test_tables_keep_a_rise_of_temperature_in_kelvin(results: vf.StudyResults) -> None:
+    data = results.tree["heating"].to_dataset()
+    names, units, columns = columns_of(data)
+    table = dict(zip(names, zip(units, columns, strict=True), strict=True))
+    assert table["temperature"] == ("degC", [60.0] * 4 + [90.0] * 4)
+    assert table["temperature_rise"] == ("K", data["temperature_rise"].values.ravel().tolist())
+
+
+@pytest.mark.slow
+def test_the_map_is_that_of_the_warmest_contact(results: vf.StudyResults) -> None:
+    """Its mean over the contact on 40 cells is the rise of the face, found on 18 cells to 1 %; it is warmest inside."""
+    data, curves = (results.tree[name].to_dataset() for name in ("temperature_map", "heating"))
+    mean = float((data["rise"] * data["contact"]).sum() / data["contact"].sum())
+    assert data.attrs["face_rise"] == float(curves["face_rise"].max())
+    assert mean == pytest.approx(data.attrs["face_rise"], rel=0.01)
+    assert float(data["contact"].values.ravel()[data["rise"].values.argmax()]) == 1.0
+    assert data["rise"][0] > data["rise"][-1] >= 0.0  # warm behind, cold ahead
+
+
+@pytest.mark.slow
+def test_the_report_shows_heat_and_says_what_is_given(results: vf.StudyResults) -> None:
+    figure = heating_figure(results.tree)
+    assert figure is not None
+    assert figure.axes[0].get_title() == "60 °C, Coulomb friction 0.2"
+    parts = heated_parts_figure(results.tree)
+    assert parts is not None
+    assert len(parts.axes) == 3  # of four curves
+    assert temperature_map_figure(results.tree) is not None
+    said = captions(results.tree)
+    assert "3 of 4" in said["heated_friction"]
+    assert "as given" in said["heated_parts"]
+    assert "handbook" in scope(results.tree)[-1]
+
+
+@pytest.mark.slow
+def test_an_interface_makes_the_heat_and_is_warm_itself(tmp_path: Path) -> None:
+    """A shear stress that does not depend on temperature, on the contact of the heated case."""
+    text = '[interface]\nlaw = "constant"\nstress = "0.2 MPa"\nslip = "0.1 m/s"\n[heating]\ncounterface = "steel"\n'
+    base = BASE.replace('["60 degC", "90 degC"]', '"60 degC"')
+    data = run(tmp_path, text, base).tree["heating"].to_dataset()
+    np.testing.assert_allclose(data["interface_friction"], 0.2e6 / data["mean_pressure"])
+    np.testing.assert_allclose(data["total_friction"], data["friction_coefficient"] + data["interface_friction"])
+    assert float(data["slip"]) == 0.1
+    assert data.attrs["heat_of"] == "interface"
+
+
+@pytest.mark.slow
+def test_a_speed_without_a_solution_leaves_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = cases.predict_friction
+
+    def refuse_fast(*arguments, **given):
+        if np.max(given["speeds"]) > 0.1:
+            raise ConvergenceError("too fast", code="not-converged")
+        return whole(*arguments, **given)
+
+    monkeypatch.setattr(cases, "predict_friction", refuse_fast)
+    heating = vf.Heating(rubber=FILLED_RUBBER, counterface=STEEL)
+    contact = {"indenter": vf.Cylinder("10 mm"), "temperature": 333.15, "load": 500.0, "accuracy": 0.1}
+    rubber = vf.synthetic_fluoroelastomer()
+    record = cases.solve_heated(rubber, speeds=(0.05, 0.2), heating=heating, **contact)
+    assert record.columns["speed"].values == [0.05]
+    assert len(record.warnings) == 1
+    with pytest.raises(ConvergenceError):
+        cases.solve_heated(rubber, speeds=(0.2, 0.3), heating=heating, **contact)
+
+
+@pytest.mark.parametrize(
+    ("text", "base", "place"),
+    [
+        ("[heating]\n", BASE, "heating.counterface"),
+        ('[heating]\ncounterface = "stele"\n', BASE, "heating.counterface"),
+        ('[heating]\ncounterface = "46 W/m/K, 7810 kg/m^3"\n', BASE, "heating.counterface"),
+        ('[heating]\ncounterface = "46 W/m/K, -2 mm^2/s"\n', BASE, "heating.counterface"),
+        ("[heating]\ncounterface = 46\n", BASE, "heating.counterface"),
+        (HEATING.replace("0.2", "-0.2"), BASE, "heating.coulomb"),
+        (HEATING.replace("0.2", "0.5"), BASE, "heating.coulomb"),
+        (HEATING + "passes = 3\n", BALL, "heating.passes"),
+        (HEATING + 'passes = 1.5\ntrack_radius = "2 cm"\n', BALL, "heating.passes"),
+        (HEATING + 'track_radius = "2 cm"\n', BALL, "heating.track_radius"),
+        (HEATING + 'passes = inf\ntrack_radius = "2 cm"\n', BASE, "heating.passes"),
+        (HEATING + '[layer]\nthickness = "5 mm"\n', BASE, "heating"),
+        (HEATING + '[interface]\nlaw = "constant"\nstress = "1 MPa"\n', BASE, "heating.coulomb"),
+        (
+            '[heating]\ncounterface = "PTFE"\nslip = "1 m/s"\n[interface]\nlaw = "constant"\nstress = "1 MPa"\n',
+            BASE,
+            "heating.slip",
+        ),
+    ],
+)
+def test_contradictions_are_found_before_anything_is_solved(text: str, base: str, place: str, tmp_path: Path) -> None:
+    with pytest.raises(StudyError) as wrong:
+        parse_study(base + text, tmp_path / "study.toml")
+    assert f" {place}" in str(wrong.value)
+
+
+def test_a_body_has_a_name_or_properties_in_any_order(tmp_path: Path) -> None:
+    text = '[heating]\ncounterface = "Steel"\nrubber = "1500 J/kg/K, 0.3 W/m/K, 1200 kg/m^3"\npasses = inf\n'
+    study = parse_study(BALL + text + 'track_radius = "2 cm"\n', tmp_path / "study.toml")
+    assert study.heating is not None
+    heating = study.heating.heating(0.1, None)
+    assert heating.counterface == STEEL
+    assert heating.rubber == vf.ThermalProperties(0.3, 1200.0, 1500.0, "rubber")
+    assert heating.passes == np.inf
+
+
+def test_a_diffusivity_is_enough(tmp_path: Path) -> None:
+    text = '[heating]\ncounterface = "46 W/m/K, 12 mm^2/s"\n'
+    study = parse_study(BASE + text, tmp_path / "study.toml")
+    assert study.heating is not None
+    assert study.heating.counterface.diffusivity == pytest.approx(12e-6)
+    assert study.heating.counterface.conductivity == 46.0
+
+
+def test_heated_curves_are_counted_before_they_are_solved(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    study = parse_study(BASE + HEATING, path)
+    contacts, seconds = check_study(study, path).singles["heating"]
+    assert contacts == 8
+    assert seconds > 0.0
