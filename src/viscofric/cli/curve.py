@@ -17,6 +17,7 @@ from viscofric.cli.contact_options import (
 )
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, DASH, FILE, OUT, PICTURES, check_ending, refuse_to_overwrite, write_curves
+from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -47,6 +48,7 @@ Example:
     help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m').",
 )
 @contact_options
+@heating_options(steady=True)
 @click.option(
     "--samples",
     type=click.IntRange(0, 10_000),
@@ -93,6 +95,7 @@ def command(
                 samples=samples,
                 workers=parameters["workers"],
                 progress=bar,
+                heating=chosen_heating(parameters),
                 **settings,
             )
         if as_json:
@@ -149,7 +152,22 @@ def _record(
 
     names = ("layer", "sliding_base", *contact_settings(parameters), "load", "samples", "workers")
     inputs = {"material": rubber.record(None), "indenter": indenter} | {name: parameters[name] for name in names}
-    return friction_record(curves, inputs)
+    return friction_record(curves, inputs | {"heating": heating_record(chosen_heating(parameters))})
+
+
+def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:
+    """Return the columns of heated contacts at one temperature: isothermal friction, and the rise."""
+    from viscofric.friction.heating import HeatedFrictionCurves
+    from viscofric.report.texts.numbers import significant
+
+    if not isinstance(curves, HeatedFrictionCurves):
+        return []
+    assert curves.isothermal is not None
+    assert curves.temperature_rise is not None
+    return [
+        ["isothermal", *(significant(value, 4) for value in curves.isothermal[rows].tolist())],
+        ["rise (K)", *(significant(value, 3) for value in curves.temperature_rise[rows].tolist())],
+    ]
 
 
 def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
@@ -170,6 +188,7 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
         if curves.viscoelastic_lower is not None and curves.viscoelastic_upper is not None:
             ends = zip(curves.viscoelastic_lower[rows].tolist(), curves.viscoelastic_upper[rows].tolist(), strict=True)
             columns.append(["95 % band", *(f"{significant(low, 4)} to {significant(high, 4)}" for low, high in ends)])
+        columns += _of_heat(curves, rows)
     for line in aligned(zip(*columns, strict=True)):
         click.echo(line)
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())

@@ -109,10 +109,14 @@ def write_curves(
             write_friction_curves(curves, path)
         said += [] if out == DASH else [f"curves   {out}"]
     if picture is not None:
+        from viscofric.friction.heating import HeatedFrictionCurves
         from viscofric.report.figures.friction import friction_figure, predicted_figure
+        from viscofric.report.figures.heating import heated_curves_figure
         from viscofric.report.figures.saving import save_picture
 
         draw = partial(predicted_figure, curves) if predicted else partial(friction_figure, curves, synthetic=synthetic)
+        if isinstance(curves, HeatedFrictionCurves):
+            draw = partial(heated_curves_figure, curves)
         save_picture(picture, draw, name="friction", synthetic=synthetic)
         said.append(f"picture  {picture}")
     return said

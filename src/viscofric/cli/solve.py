@@ -21,8 +21,9 @@ from viscofric.cli.contact_options import (
 )
 from viscofric.cli.errors import reported_errors
 from viscofric.cli.files import DATA, FILE, PICTURES, check_ending, refuse_to_overwrite, write_fields
+from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -56,6 +57,7 @@ Example:
 @click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load.")
 @click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference].")
 @contact_options
+@heating_options(steady=True)
 @click.option(
     "--tolerance",
     type=float,
@@ -97,6 +99,9 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **paramete
         settings = {name: parameters[name] for name in _SETTINGS} | contact_settings(parameters)
         settings["layer"] = chosen_layer(parameters)
         settings["window"] = parameters["window"] and [length.strip() for length in parameters["window"].split(",")]
+        settings["heating"] = heating = chosen_heating(parameters)
+        if heating is not None and parameters["temperature"] is None:
+            settings["temperature"] = rubber.material.reference
         began = time.perf_counter()
         solution = solve_steady(rubber.material, shape.indenter, speed=_speed(parameters["speed"]), **settings)
         seconds = time.perf_counter() - began
@@ -153,6 +158,7 @@ def _inputs(
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
         "direction": list(solution.direction),
         "coulomb": parameters["coulomb"],
+        "heating": heating_record(chosen_heating(parameters)),
         "held": "load" if parameters["load"] is not None else "indentation",
         "load": solution.load if parameters["load"] is not None else None,
         "indentation": solution.indentation if parameters["indentation"] is not None else None,
@@ -189,7 +195,7 @@ def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: f
         for line in derivative_lines(solution, rubber.material.modes_at(solution.temperature)):
             click.echo(line)
     for warning in solution.warnings:
-        click.echo(f"Warning: {warning}", err=True)
+        click.echo(f"Warning: {note_of(warning).words('shell')}", err=True)
 
 
 def _write(

@@ -32,6 +32,7 @@ from viscofric.cli.files import (
     refuse_to_overwrite,
     write_dataset,
 )
+from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_inputs, history_options
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
@@ -64,6 +65,7 @@ Examples:
 @history_options
 @direction_option
 @elastic_options
+@heating_options(steady=False)
 @click.option(
     "--accuracy",
     type=float,
@@ -93,6 +95,8 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """
     drawings = {name: parameters.pop(name) for name in ("picture", "pressures", "animation")}
     _check_targets(parameters, out, drawings)
+    if parameters["cycle"] and parameters["heating"] is not None:
+        raise click.UsageError("--cycle and --heating are both given; a periodic state is isothermal.")
     for name, typed in (("resume", "--resume"), ("state", "--save-state")):
         if parameters["cycle"] and parameters[name] is not None:
             raise click.UsageError(f"--cycle and {typed} are both given; a periodic state has no end to go on from.")
@@ -162,8 +166,9 @@ def _solved(
         raise click.UsageError("--save-state is for rough surfaces, and bodies of revolution in normal motion.")
     with time_bar("Contact over time", quiet=quiet) as bar:
         return solve_transient(
-            material, body, history, times=times, progress=bar, resume=parameters["resume"], **contact
-        )
+            material, body, history, times=times, progress=bar, resume=parameters["resume"],
+            heating=chosen_heating(parameters), **contact,
+        )  # fmt: skip
 
 
 def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[str, Path | None]) -> None:
@@ -194,6 +199,7 @@ def _record(
         "material": rubber.record(kelvin),
         "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
         "indenter": shape.record | {"elastic": elastic_record(parameters)},
+        "heating": heating_record(chosen_heating(parameters)),
         "accuracy": parameters["accuracy"],
     }
     return transient_record(inputs, history, result, seconds)

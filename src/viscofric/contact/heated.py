@@ -13,7 +13,7 @@ from viscofric.errors import InputError
 from viscofric.heat.branches import State, settled, stable_states
 from viscofric.heat.heating import HeatBalance
 from viscofric.heat.result import ContactHeating
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from viscofric.rheology.interface.law import InterfaceLaw
 
 
+#: What gives friction at the temperature where the loss is released.
+AT_THE_LOSS = Remedy(
+    "Heating(average='loss')", "--heating-average loss", "average = 'loss' under [heating]", field="heating.average"
+)
 #: Of the contacts among which states are looked for.
 LOOSE = 2e-2
 #: Between two of them α falls by this much, log10, or the temperature rises by this many K.
@@ -218,7 +222,8 @@ def _thin_skin(result: ContactHeating) -> Note:
         "thin-skin",
         f"While the contact passes, heat spreads {result.skin:.2g} contact radii deep: its face is "
         f"{result.face_rise:.2g} K warmer, but the rubber where the loss is released "
-        f"{result.loss_weighted_rise:.2g} K; for friction at the latter, give Heating(average='loss').",
+        f"{result.loss_weighted_rise:.2g} K",
+        remedy="; for friction at the latter, give " + AT_THE_LOSS + ".",
         values={
             "skin": result.skin,
             "face_rise": result.face_rise,

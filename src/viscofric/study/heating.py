@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.contact.heated import THIN
+from viscofric.contact.heated import AT_THE_LOSS, THIN
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.study.cases.case import moved
@@ -253,11 +253,11 @@ class Heatings(Singles):
             said = (
                 f"In {thin.sum()} of {of} heated contacts, heat spreads less than {THIN:g} contact radii deep while "
                 f"they pass: faces are up to {face:.2g} K warmer, the rubber where the loss is released up to "
-                f"{below:.2g} K; for friction at the latter, give heating.average = 'loss'."
+                f"{below:.2g} K"
             )
-            found.append(
-                Note("thin-skin", said, values={"contacts": int(thin.sum()), "face_rise": face, "below": below})
-            )
+            values = {"contacts": int(thin.sum()), "face_rise": face, "loss_weighted_rise": below}
+            remedy = "; for friction at the latter, give " + AT_THE_LOSS + "."
+            found.append(Note("thin-skin", said, remedy=remedy, values=values))
         return found
 
     def _skin(self, data: xarray.Dataset) -> Array:

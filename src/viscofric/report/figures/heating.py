@@ -32,6 +32,8 @@ from viscofric.report.sweeps import axis_of, best_estimate, thinned
 from viscofric.report.texts.numbers import short
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -158,11 +160,20 @@ def _friction(data: xr.Dataset) -> _Friction:
     return _Friction(*(values(data, name) for name in ("speed", *names)))
 
 
+def heated_curves_figure(curves: HeatedFrictionCurves) -> Figure:
+    """Return heated friction beside the isothermal one, and the rise of temperature, at three temperatures at most."""
+    nominal = nominal_temperatures(curves.temperature)
+    shown = nominal[thinned(nominal.size, MOST_PANELS)]
+    return _pairs([("", as_dataset(curves.at_temperature(float(kelvin)))) for kelvin in shown])
+
+
 def heating_figure(tree: xr.DataTree) -> Figure | None:
     """Return heated friction beside the isothermal one, and the rise of temperature, of at most three curves."""
     curves = _shown(tree)
-    if not curves:
-        return None
+    return _pairs(curves) if curves else None
+
+
+def _pairs(curves: Sequence[tuple[str, xr.Dataset]]) -> Figure:
     figure = new_figure(11.0, 3.4 * len(curves))
     for (left, right), (words, curve) in zip(figure.subplots(len(curves), 2, squeeze=False), curves, strict=True):
         plot_heated_friction(left, curve)

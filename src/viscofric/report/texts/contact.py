@@ -65,6 +65,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
     ]
     if not line:
         lines.append(("  half width across", length(solution.half_width, edge)))
+    lines += _heat(solution)
     lines += [
         ("largest pressure", peak),
         ("mean pressure", prefixed(solution.mean_pressure, None, "Pa")),
@@ -73,6 +74,29 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         ("solver", _work(diagnostics)),
         ("time", f"{seconds:.2f} s"),
     ]
+    return lines
+
+
+def _heat(solution: ContactSolution) -> list[tuple[str, str]]:
+    """Return the lines of a contact that its own friction heats."""
+    heat = solution.heating
+    if heat is None:
+        return []
+
+    def kelvin(rise: float) -> str:
+        return f"{short(rise, 3)} K"
+
+    lines = [
+        ("rise of temperature", kelvin(heat.temperature_rise)),
+        ("  by Coulomb friction", kelvin(heat.coulomb_rise)),
+        ("  by the loss", kelvin(heat.loss_rise)),
+        *([("  of it by earlier passes", kelvin(heat.track_rise))] if heat.track_rise else []),
+        ("  of the face", kelvin(heat.face_rise)),
+        ("  where the loss is released", kelvin(heat.loss_weighted_rise)),
+        ("isothermal friction", _five(heat.isothermal_friction)),
+    ]
+    if heat.other_rise is not None and heat.other_friction is not None:
+        lines.append(("other stable state", f"{_five(heat.other_friction)}, {kelvin(heat.other_rise)} warmer"))
     return lines
 
 
@@ -139,6 +163,8 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
     errors = {
         name: numbers[ERRORS[name]].item() if math.isfinite(results[name]) else None for name in names if name in ERRORS
     }
+    heat = {} if solution.heating is None else solution.heating.to_dataset().data_vars
+    units = {str(name): one.attrs["units"] for name, one in (*numbers.items(), *heat.items())}
     work = {
         "cells": list(diagnostics.shape),
         "spacing": diagnostics.spacing,
@@ -161,10 +187,11 @@ def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: f
             "inputs": inputs,
             "results": results,
             "errors": errors,
+            "heating": {str(name): one.item() for name, one in heat.items()} or None,
             "derivatives": derivative_record(solution),
             "diagnostics": work,
             **listed("warnings", solution.warnings),
-            "units": {str(name): number.attrs["units"] for name, number in numbers.items()} | _UNITS,
+            "units": units | _UNITS,
         },
         digits=None,
     )

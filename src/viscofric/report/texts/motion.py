@@ -70,6 +70,7 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
     ]
     if slides:
         lines += [("  friction coefficient", _friction(run, -1)), ("largest friction", _largest(run))]
+    lines += _heat(run)
     lines += [
         ("work on the material", prefixed(float(run.work[-1]), None, energy)),
         ("  stored", prefixed(float(run.stored[-1]), None, energy)),
@@ -79,6 +80,20 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
         ("time", f"{seconds:.2f} s"),
     ]
     return lines
+
+
+def _heat(run: TransientSolution) -> list[tuple[str, str]]:
+    """Return the lines of a contact that its own friction heats."""
+    heat = run.heating
+    if heat is None:
+        return []
+    most = int(np.argmax(heat.temperature_rise))
+    error = float(heat.error[most] + heat.residual[most])
+    when = prefixed(float(run.time[most] - run.time[0]), None, "s")
+    return [
+        ("largest rise of temperature", f"{with_error(float(heat.temperature_rise[most]), error)} K, after {when}"),
+        ("  at the end", f"{short(float(heat.temperature_rise[-1]), 3)} K"),
+    ]
 
 
 def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
