@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -343,3 +344,22 @@ def test_what_cannot_be_solved_is_refused():
     with refused("unknown-time"):
         run.pressure_at(0.25)
     assert run.to_dataset().indentation.units == "m"
+
+
+@pytest.mark.slow
+def test_the_contact_is_one_disc_in_any_history():
+    """Forces of springs rise outwards only by the errors of single steps: 4 % of the largest, and not at all."""
+    rubber, time = broad(3), np.linspace(0.0, 1.0, 2561)
+    values = 1e-4 * np.interp(time, np.linspace(0.0, 1.0, 14), np.random.default_rng(11).uniform(-0.5, 1.0, 14))
+    history = vf.History(time, indentation=values)
+    mover, _ = mover_of(checked_problem(rubber, BALL, history, 1e-2, None, None, 0.3), history)
+    schedule, rises = history.schedule(rubber, "point"), []
+    for stride in (16, 1):
+        state, most, rise = mover.begin(), 0.0, 0.0
+        for start, end in itertools.pairwise(map(schedule.at, time[::stride].tolist())):
+            state = mover.step(state, start, end)
+            most = max(most, state.force.max())
+            rise = max(rise, np.max(state.force - np.minimum.accumulate(state.force)))
+        rises.append(rise / most)
+    assert 0.01 < rises[0] < 0.1
+    assert rises[1] < 1e-9

@@ -37,8 +37,6 @@ _MOST_STEPS, _MOST_REVERSALS = 20_000, 4
 #: Under gravity, the same after so many steps of the first run at a part of the first speed.
 _RESTING, _SLOW = 500, 0.01
 _SECANTS = 60
-#: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
-_RISE = 0.02
 #: Times of a flight that are recorded.
 _IN_FLIGHT = 40
 
@@ -120,12 +118,11 @@ class Bounce:
         self._planned = self._parts_of_meshes()
         self._force = np.zeros(len(springs.g))
         self._memory = np.zeros((len(springs.tau), len(springs.g)))
-        self._lost = self._most = self._rise = 0.0
+        self._lost = 0.0
         time, depth = 0.0, float(springs.g[0])
         for number in range(rebounds):
             contact, depth = self._contact(number, time, depth, speed)
             self.contacts.append(contact)
-            self._insist_on_disc()
             if not contact.separates or number + 1 == rebounds:
                 break
             flight = self._flight(contact.start + contact.duration, depth, contact.speed_out)
@@ -233,20 +230,10 @@ class Bounce:
             self._lost += float(
                 (now.own @ np.square(away)) @ weights + (now.mixed @ away) @ weighted + now.new * (weighted @ change)
             )
-            self._most = max(self._most, float(force[0]))
-            self._rise = max(self._rise, float(np.max(force - np.minimum.accumulate(force))))
         # decay q₀ + start f₀ + end f₁
         self._memory *= now.decay
         self._memory += now.ends @ np.stack([self._force, force])
         self._force = force
-
-    def _insist_on_disc(self) -> None:
-        # Springs just touched are off by what a step leaves out, up to 0.4 % of the largest force in broad spectra.
-        if self._rise > _RISE * self._most:
-            raise ConvergenceError(
-                "the pressure is no longer that of one disc, for which alone the row of springs is exact.",
-                code="not-one-disc",
-            )
 
     def _separation(self, depth: float, v: float, a: float, step: float) -> float:
         """Return the part of a step after which the indenter only just touches, found by regula falsi."""

@@ -11,7 +11,7 @@ is iterated with Anderson acceleration [1]_ to convergence.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -20,8 +20,8 @@ from viscofric.errors import ConvergenceError, InputError
 from viscofric.motion.chains import Link, Pair, Reached
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.march import march
-from viscofric.motion.mover import Mover, State
-from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_of, needs_grid
+from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
+from viscofric.motion.watch import Watch
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from viscofric.contact.periodic.surface import PeriodicSurface
     from viscofric.motion.chains import Track
     from viscofric.motion.history import History
-    from viscofric.motion.problem import Problem
-    from viscofric.motion.schedule import Instant, Schedule
+    from viscofric.motion.schedule import Schedule
+    from viscofric.motion.watch import RepeatingMover, Watched
     from viscofric.rheology.material import Material
     from viscofric.units import Quantities, Quantity
 
@@ -46,22 +46,6 @@ _CLOSE = 0.3
 _KEPT = 10
 # Relative difference between the ends of a period that counts as rounding.
 _ROUNDING = 1e-9
-
-
-class RepeatingMover(Mover[State], Protocol[State]):
-    """A mover whose memory can be read and set."""
-
-    def memory_of(self, state: State) -> NDArray[Any]:
-        """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
-        ...
-
-    def with_memory(self, state: State, memory: NDArray[Any]) -> State:
-        """Return a state with another memory, with its dissipated energy set to zero."""
-        ...
-
-    def recovered(self, change: NDArray[Any], start: Instant, end: Instant) -> NDArray[Any]:
-        """Return the change of a memory over a period, divided by 1 − e^z."""
-        ...
 
 
 @one_blas_thread
@@ -134,16 +118,16 @@ def solve_cycle(
     problem = checked_problem(material, indenter, one_period, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     _insist_on_period(one_period, problem.kind)
     asked = checked_times(times, problem.schedule)
-    search = _Search(_damping(problem), most_periods, progress)
-    if needs_grid(problem, one_period):
+    search = _Search(_damping(problem.schedule), most_periods, progress)
+    mover, method, notes = mover_or_grid(problem, one_period)
+    if mover is None:
         from viscofric.motion.free.solve import solve_free
 
-        track, notes = solve_free(problem, asked, None, search.follow)
-        method = "grid"
+        track, doubts = solve_free(problem, asked, None, search.follow)
+        notes = (*notes, *doubts)
     else:
-        mover, method = mover_of(problem, one_period)
         repeating = cast("RepeatingMover[Any]", mover)
-        track, notes = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked), ()
+        track = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked)
     assert search.whole is not None
     run = assemble(track, problem, one_period, method, notes=notes)
     whole = run if asked is None else assemble(search.whole, problem, one_period, method, notes=notes)
@@ -163,15 +147,16 @@ class _Search:
 
     def follow(
         self,
-        mover: RepeatingMover[Any],
+        repeating: RepeatingMover[Any],
         schedule: Schedule,
         *,
         accuracy: float,
         extrapolate: bool = False,
         times: Sequence[float] | None = None,
         progress: None = None,
-    ) -> Track[Any]:
+    ) -> Track[Watched]:
         """Return one period in the periodic state."""
+        mover = Watch.of(repeating, schedule)
         first, last = schedule.at(schedule.start), schedule.at(schedule.end, after=False)
         state = mover.begin()
         if schedule.before == "untouched":
@@ -181,6 +166,7 @@ class _Search:
             memory = mover.memory_of(state)
             # The instantaneous pressure that belongs to this memory.
             begun = mover.settle(mover.step(mover.with_memory(state, memory), first, first), first)
+            begun = mover.emptied(begun)
             link = Link(begun, mover.observe(begun), 0.0)
             begin = Reached(Pair(link, link))
             track = march(mover, schedule, accuracy=accuracy, fields=False, begin=begin, extrapolate=extrapolate)
@@ -190,7 +176,7 @@ class _Search:
             reached = mover.memory_of(state)
             if reached.shape != memory.shape:  # more cells have been in contact
                 memory, mixing = mover.memory_of(begun), _Anderson(self.damping)
-            change = mover.recovered(reached - memory, first, last)
+            change = mover.recovered(reached - memory, state, first, last)
             size = float(np.linalg.norm(reached))
             self.change = float(np.linalg.norm(change)) / size if size > 0.0 else 0.0
             self.periods += 1
@@ -214,14 +200,13 @@ class _Search:
         )
 
 
-def _damping(problem: Problem) -> float:
+def _damping(schedule: Schedule) -> float:
     """Return the damping factor for a change of memory.
 
-    At a given depth, pressures fall E_inf/E0 − 1 times as much as slow modes rise; the damping prevents overshoot.
+    Sliding at a given depth, pressures fall E_inf/E0 − 1 times as much as slow modes rise; damping prevents overshoot.
     """
-    spectrum = problem.schedule.spectrum
-    given_depth = problem.schedule.control in ("indentation", "gap")
-    return float(spectrum.E0 / spectrum.E_inf) if given_depth else 1.0
+    slides_at_depth = schedule.control in ("indentation", "gap") and not schedule.is_held
+    return float(schedule.spectrum.E0 / schedule.spectrum.E_inf) if slides_at_depth else 1.0
 
 
 def _insist_on_period(history: History, kind: str) -> None:

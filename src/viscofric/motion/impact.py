@@ -90,9 +90,10 @@ def solve_impact(
     Raises
     ------
     InputError
-        If a value cannot be used, the indenter is no body of revolution, or the contact would be wider than it.
+        If a value cannot be used, the indenter is no body of revolution whose profile rises outwards, or the contact
+        would be wider than it.
     ConvergenceError
-        If the accuracy is not reached, or the contact is not one disc.
+        If the accuracy is not reached.
 
     Notes
     -----

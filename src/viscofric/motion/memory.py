@@ -90,6 +90,21 @@ def quickest_time(instantaneous: float, compliances: Array, times: Array) -> flo
     return instantaneous / float(compliances @ (1.0 / times)) if len(times) else math.inf
 
 
+def recovery_at_depth(instantaneous: float, compliances: Array, times: Array, duration: float) -> Array:
+    """Return (1 − e^{−AT})⁻¹ (n, n) for memories √C q of points that stay where they are: u is given, and not p.
+
+    With u given, p falls by Σ C q/c∞ and q' = −A q + …, A = diag(1/τ)(1 + [1 … 1]ᵀC/c∞), whose times are those of
+    relaxation.  Scaled by √(Cτ) the inverse of A is symmetric: diag(τ) − √(Cτ)√(Cτ)ᵀ/(c∞ + ΣC), in which long times are
+    exact; of short ones only that they are short matters.
+    """
+    root = np.sqrt(compliances * times)
+    relaxation = np.diag(times) - np.outer(root, root) / (instantaneous + float(compliances.sum()))
+    found, vectors = np.linalg.eigh(relaxation)
+    shortest = 1e-3 * duration
+    with_all = (vectors / -np.expm1(-duration / np.maximum(found, shortest))) @ vectors.T
+    return np.asarray(with_all * np.sqrt(times) / np.sqrt(times)[:, None])
+
+
 class Spectrum(Protocol):
     """A retardation spectrum: J(t) = 1/E_inf + Σ C_k (1 − exp(−t/τ_k))."""
 

@@ -8,9 +8,10 @@ The indenter requires u ≥ δ − g(s) and f ≥ 0, and at each spring one of t
 f is linear and the memory exact, so that a spring at the end of the step has the force
 (δ − g − known)/c, or none.  The load is F = 2∫f ds.
 
-This solves the contact of the body exactly while the contact is one disc.  A force f that does not rise outwards is
-sufficient for that: the pressure p(r) = −(1/π) ∫ᵣᵃ f'(s) ds/√(s² − r²) is then nowhere below zero.  Neither is the
-gap, since it is a mean of the gaps of the springs.
+This solves the contact of the body exactly if g grows outwards: the springs that touch are then one disc, and f does
+not rise outwards, at any time of any history (`springs`).  The pressure p(r) = −(1/π) ∫ᵣᵃ f'(s) ds/√(s² − r²) is
+therefore nowhere below zero.  Neither is the gap, since it is a mean of the gaps of the springs.  Only errors of single
+steps let the force of springs just touched rise outwards.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ import numpy as np
 
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
-from viscofric.motion.memory import quickest_time
+from viscofric.motion.memory import quickest_time, recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
-from viscofric.motion.springs import both_sides, elastic_radius, profile
+from viscofric.motion.springs import both_sides, disc_profile, elastic_radius
 from viscofric.motion.steps import step_parts
 
 if TYPE_CHECKING:
@@ -41,11 +42,11 @@ _MARGIN = 1.05
 _FAR, _FARTHEST = 60, 4.0
 #: Points of a pressure, roughly.
 _POINTS = 230
-#: Rise of the force outwards, over its largest value, up to which the contact counts as one disc.
-_RISE = 0.02
 #: Error of the load by the trapezoidal rule, over the largest difference of neighbouring forces times their
 #: distance; smallest load, relative to the largest one, with which it is compared.
 _LEFT_OUT, _LEAST_LOAD = 0.5, 0.01
+#: Parts of a period in contact that are distinguished.
+_LEVELS = 16
 #: Retardation times without steps of their own, in the duration of the history, whose digits end at 1e-16.
 _QUICK = 1e-12
 
@@ -79,7 +80,7 @@ class NormalMotion:
 
     @classmethod
     def of(cls, problem: Problem) -> NormalMotion:
-        """Return the mover of a checked problem."""
+        """Return the mover of a checked problem; InputError as from `disc_profile`."""
         indenter, schedule = problem.indenter, problem.schedule
         assert isinstance(indenter, Indenter)
         spectrum = schedule.spectrum
@@ -196,30 +197,23 @@ class NormalMotion:
         return (0.0, depth, 0.0, energy) if self.schedule.control == "load" else (load, 0.0, 0.0, energy)
 
     def pressure(self, state: SpringState) -> Field:
-        """Return p(r) between the springs."""
+        """Return p(r) between the springs, of forces that nowhere rise outwards."""
+        from scipy.optimize import isotonic_regression
+
         r, transform = self._transform
-        return Field({"r": r}, transform @ np.diff(state.force, append=0.0))
+        weights = np.maximum(self.weights, 1e-12 * self.weights.max())
+        force = isotonic_regression(state.force, weights=weights, increasing=False).x
+        return Field({"r": r}, transform @ np.diff(force, append=0.0))
 
     def ticks(self, start: Instant, end: Instant) -> Array | None:
         """Any step may end anywhere."""
         return None
 
     def accept(self, state: SpringState, instant: Instant) -> None:
-        """Raise `ConvergenceError` where the contact is no longer one disc."""
-        force, time = state.force, instant.time
-        most = float(force.max())
-        if most <= 0.0:
-            return
-        # Springs just touched have errors of one step, small against the largest forces of the history.
-        if np.max(force - np.minimum.accumulate(force)) > _RISE * max(most, self._typical):
+        """Raise `ConvergenceError` where the contact is wider than the row."""
+        if state.force[-1] > 0.0 and not self.indenter.has_walls:
             raise ConvergenceError(
-                f"at time {time:.4g} s the pressure is no longer that of one disc, for which alone the row of springs "
-                "is exact.",
-                code="not-one-disc",
-            )
-        if force[-1] > 0.0 and not self.indenter.has_walls:
-            raise ConvergenceError(
-                f"at time {time:.4g} s the contact is wider than the row of springs.", code="beyond-springs"
+                f"at time {instant.time:.4g} s the contact is wider than the row of springs.", code="beyond-springs"
             )
 
     def memory_of(self, state: SpringState) -> Array:
@@ -230,21 +224,44 @@ class NormalMotion:
         """Return a state with another memory, with its dissipated energy set to zero."""
         return replace(state, memory=memory / self._energy_scale, dissipated=0.0)
 
-    def recovered(self, change: Array, start: Instant, end: Instant) -> Array:
-        """Return the change of a memory over a period, divided by 1 − e^(−T/τ)."""
-        return np.asarray(change / -np.expm1(-(end.clock - start.clock) / self.tau))
+    def recovered(self, change: Array, touched: Array, start: Instant, end: Instant) -> Array:
+        """Return the change of a memory over a period, divided by 1 − e^(−T/τ), or by its like for springs that touch.
+
+        Where the load is prescribed, it determines the mean of the springs that touch, as if they were free; relative
+        to each other they stay where they are.
+        """
+        period = end.clock - start.clock
+        freely = -np.expm1(-period / self.tau)
+        common = np.zeros_like(change)
+        if self.schedule.control == "load" and touched.any():
+            shares = np.sqrt(self.weights)
+            common = np.outer(shares, (shares * touched) @ change / ((shares * touched) @ shares))
+            common[touched == 0.0] = 0.0
+        found = (change - common) / freely
+        levels = np.ceil(touched * _LEVELS) / _LEVELS
+        for level in np.unique(levels[levels > 0.0]):
+            these = levels == level
+            matrix = recovery_at_depth(self.glassy / level, self.compliances, self.tau, period)
+            found[these] = (change - common)[these] @ matrix.T
+        return np.asarray(found + common / freely)
+
+    def touching(self, state: SpringState) -> Array:
+        """Return 1 for each spring that touches, 0 for the others."""
+        return np.asarray(state.force > 0.0, dtype=float)
+
+    def coarser_load(self, state: SpringState) -> float:
+        """Return the load by every other spring."""
+        return float(self._coarser @ state.force[::2])
+
+    @cached_property
+    def _coarser(self) -> Array:
+        return both_sides(self.s[::2])
 
     @cached_property
     def _energy_scale(self) -> Array:
         """√(c w) of each spring and mode; its value for a spring of zero weight is arbitrary."""
         weights = np.maximum(self.weights, 1e-12 * self.weights.max())
         return np.asarray(np.sqrt(weights[:, None] * self.compliances))
-
-    @cached_property
-    def _typical(self) -> float:
-        """Force of the spring on the axis at the relaxed modulus, N/m."""
-        soft = self.glassy + float(self.compliances.sum())
-        return float(profile(self.indenter, np.array(self.radius))) / soft if not self.indenter.has_walls else 0.0
 
     @cached_property
     def _transform(self) -> tuple[Array, Array]:
@@ -301,4 +318,4 @@ def _row(indenter: Indenter, edge: float, accuracy: float) -> tuple[Array, Array
     s = np.linspace(0.0, edge, count + 1)
     if not indenter.has_walls:
         s = np.append(s, edge * np.geomspace(1.0, _FARTHEST, _FAR + 1)[1:])
-    return s, profile(indenter, s), both_sides(s)
+    return s, disc_profile(indenter, s, edge), both_sides(s)

@@ -20,7 +20,7 @@ from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.motion.memory import Modes, quickest_time
+from viscofric.motion.memory import Modes, quickest_time, recovery_at_depth
 from viscofric.motion.mover import Field, Observation, Scales
 from viscofric.motion.wave_contact import StepContact, Target
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
@@ -231,11 +231,23 @@ class PeriodicMover:
         found = np.asarray(memory / self._roots, dtype=complex)
         return replace(state, memory=found, stored=state.stored + 0.5 * change, dissipated=0.0)
 
-    def recovered(self, change: NDArray[Any], start: Instant, end: Instant) -> NDArray[Any]:
-        """Return the change of a memory over a period, divided by 1 − e^z."""
+    def recovered(self, change: NDArray[Any], touched: Array, start: Instant, end: Instant) -> NDArray[Any]:
+        """Return the change of a memory over a period, divided by 1 − e^z or, at a given gap, by its like."""
+        modes = self.modes
+        if self.schedule.is_held:
+            matrix = recovery_at_depth(modes.instantaneous, modes.C, modes.tau, end.clock - start.clock)
+            return np.tensordot(matrix, change, 1)
         turn = self.grid.turn(np.asarray(end.position) - np.asarray(start.position))
         steps = ((end.clock - start.clock) / self.modes.tau)[:, None, None]
         return change / -np.expm1(-steps + 1j * turn)
+
+    def touching(self, state: PeriodicState) -> Array:
+        """Return no points: `recovered` does not need them."""
+        return np.empty(0)
+
+    def coarser_load(self, state: PeriodicState) -> float:
+        """Return the load."""
+        return self.pressure_unit * float(state.pressure.mean())
 
     @cached_property
     def _roots(self) -> Array:

@@ -114,6 +114,12 @@ class Schedule:
         """Largest value of what is prescribed (load, depth, pressure or gap)."""
         return float(self._value.max())
 
+    @property
+    def is_held(self) -> bool:
+        """Whether a depth or gap is prescribed, without motion along the surface."""
+        moves = np.any(self._position != self._position[0]) or (self._speed is not None and np.any(self._speed))
+        return self.control in ("indentation", "gap") and not moves
+
     def jumps_at(self, time: float) -> bool:
         """Return whether two points have this time, a kink."""
         return int(np.count_nonzero(self._time == time)) == 2

@@ -14,7 +14,7 @@ from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.errors import InputError, brief
 from viscofric.motion.history import History
 from viscofric.motion.march import march
 from viscofric.motion.problem import Problem
@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
 _RING = Note(
     "not-one-disc",
-    "The contact is no single disc at some times, for which alone the row of springs is exact: it was solved on cells.",
+    "The profile of the indenter does not rise all the way outwards, so that its contact may be a ring: it was solved "
+    "on cells.",
 )
 
 
@@ -103,8 +104,9 @@ def solve_transient(
     Notes
     -----
     The normal motion of a body of revolution is solved by the method of dimensionality reduction [1]_, a row of
-    springs with the memory of the material, which is exact as long as the contact is one disc: the force of the
-    springs must fall outwards.  If it does not, the contact is solved on cells, and a note says so.
+    springs with the memory of the material, which is exact in all histories if the profile of the springs rises
+    outwards: the contact is then one disc at all times.  If it does not, the contact is solved on cells, and a note
+    says so.
 
     Sliding contacts, contacts on layers and those of other indenters are solved on cells that are fixed to the body, on
     finer and finer grids.  An indenter moves by whole cells wherever it can.  Friction follows the steps of the speed
@@ -150,21 +152,15 @@ def solve_transient(
         return solve_heated(problem, history, heating, asked, solve, progress)
     if resume is not None:
         return _resumed(resume, problem, history, asked, progress)
-    notes: tuple[Note, ...] = ()
-    if not needs_grid(problem, history):
-        mover, method = mover_of(problem, history)
-        try:
-            track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
-            found = assemble(track, problem, history, method)
-            return replace(found, _restart=Restart.of(problem, history, method, mover, track))
-        except ConvergenceError as error:
-            if error.code != "not-one-disc" or getattr(indenter, "has_walls", False):
-                raise
-            notes = (_RING,)
+    mover, method, notes = mover_or_grid(problem, history)
+    if mover is not None:
+        track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
+        found = assemble(track, problem, history, method)
+        return replace(found, _restart=Restart.of(problem, history, method, mover, track))
     from viscofric.motion.free.solve import solve_free
 
     track, doubts = solve_free(problem, asked, progress)
-    return assemble(track, problem, history, "grid", notes=(*notes, *doubts))
+    return assemble(track, problem, history, method, notes=(*notes, *doubts))
 
 
 def _resumed(
@@ -256,6 +252,18 @@ def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:
         "available: a ball, a cone or another body of revolution in normal motion on a half-space.",
         code="not-available",
     )
+
+
+def mover_or_grid(problem: Problem, history: History) -> tuple[Mover[Any] | None, str, tuple[Note, ...]]:
+    """Return the mover for this contact, or None if it is solved on cells; the name of the method, and notes."""
+    if needs_grid(problem, history):
+        return None, "grid", ()
+    try:
+        return *mover_of(problem, history), ()
+    except InputError as error:
+        if error.code != "not-one-disc":
+            raise
+        return None, "grid", (_RING,)
 
 
 def needs_grid(problem: Problem, history: History) -> bool:

@@ -6,6 +6,12 @@ A body of revolution f(r) in contact over one disc has the same indentation and 
 
 on a row of independent springs of stiffness E* per length (V. L. Popov, M. Heß, Method of Dimensionality Reduction in
 Contact Mechanics and Friction, Springer 2015, chapter 3): F = 2E* ∫₀ᵃ (δ − g) ds, with g(a) = δ.
+
+Where g grows, the contact is one disc in every history.  The difference z = u₁ − u₂ of two springs with g₁ ≤ g₂ and the
+difference of their forces obey the law of the material, f₁ − f₂ = E(0) z(t) + ∫ E'(t − t') z(t') dt', with E' ≤ 0.  So
+f₁ ≥ f₂ at every time at which z is as large as ever before.  Were z to exceed g₂ − g₁, the first spring would be free
+and f₁ − f₂ ≤ 0 at such a time, which cannot be: z ≤ g₂ − g₁.  It is equal to it whenever the second spring touches, so
+that the first one then touches too, with f₁ ≥ f₂.
 """
 
 from __future__ import annotations
@@ -56,6 +62,26 @@ def profile(indenter: Indenter, s: Array) -> Array:
     return np.asarray(s * (indenter.slope(r, np.zeros_like(r)) @ _ANGLE_WEIGHTS))
 
 
+def disc_profile(indenter: Indenter, s: Array, edge: float) -> Array:
+    """Return g(s), m, for contacts up to an edge.
+
+    Raises
+    ------
+    InputError
+        If it does not grow outwards up to the edge: the contact may be a ring, for which springs do not stand.
+    """
+    g = profile(indenter, s)
+    lowest = np.minimum.accumulate(g[::-1])[::-1]  # of what lies further out
+    inside = s <= edge
+    if np.any(g[inside] > lowest[inside] + _ROUND * np.abs(g[inside]).max()):
+        raise InputError(
+            f"indenter: the profile of the {indenter.noun} does not rise all the way outwards, so that its contact may "
+            "be a ring; springs solve contacts that are one disc.",
+            code="not-one-disc",
+        )
+    return g
+
+
 def elastic_radius(indenter: Indenter, depth: float | None, load: float | None, modulus: float) -> float:
     """Return the contact radius on an elastic half-space of the plane-strain modulus E*, for a depth or a load, m."""
     if indenter.has_walls:
@@ -92,9 +118,9 @@ def impact_radius(indenter: Indenter, energy: float, weight: float, modulus: flo
 
 
 def row(indenter: Indenter, edge: float, count: int) -> tuple[Array, Array, Array]:
-    """Return places, profile and weights (of ∫ over both sides) of springs, evenly up to an edge."""
+    """Return places, profile (`disc_profile`) and weights (of ∫ over both sides) of springs, evenly up to an edge."""
     s = np.linspace(0.0, edge, count + 1)
-    return s, profile(indenter, s), both_sides(s)
+    return s, disc_profile(indenter, s, edge), both_sides(s)
 
 
 def both_sides(s: Array) -> Array:

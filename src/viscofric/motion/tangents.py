@@ -12,16 +12,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import step_coefficients
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.motion.bounce import Springs
-
-#: Rise of the force outwards, over its largest value, up to which the contact counts as one disc: springs just touched
-#: overshoot by a few per cent of it where fast modes relax within a step.
-_RISE = 0.1
 
 
 @dataclass(frozen=True)
@@ -84,8 +79,7 @@ def follow(
     """Return the motion at times (T,), ascending, one given twice being a jump.
 
     `control` says what was given at these times: "load", "indentation", or nothing but a `Falling` indenter.  Nothing
-    has happened before the first time, at which nothing touches.  Raises ConvergenceError if the contact is not one
-    disc.
+    has happened before the first time, at which nothing touches.
     """
     steps, count = np.diff(time), len(springs.tau)
     parts, c = _Coefficients.of(steps, springs.tau), springs.compliances
@@ -101,7 +95,6 @@ def follow(
     if isinstance(given, Falling):
         now = now._replace(velocity=given.speed)
     rows = [(now, now.depth - begun, still)]
-    most = rise = 0.0
     for number, step in enumerate(steps):
         decay, start, end, later_decay, later_start = (part[number] for part in parts)
         compliance = springs.instantaneous + float(c @ end)
@@ -122,14 +115,8 @@ def follow(
             remembered.reshape(count, size, -1)[:, -1] += later
         memory = decay[:, None] * memory + np.outer(start, force) + np.outer(end, pressed)
         force, moved = pressed, follows
-        most, rise = max(most, float(force[0])), max(rise, float(np.max(force - np.minimum.accumulate(force))))
         first = int(np.argmin(threshold))
         rows.append((now, now.depth - float(threshold[first]), now.depth_change - change[:, first]))
-    if rise > _RISE * most:
-        raise ConvergenceError(
-            "the pressure is no longer that of one disc, for which alone the row of springs is exact.",
-            code="not-one-disc",
-        )
     points = [one for one, _, _ in rows]
     depth, velocity, load, *changes = (np.array(column) for column in zip(*points, strict=True))
     overlap, widened = (np.array([row[place] for row in rows]) for place in (1, 2))

@@ -24,6 +24,7 @@ from viscofric.motion.free.past import NO_PAST, parted
 from viscofric.motion.free.resting import rested, untouched
 from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
+from viscofric.motion.memory import recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
 
 if TYPE_CHECKING:
@@ -237,9 +238,22 @@ class FreeMover(Cells):
             products=Products(products.pressure, products.mixed, own),
         )
 
-    def recovered(self, change: Array, start: Instant, end: Instant) -> Array:
-        """Return the change of a memory over a period, over 1 − e^(−T/τ)."""
-        return np.asarray(change / -np.expm1(-(end.clock - start.clock) / self.setting.body.times)[:, None, None])
+    def recovered(self, change: Array, touched: Array, start: Instant, end: Instant) -> Array:
+        """Return the change of a memory over a period, over 1 − e^(−T/τ) or, at a given depth, over its like."""
+        body, period = self.setting.body, end.clock - start.clock
+        if self.setting.schedule.is_held:
+            instantaneous = body.instant + body.counterface
+            matrix = recovery_at_depth(instantaneous, body.compliances, body.times, period)
+            return np.tensordot(matrix, change, 1)
+        return np.asarray(change / -np.expm1(-period / body.times)[:, None, None])
+
+    def touching(self, state: FreeState) -> Array:
+        """Return no points: `recovered` does not need them."""
+        return np.empty(0)
+
+    def coarser_load(self, state: FreeState) -> float:
+        """Return the load."""
+        return self.setting.scale.force * self.grid.cell_area * float(state.pressure.sum())
 
     @property
     def _roots(self) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.contact.indenters.shapes import Ball, FlatPunch
 from viscofric.friction.identification.moduli import compliance
 from viscofric.motion.bounce import Springs
-from viscofric.motion.springs import both_sides, profile
+from viscofric.motion.springs import both_sides, disc_profile
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,7 +54,7 @@ class Trial(NamedTuple):
         instantaneous = float(strengths[0]) + self.plane_strain * self.extra
         tau = np.exp(self.log_alpha) * self.tau
         walls = indenter.has_walls
-        return Springs(profile(indenter, s), s, both_sides(s), instantaneous, strengths[1:], tau, walls)
+        return Springs(disc_profile(indenter, s, edge), s, both_sides(s), instantaneous, strengths[1:], tau, walls)
 
     def creep(self, time: float) -> float:
         """Return (1−ν²) J(t), with the compliance of the indenter, 1/Pa."""

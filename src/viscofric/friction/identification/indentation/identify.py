@@ -110,7 +110,7 @@ def identify_from_indentation(
         If a value cannot be used, a record has too few clear rows, the level of the modulus does not follow from the
         records, or α(T) is neither given nor to be found because the temperatures do not overlap.
     ConvergenceError
-        If the fit does not converge, or a contact is not one disc.
+        If the fit does not converge.
 
     Notes
     -----

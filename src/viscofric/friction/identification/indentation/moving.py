@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.identification.indentation.rows import Reduced
-    from viscofric.motion.normal import SpringState
-    from viscofric.motion.schedule import Instant
 
 #: Springs, closer near the axis, and the margin beyond the largest contact radius: the load is then good to 4e-4 while
 #: the radius is a tenth of the largest one, and to 1e-4 at the end.
@@ -38,13 +36,6 @@ _EARLY = np.geomspace(0.03, 1.0, 10)
 #: Turns of what was prescribed from which a record is an oscillation; smaller ones, relative to the largest value, are
 #: scatter.
 _OSCILLATES, _TURN = 4, 0.02
-
-
-class _Steps(NormalMotion):
-    """The motion from which steps are chosen; whether the contact is one disc is checked in the end."""
-
-    def accept(self, state: SpringState, instant: Instant) -> None:
-        """Accept every state."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +142,7 @@ class Moving(RowsContact):
         still = np.zeros((len(self.rows.knots), 2))
         schedule = make_schedule(material, self.rows.knots, control, self.rows.values, still, None, None, "untouched")
         problem = Problem(material, self.indenter, schedule, _ACCURACY, None, trial.plane_strain * trial.extra)
-        track = march(_Steps.of(problem), schedule, accuracy=_ACCURACY, fields=False)
+        track = march(NormalMotion.of(problem), schedule, accuracy=_ACCURACY, fields=False)
         steps = np.unique([moment.instant.time for moment in track.moments])
         widest = max(moment.seen.extents["contact_radius"] for moment in track.moments)
         jumps = self.rows.knots[:-1][np.diff(self.rows.knots) == 0.0]

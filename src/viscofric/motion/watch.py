@@ -1,0 +1,156 @@
+"""A mover whose states also hold sums over the period: first harmonics of load and depth, and the time in contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+from viscofric.motion.mover import Field, Mover, Observation, Scales, State
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from viscofric.arrays import Array
+    from viscofric.motion.schedule import Instant, Schedule
+
+
+class RepeatingMover(Mover[State], Protocol[State]):
+    """A mover whose memory can be read and set."""
+
+    def memory_of(self, state: State) -> NDArray[Any]:
+        """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
+        ...
+
+    def with_memory(self, state: State, memory: NDArray[Any]) -> State:
+        """Return a state with another memory, with its dissipated energy set to zero."""
+        ...
+
+    def recovered(self, change: NDArray[Any], touched: Array, start: Instant, end: Instant) -> NDArray[Any]:
+        """Return the change of a memory over a period, divided by 1 − e^z.
+
+        Where points in contact stay where they are, by the corresponding matrix (`recovery_at_depth`).  `touched` is
+        the part of the period in which each point of `touching` touched.
+        """
+        ...
+
+    def touching(self, state: State) -> Array:
+        """Return 1 for each point that touches, 0 for the others; empty where `recovered` does not need it."""
+        ...
+
+    def coarser_load(self, state: State) -> float:
+        """Return the load by half of the points at the same depth; the same load where grids are compared instead."""
+        ...
+
+
+class Watched(NamedTuple):
+    """A state, what is seen of it, and the sums so far."""
+
+    state: Any
+    seen: Observation
+    coarser: float  # load
+    touching: Array
+    touched: Array  # time in contact by the clock, s
+    harmonics: Array  # of load, coarser load and depth, complex
+
+
+@dataclass(frozen=True, eq=False)
+class Watch:
+    """A mover as another one, whose states are `Watched`; see `RepeatingMover`."""
+
+    mover: RepeatingMover[Any]
+    start: float
+    omega: float
+
+    @classmethod
+    def of(cls, mover: RepeatingMover[Any], schedule: Schedule) -> Watch:
+        """Return a mover watched over a period."""
+        return cls(mover, schedule.start, 2.0 * np.pi / (schedule.end - schedule.start))
+
+    @property
+    def scales(self) -> Scales:
+        """Of the mover."""
+        return self.mover.scales
+
+    @property
+    def share(self) -> float:
+        """Of the mover."""
+        return self.mover.share
+
+    @property
+    def tolerance(self) -> float:
+        """Of the mover."""
+        return self.mover.tolerance
+
+    @property
+    def quickest(self) -> float:
+        """Of the mover."""
+        return self.mover.quickest
+
+    def begin(self) -> Watched:
+        """Return the mover's first state, with empty sums."""
+        return self._begun(self.mover.begin())
+
+    def step(self, state: Watched, start: Instant, end: Instant) -> Watched:
+        """Return the state at the end of a step, with sums over load and depth that are linear within it."""
+        return self._next(state, self.mover.step(state.state, start, end), start, end)
+
+    def settle(self, state: Watched, instant: Instant) -> Watched:
+        """Return the state after a jump of what is not prescribed."""
+        settled = self.mover.settle(state.state, instant)
+        return state if settled is state.state else self._next(state, settled, instant, instant)
+
+    def accept(self, state: Watched, instant: Instant) -> None:
+        """Pass the state on."""
+        self.mover.accept(state.state, instant)
+
+    def observe(self, state: Watched) -> Observation:
+        """Return what is seen of the state."""
+        return state.seen
+
+    def pressure(self, state: Watched) -> Field:
+        """Return the pressure of the state."""
+        return self.mover.pressure(state.state)
+
+    def ticks(self, start: Instant, end: Instant) -> Array | None:
+        """Return the mover's ticks."""
+        return self.mover.ticks(start, end)
+
+    def memory_of(self, state: Watched) -> NDArray[Any]:
+        """Return the memory of the state."""
+        return self.mover.memory_of(state.state)
+
+    def with_memory(self, state: Watched, memory: NDArray[Any]) -> Watched:
+        """Return a state with another memory."""
+        return self._begun(self.mover.with_memory(state.state, memory))
+
+    def emptied(self, state: Watched) -> Watched:
+        """Return the state with empty sums."""
+        return self._begun(state.state)
+
+    def recovered(self, change: NDArray[Any], state: Watched, start: Instant, end: Instant) -> NDArray[Any]:
+        """Return the change of a memory over the period that ended in a state, as `RepeatingMover.recovered`."""
+        return self.mover.recovered(change, state.touched / (end.clock - start.clock), start, end)
+
+    def _begun(self, state: Any) -> Watched:
+        touching = self.mover.touching(state)
+        seen, coarser = self.mover.observe(state), self.mover.coarser_load(state)
+        return Watched(state, seen, coarser, touching, np.zeros(touching.shape), np.zeros(3, dtype=complex))
+
+    def _next(self, before: Watched, state: Any, start: Instant, end: Instant) -> Watched:
+        """Return a state with its sums: ∫ f e^{−iωt} dt of a periodic f is that of f' e^{−iωt}/(iω)."""
+        seen, coarser, touching = self.mover.observe(state), self.mover.coarser_load(state), self.mover.touching(state)
+        shares = 0.5 * (before.touching + touching) * (end.clock - start.clock)
+        rises = np.array([seen.load - before.seen.load, coarser - before.coarser, seen.depth - before.seen.depth])
+        turned, length = np.exp(-1j * self.omega * (start.time - self.start)), end.time - start.time
+        if length > 0.0:
+            turned *= -np.expm1(-1j * self.omega * length) / (1j * self.omega * length)
+        return Watched(
+            state,
+            seen,
+            coarser,
+            touching,
+            before.touched + shares,
+            before.harmonics + rises * turned / (1j * self.omega),
+        )
