@@ -171,3 +171,38 @@ def test_more_than_a_page_can_show_is_refused(desk: Desk) -> None:
     with refused("too-many-cases", ViscofricError, naming=("2,002", "2,000")):
         desk.run(curve, {**BALL, "conditions": many})
     assert desk.parts == []
+
+
+LAW = {"law": "constant", "stress": "0.2 MPa", "slip": "0.1 m/s"}
+LINE = {
+    "material": {"catalogue": "synthetic fluoroelastomer"},
+    "indenter": {"shape": "cylinder", "radius": "10 mm"},
+    "conditions": {"load": "500 N/m", "speed": ["50 mm/s", "200 mm/s"], "temperature": "60 degC"},
+    "solver": {"accuracy": 0.1, "cases": "each"},
+}
+
+
+@pytest.mark.slow
+def test_heat_and_interface_are_those_of_the_run_file(desk: Desk, tmp_path: Path) -> None:
+    study = {**LINE, "interface": LAW, "heating": {"counterface": "PTFE"}}
+    answer = desk.run(curve, study)
+    path = tmp_path / "study.toml"
+    path.write_text(study_text(study), encoding="utf-8")
+    stored = vf.run_study(path).tree["heating"].to_dataset()
+    for column in ("temperature_rise", "coulomb_rise", "loss_rise", "interface_friction", "total_friction"):
+        np.testing.assert_allclose(answer[column], stored[column], rtol=ROUNDING)
+    np.testing.assert_allclose(answer["heated_friction"], stored["friction_coefficient"], rtol=ROUNDING)
+    assert answer["extra"] == ["interface_friction", "total_friction", "heated_friction", "temperature_rise"]
+
+
+def test_a_law_that_is_fitted_is_left_to_the_run(desk: Desk) -> None:
+    """The page's curve is not compared with the measurement; without the law there is no heat of it either."""
+    measured = {
+        "measurement": {"curves": "curves.csv"},
+        "interface": {"law": "power"},
+        "heating": {"counterface": "PTFE"},
+    }
+    answer = desk.run(curve, {**LINE, "indenter": {"radius": "10 mm"}, "conditions": BALL["conditions"], **measured})
+    assert answer["extra"] == []
+    assert "heated_friction" not in answer
+    assert {note["code"] for note in answer["note_records"]} >= {"fitted-interface", "no-heating"}

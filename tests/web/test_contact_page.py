@@ -220,3 +220,30 @@ def _make_a_mistake(tab: Tab) -> None:
         "!document.querySelector('.live-contact .stale') && !document.querySelector('#step-contact .field.wrong')"
     )
     finished(tab)
+
+
+@pytest.mark.slow
+@pytest.mark.apart
+def test_heated_friction_is_drawn_beside_the_isothermal_one(browser: Browser, server: Server) -> None:
+    """Of a cylinder, which is soon solved; the heat is that of an interface, whose law is chosen on the page."""
+    line = {"indenter": {"shape": "cylinder", "radius": "10 mm"}}
+    conditions = {"load": "0.5 N/mm", "speed": ["50 mm/s", "200 mm/s"], "temperature": "60 degC"}
+    with opened_tab(browser, server) as tab:
+        tab.value(f"page.state.state.replace({json.dumps({**SMALL, **line, 'conditions': conditions})})")
+        finished(tab)
+        tab.page.get_by_label("Friction of a dry interface").check()
+        tab.page.get_by_label("Law of the shear stress").select_option(label="constant")
+        tab.page.get_by_label("Friction heats the contact").check()
+        counterface = tab.page.get_by_label("Thermal properties of the indenter")
+        counterface.fill("PTFE")
+        counterface.press("Enter")
+        tab.until("Boolean(page.state.state.result('curve')?.heated_friction)", 120.0)
+        tab.page.get_by_label("Shown").select_option("heated_friction")
+        tab.until(f"{_DRAWN}.filter((one) => one.y.length === 2).length === 2")
+        drawn = tab.value(f"{_DRAWN}.filter((one) => one.y.length === 2).map((one) => Array.from(one.y))")
+        found = tab.value("page.state.state.result('curve')")
+        assert drawn == [found["heated_friction"], found["friction"]]
+        assert all(one > 0.0 for one in found["temperature_rise"])
+        tab.page.get_by_label("Shown").select_option("temperature_rise")
+        tab.until(f"{_DRAWN}.filter((one) => one.y.length === 2).length === 3")
+        tab.screenshot("contact-heated")

@@ -15,7 +15,7 @@ from viscofric.notes import Note, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
-from viscofric.study.heating import Heatings
+from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.histories import Histories
 from viscofric.study.impacts import Impacts
 from viscofric.study.interface import StudyInterface, interface_columns, study_interface
@@ -247,6 +247,8 @@ def tree_of(
     groups |= assumptions(checked)
     tree = xarray.DataTree.from_dict(groups)
     of_friction = [*(measured.notes if measured else ()), *interface.notes, *rubbed.notes]
+    if study.heating is not None and study.interface is not None and interface.law is None:
+        of_friction.append(NO_LAW)
     notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
     said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
     tree.attrs = {

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.study import Study
     from viscofric.thermal import ThermalProperties
 
+NO_LAW = Note(
+    "no-heating", "Contacts were not heated, as the law of the interface, whose friction would heat them, is not known."
+)
 _GROUP, _MAP = "/heating", "/temperature_map"
 _SLIP = {"units": "m/s", "long_name": "sliding velocity between both surfaces"}
 _COULOMB = {"units": "1", "long_name": "Coulomb friction coefficient, given"}
@@ -73,9 +76,9 @@ class Heatings(Singles):
 
     @classmethod
     def of(cls, study: Study, sweep: Sweep, rubbers: Rubbers, interface: InterfaceLaw | None) -> Heatings | None:
-        """Return the plan of a study, None without [heating]; `interface` is the law of its [interface]."""
-        table = study.heating
-        return None if table is None else cls(study, table, sweep, rubbers, interface)
+        """Return the plan of a study, None without [heating] or where the law of its [interface] is not known."""
+        table, unknown = study.heating, study.interface is not None and interface is None
+        return None if table is None or unknown else cls(study, table, sweep, rubbers, interface)
 
     def wanted(self) -> list[Task]:
         """Return the tasks without a result: the curves, and then the map."""
@@ -99,20 +102,10 @@ class Heatings(Singles):
         """Return the curves along the axes of the sweep, of Coulomb friction and of slip; None if all failed."""
         import xarray
 
-        table, axes = self._table, self._sweep.axes
-        size = len(self._sweep.cases), len(table.coulomb), len(self._slips)
-        names = [name for name in COLUMNS if any(name in one.columns for one in self._curves)]
-        if not names:
+        table, axes, values = self._table, self._sweep.axes, self.columns_of_cases()
+        if not values:
             return None
-        values = {name: np.full(size, math.nan) for name in names}
-        for (cases, first, second), outcome in zip(self._members, self.outcomes, strict=False):
-            if not isinstance(outcome, HistoryRecord):
-                continue
-            row_of = {speed: row for row, speed in enumerate(outcome.columns["speed"].values)}
-            for number in cases:
-                row = row_of.get(self._sweep.cases[number].speed, -1)
-                for name in names if row >= 0 else ():
-                    values[name][number, first, second] = outcome.columns[name].values[row]
+        size = len(self._sweep.cases), len(table.coulomb), len(self._slips)
         dimensions = {axis.name: len(axis) for axis in axes} | {"coulomb": size[1], "slip": size[2]}
         long = [name for name, count in dimensions.items() if count > 1]
         variables: dict[str, Any] = {
@@ -137,6 +130,21 @@ class Heatings(Singles):
             by = found["interface_friction"] if self._interface is not None else found["coulomb"]
             found["total_friction"] = (found["friction_coefficient"] + by).transpose(*long).assign_attrs(_TOTAL)
         return found
+
+    def columns_of_cases(self) -> dict[str, Array]:
+        """Return each number (cases, Coulomb frictions, slips), NaN without a solution; none if all failed."""
+        size = len(self._sweep.cases), len(self._table.coulomb), len(self._slips)
+        names = [name for name in COLUMNS if any(name in one.columns for one in self._curves)]
+        values = {name: np.full(size, math.nan) for name in names}
+        for (cases, first, second), outcome in zip(self._members, self.outcomes, strict=False):
+            if not isinstance(outcome, HistoryRecord):
+                continue
+            row_of = {speed: row for row, speed in enumerate(outcome.columns["speed"].values)}
+            for number in cases:
+                row = row_of.get(self._sweep.cases[number].speed, -1)
+                for name in names if row >= 0 else ():
+                    values[name][number, first, second] = outcome.columns[name].values[row]
+        return values
 
     @property
     def _heat_of(self) -> str:

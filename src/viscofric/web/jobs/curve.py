@@ -10,10 +10,12 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
-from viscofric.notes import listed
+from viscofric.notes import Note, listed
 from viscofric.study.assumptions import assumption_checks
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, doubts
+from viscofric.study.heating import NO_LAW, Heatings
+from viscofric.study.interface import interface_columns, study_interface
 from viscofric.study.running.executors import Serial
 from viscofric.study.running.running import run_plan
 from viscofric.study.running.store import CaseStore
@@ -24,13 +26,14 @@ from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
+    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.study.cases.record import Record
     from viscofric.study.contacts import Solved
     from viscofric.study.planning.plan import Outcome
     from viscofric.study.run_file.study import Study
-    from viscofric.study.running.running import Event
+    from viscofric.study.running.running import Event, Plan, Progress
     from viscofric.study.study_rubber import StudyRubber
     from viscofric.web.jobs.context import Context
 
@@ -80,17 +83,19 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     store.prepare()
     with Serial() as executor:
         run_plan(contacts.plan, store, executor, progress)
-    requested, at_points, along = contacts.results()
+        requested, at_points, along = contacts.results()
+        more, said = _of_tables(contacts, requested, lambda plan: run_plan(plan, store, executor, _counter(context)))
     if not requested.records:
         first = requested.failures[0]
         raise JobError(f"No case could be solved; the first one failed: {first}", code=first.code)
     return {
         **layout,
         **columns(contacts, requested),
+        **more,
         "master": master_curve(contacts, along),
         **listed("failures", [one.note for one in requested.failures]),
         **listed("warnings", [*_of_rubbers(contacts, known=True), *doubts((requested,), contacts.rubbers)]),
-        **listed("notes", _notes(contacts, checked)),
+        **listed("notes", [*_notes(contacts, checked), *said], "page"),
         "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points)]),
     }
 
@@ -112,6 +117,7 @@ def _layout(contacts: Contacts) -> dict[str, Any]:
     numbers, words = combinations(contacts.sweep)
     alpha = {(case.material, case.temperature): float(rubbers[case.material].shift(case.temperature)) for case in cases}
     study = contacts.study
+    heated = study.heating is not None and (study.interface is None or _is_given(study))
     kind = "rough" if study.indenter is None else "line" if study.indenter.LINE else "point"
     return {
         "kind": kind,
@@ -122,7 +128,62 @@ def _layout(contacts: Contacts) -> dict[str, Any]:
         "temperature": plain([case.temperature for case in cases], 9),
         "speed": plain([case.speed for case in cases], 9),
         "reduced_speed": plain([alpha[case.material, case.temperature] * case.speed for case in cases], 9),
+        "extra": [
+            *(("interface_friction", "total_friction") if _is_given(study) else ()),
+            *(("heated_friction", "temperature_rise") if heated else ()),
+        ],
     }
+
+
+def _is_given(study: Study) -> bool:
+    """Whether there is an interface whose law is known without a measurement."""
+    return study.interface is not None and study.interface.is_given
+
+
+def _counter(context: Context) -> Progress:
+    """Return what reports how many heated curves are solved."""
+
+    def count(event: Event) -> None:
+        if event.event in ("solved", "stored", "failed"):
+            context.progress(event.done or 0, event.total or 1, event.label or "")
+
+    return count
+
+
+def _of_tables(
+    contacts: Contacts, requested: Solved, solve: Callable[[Plan], object]
+) -> tuple[dict[str, Any], list[Note]]:
+    """Return what [interface] and [heating] add to all cases, each number a column, and notes.
+
+    A law that is fitted to the measurement is left to the run of the study; of several values of Coulomb friction and
+    slip, the first counts.
+    """
+    study, rows = contacts.study, [not isinstance(one, Failure) for one in requested.outcomes]
+    found: dict[str, Any] = {}
+    law: InterfaceLaw | None = None
+    said: list[Note] = []
+    if _is_given(study):
+        interface = study_interface(contacts)
+        rubbed = interface_columns(contacts, interface, requested)
+        law, said = interface.law, [*interface.notes, *rubbed.notes]
+        for name in ("interface_friction", "total_friction"):
+            column = np.full(len(rows), np.nan)
+            column[rows] = rubbed.columns.get(name, np.nan)
+            found[name] = column
+    elif study.interface is not None:
+        said.append(Note("fitted-interface", "The interface is fitted to the measurement when the study is run."))
+        said += [NO_LAW] if study.heating is not None else []
+    heatings = Heatings.of(study, contacts.sweep, contacts.plan.rubbers, law)
+    if heatings is not None:
+        solve(heatings)
+        warm = {name: values[:, 0, 0] for name, values in heatings.columns_of_cases().items()}
+        found |= {name: warm[name] for name in ("temperature_rise", "coulomb_rise", "loss_rise") if name in warm}
+        found |= {"heated_friction": warm["friction_coefficient"]} if warm else {}
+        if law is not None and warm:
+            found["interface_friction"] = warm["interface_friction"]
+            found["total_friction"] = warm["friction_coefficient"] + warm["interface_friction"]
+        said += [*heatings.failures, *heatings.warnings]
+    return {name: plain(column, _DIGITS) for name, column in found.items()}, said
 
 
 class _Sender:

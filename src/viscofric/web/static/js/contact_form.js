@@ -30,6 +30,15 @@ const FIRST = {
   scan: { surface: { file: "", prepare: ["fill", "remove tilt", "window"] }, pressure: "0.5 MPa" },
 };
 
+// What each law of the interface begins with.
+const LAWS = {
+  constant: { law: "constant", stress: "0.1 MPa" },
+  power: { law: "power", stress: "0.1 MPa", exponent: 0.1, speed: "1 mm/s" },
+  eyring: { law: "eyring", activation_volume: "20 nm**3", speed: "1 um/s" },
+  gaussian: { law: "gaussian", peak: "0.1 MPa", width: 2, speed: "10 mm/s" },
+  best: { law: "best" },
+};
+
 /** What is in contact: "ball" … "cone", "made" or "scan". */
 export function shapeOf(study) {
   if (study.surface) return study.surface.file === undefined ? "made" : "scan";
@@ -200,6 +209,60 @@ export function contactForm({ state, fields, api, announce }) {
     ),
   );
 
+  const becomeLaw = (law) => state.set("interface", { ...LAWS[law], slip: state.get("interface.slip") });
+  const interfaceFields = [
+    toggleField({ path: "interface", label: "Friction of a dry interface", value: LAWS.power }),
+    optional(
+      "interface",
+      choiceField({
+        path: "interface.law",
+        label: "Law of the shear stress",
+        options: [
+          ["constant", "constant"],
+          ["power", "power of the slip speed"],
+          ["eyring", "Eyring"],
+          ["gaussian", "Gaussian (Persson)"],
+          ["best", "fitted to measured Coulomb friction"],
+        ],
+        otherwise: "best",
+        onChange: becomeLaw,
+      }),
+      optional("interface.stress", quantity("interface.stress", "Shear stress", "pressure")),
+      optional("interface.peak", quantity("interface.peak", "Largest shear stress", "pressure")),
+      optional("interface.exponent", number("interface.exponent", "Exponent", -1, 0.01)),
+      optional("interface.width", number("interface.width", "Width in decades", 0, 0.1)),
+      optional(
+        "interface.activation_volume",
+        fields.textField({ path: "interface.activation_volume", label: "Activation volume" }),
+      ),
+      optional("interface.speed", quantity("interface.speed", "At the slip speed", "speed")),
+      quantity("interface.slip", "Slip speed", "speed", { placeholder: "the speed, as in pure sliding" }),
+    ),
+  ];
+  const heating = [
+    toggleField({ path: "heating", label: "Friction heats the contact", value: { counterface: "steel" } }),
+    optional(
+      "heating",
+      fields.textField({
+        path: "heating.counterface",
+        label: "Thermal properties of the indenter",
+        help: "steel, PTFE (typical handbook values), or 46 W/m/K, 7810 kg/m^3, 475 J/kg/K",
+      }),
+      fields.textField({ path: "heating.rubber", label: "Thermal properties of the rubber", placeholder: "filled rubber" }),
+      number("heating.coulomb", "Coulomb friction", 0, 0.01, { placeholder: "0, or that of the interface" }),
+      quantity("heating.slip", "Sliding velocity", "speed", { placeholder: "the speed, or that of the interface" }),
+      choiceField({
+        path: "heating.average",
+        label: "Temperature of the rubber",
+        otherwise: "contact",
+        options: [
+          ["contact", "mean of the face"],
+          ["loss", "where the loss is released"],
+        ],
+      }),
+    ),
+  ];
+
   const accuracy = choiceField({
     path: "solver.accuracy",
     label: "Accuracy",
@@ -243,5 +306,6 @@ export function contactForm({ state, fields, api, announce }) {
       }),
       accuracy,
     ),
+    card("Interface and heat", ...interfaceFields, ...heating),
   ];
 }

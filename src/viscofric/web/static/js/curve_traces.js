@@ -19,7 +19,12 @@ export const QUANTITIES = {
   contact_area_fraction: { label: "contact area fraction" },
   max_pressure: { label: "maximum pressure", kind: "pressure" },
   mean_gap: { label: "mean gap", kind: "length" },
+  heated_friction: { label: "friction coefficient μ with heating" },
+  temperature_rise: { label: "rise of temperature (K)" },
+  interface_friction: { label: "friction coefficient of the interface" },
+  total_friction: { label: "total friction coefficient" },
 };
+const OF_TABLES = ["heated_friction", "temperature_rise", "interface_friction", "total_friction"];
 
 /** Label and kind of a quantity; the contact area of a line contact is its width. */
 export function quantityOf(name, { kind }) {
@@ -27,7 +32,8 @@ export function quantityOf(name, { kind }) {
 }
 
 /** Whether a kind of contact has a quantity. */
-export function hasQuantity(name, { kind }) {
+export function hasQuantity(name, { kind, extra }) {
+  if (OF_TABLES.includes(name)) return (extra ?? []).includes(name);
   return !(kind === "rough" ? ["indentation", "contact_area"] : ["contact_area_fraction", "mean_gap"]).includes(name);
 }
 
@@ -63,7 +69,7 @@ function placed(layout, view, rows, values) {
 export function curveTraces(curve, look, { units, figures }) {
   const lines = curvesOf(curve.layout, look.combination).flatMap(([kelvin, rows]) => {
     const shared = { temperature: kelvin, group: `T${kelvin}`, name: units.show(kelvin, "temperature") };
-    if (curve.result) return [{ ...shared, ...finished(curve, look, rows) }];
+    if (curve.result) return [{ ...shared, ...finished(curve, look, rows) }, ...beside(curve, look, rows, shared)];
     return drafted(curve, look, rows, shared, figures.temperatureColour(kelvin, curve.layout.temperature));
   });
   return [...masterLine(curve, look), ...lines, ...ringed(curve, look)];
@@ -76,6 +82,22 @@ function finished({ layout, result }, { view, quantity }, rows) {
   const of = (column) => trace.data.map((at) => column[at]);
   const banded = result.lower?.some(isThere);
   return { ...trace, ...(banded ? { lower: of(result.lower), upper: of(result.upper) } : { error: of(result.error) }) };
+}
+
+/** The isothermal friction beside the heated one, and the parts of a rise: Coulomb friction dashed, loss dotted. */
+function beside({ layout, result }, { view, quantity }, rows, shared) {
+  const parts = {
+    heated_friction: [["friction", "6px,4px", "isothermal"]],
+    temperature_rise: [
+      ["coulomb_rise", "6px,4px", "by Coulomb friction"],
+      ["loss_rise", "2px,3px", "by the loss"],
+    ],
+  };
+  return (parts[quantity] ?? []).map(([name, dash, words]) => {
+    const trace = placed(layout, view, rows, result[name] ?? []);
+    const style = { mode: "lines", width: 1.2, dash, legend: false, text: trace.data.map(() => words) };
+    return { ...shared, ...trace, ...style };
+  });
 }
 
 /** A curve on its way: what is known to the accuracy filled, what lies between contacts that may be refined open. */

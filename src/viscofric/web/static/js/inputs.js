@@ -23,7 +23,7 @@ export const DEPENDS_ON = {
   sweeps: ["material"],
   rubber: MATERIAL,
   moduli: MATERIAL,
-  curve: [...CONTACT, "conditions", "sweep", "uncertainty"],
+  curve: [...CONTACT, "conditions", "sweep", "uncertainty", "interface", "heating"],
   contact: [...CONTACT, "conditions.load", "conditions.pressure", "conditions.direction", "sweep"],
   motion: [...CONTACT, "conditions.temperature", "conditions.direction", "sweep"],
   measured: ["measurement"],
