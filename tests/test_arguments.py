@@ -343,7 +343,8 @@ CALLS: dict[str, Any] = {
     "Layer.yielding": lambda: (vf.Layer(1e-3), {"wave_number": np.array([1e3, 1e4]), "poisson_ratio": 0.5}),
     "solve_periodic": lambda: {"material": rubber(), "surface": road().to_surface(), "speed": 0.1, "pressure": 5e3,
         "gap": None, "temperature": None, "direction": (1.0, 0.0), "layer": None, "indenter_modulus": 1e9,
-        "indenter_poisson_ratio": 0.3, "coulomb": 0.1, "tolerance": 1e-6, "most_products": 1000, "backend": "scipy"},
+        "indenter_poisson_ratio": 0.3, "coulomb": 0.1, "tolerance": 1e-6, "most_products": 1000, "backend": "scipy",
+        "heating": None},
     "PeriodicSurface": lambda: {"z": 1e-6 * np.cos(0.25 * np.pi * np.arange(8)), "spacing": 1e-4},
     "Cone": lambda: {"angle": 0.1},
     "Ellipsoid": lambda: {"radius_x": 1e-2, "radius_y": 2e-2},
@@ -425,7 +426,7 @@ CALLS: dict[str, Any] = {
     "FrictionCurves.at_load": lambda: (curves(), {"load": 1e3}),
     "ThermalProperties": lambda: {"conductivity": 0.3, "density": 1e3, "heat_capacity": 1e3, "name": "rubber"},
     "Heating": lambda: {"rubber": steel(), "counterface": steel(), "coulomb": 0.3, "slip": 0.1, "track_radius": 0.02,
-        "passes": 3, "average": "loss", "branch": "cold"},
+        "passes": 3, "average": "loss", "branch": "cold", "nominal_radius": 5e-3},
     "MovingHeatSource": lambda: {"power": 1.0, "size": 1e-3, "speed": 0.1, "body": steel(), "shape": "disc",
         "distribution": "uniform"},
     "MovingHeatSource.temperature_at": lambda: (vf.MovingHeatSource(1.0, 1e-3, 0.1, steel()), {"x": [0.0, 1e-4], "y":
@@ -590,7 +591,7 @@ CALLS: dict[str, Any] = {
     "RoughFriction.interval": lambda: (rough_friction(), {"probability": 0.9, "of": "hysteresis"}),
     "predict_rough_friction": lambda: {"material": rubber(), "surfaces": road(), "speeds": [0.1], "pressure": 5e3,
         "temperatures": None, "interface": vf.ConstantShearStress(3e5), "workers": 1, "progress": None,
-        "tolerance": 1e-6},
+        "tolerance": 1e-6, "heating": None},
     "self_affine": lambda: {"hurst": 0.8, **MADE, "shortest": 4e-5, "longest": 1.6e-4, "rolloff": None, "rms_height":
         None, "rms_slope": 0.1},
     "surface_from_spectrum": lambda: {"spectrum": spectrum(), **MADE},

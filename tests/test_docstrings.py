@@ -80,6 +80,7 @@ RETURNED = {
     "TransientHeating",
     "ContactSolution",
     "HeatedFrictionCurves",
+    "HeatedRoughFriction",
     "ContactStatistics",
     "Diagnostics",
     "FrictionByWavelength",

@@ -160,7 +160,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.superpose import superpose as superpose
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
-    from viscofric.roughness.ensemble import RoughFriction as RoughFriction
     from viscofric.roughness.ensemble import predict_rough_friction as predict_rough_friction
     from viscofric.roughness.line_spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.made import self_affine as self_affine
@@ -173,6 +172,8 @@ if TYPE_CHECKING:
     from viscofric.roughness.persson import PerssonTheory as PerssonTheory
     from viscofric.roughness.persson import persson_theory as persson_theory
     from viscofric.roughness.reading import read_topography as read_topography
+    from viscofric.roughness.rough_friction import HeatedRoughFriction as HeatedRoughFriction
+    from viscofric.roughness.rough_friction import RoughFriction as RoughFriction
     from viscofric.roughness.scales import FrictionByWavelength as FrictionByWavelength
     from viscofric.roughness.scales import friction_by_wavelength as friction_by_wavelength
     from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum
@@ -262,6 +263,7 @@ _HOME = {
     "ContactHeating": "viscofric.heat.result",
     "TransientHeating": "viscofric.heat.result",
     "HeatedFrictionCurves": "viscofric.friction.heating",
+    "HeatedRoughFriction": "viscofric.roughness.rough_friction",
     "MovingHeatSource": "viscofric.heat.sources",
     "surface_temperature": "viscofric.heat.maps",
     "track_temperature": "viscofric.heat.track",
@@ -348,7 +350,7 @@ _HOME = {
     "contact_strain": "viscofric.rheology.payne.at_strain",
     "MaterialSamples": "viscofric.rheology.uncertainty.material_samples",
     "sample_materials": "viscofric.rheology.uncertainty.sampling",
-    "RoughFriction": "viscofric.roughness.ensemble",
+    "RoughFriction": "viscofric.roughness.rough_friction",
     "predict_rough_friction": "viscofric.roughness.ensemble",
     "self_affine": "viscofric.roughness.made",
     "surface_from_spectrum": "viscofric.roughness.made",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -75,9 +77,9 @@ def test_the_heat_of_an_interface_is_its_stress_on_the_contact() -> None:
 def test_heating_is_refused_with_samples_and_columns_are_checked(curves: vf.HeatedFrictionCurves) -> None:
     with refused("not-with-heating"):
         vf.predict_friction(WARM, CYLINDER, speeds=1.0, temperatures=300.0, load=1.0, samples=object(), heating=HEATING)
-    plain = vf.FrictionCurves(**{name: getattr(curves, name) for name in vf.FrictionCurves.__dataclass_fields__})
-    with refused("wrong-length"):
-        vf.HeatedFrictionCurves(**{name: getattr(plain, name) for name in vf.FrictionCurves.__dataclass_fields__})
+    for column in (curves.hot_rise[:1], np.array([1.0, np.nan])):
+        with refused("wrong-length"):
+            replace(curves, hot_rise=column)
 
 
 @pytest.mark.apart

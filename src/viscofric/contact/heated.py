@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heating import heats, thermal_resistances
 from viscofric.errors import InputError
 from viscofric.heat.branches import State, settled, stable_states
-from viscofric.heat.heating import HeatBalance
+from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
 from viscofric.heat.result import ContactHeating
 from viscofric.notes import Note, Remedy
 from viscofric.units import shown_celsius
@@ -21,9 +20,8 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.fields.dissipation import Modes
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.heat.heating import Heating, ThermalResistances
     from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.rheology.material import Material
 
 
 #: What gives friction at the temperature where the loss is released.
@@ -42,34 +40,84 @@ _LEFT = 0.01
 THIN = 0.5
 
 
+class Heat(NamedTuple):
+    """Heats of a solved contact and rises per heat; what they are per, its area, and half its length along the motion.
+
+    Heats are in W, of a line contact in W/m, of a rough surface in W/m² of its nominal area, of which `area` is a part.
+    """
+
+    resistances: ThermalResistances
+    coulomb: float
+    loss: float
+    area: float
+    size: float
+
+    @property
+    def balance(self) -> HeatBalance:
+        """The state in which both faces are equally warm."""
+        return HeatBalance.of(self.resistances, self.coulomb, self.loss)
+
+
 class Warmed(NamedTuple):
-    """A contact solved at a rise of temperature, K, and the rise that it produces, K."""
+    """A contact solved at a rise of temperature, K, what is kept of its solution, and the rise that it produces, K."""
 
     rise: float
-    solution: ContactSolution
-    resistances: ThermalResistances
+    friction: float
+    solution: Any
+    heat: Heat
     produced: float
 
 
 @dataclass(frozen=True)
 class ThermalContact:
-    """One contact at any rise of temperature."""
+    """One contact at any rise of temperature; of its kinds there are free and periodic ones."""
 
+    material: Material  # with α(T)
     heating: Heating
     kelvin: float  # without heating
-    poisson_ratio: float
-    log10_shift: Callable[[float], float]  # at a temperature, K; InputError where it is not known
-    modes: Callable[[float], Modes]
-    solve: Callable[[float, float], ContactSolution]  # at a temperature, K, to an accuracy
+    speed: float
+    isothermal: Callable[[float, float, float], Any]  # solution at a speed, a temperature, K, and to an accuracy
     interface: InterfaceLaw | None = None  # whose heat takes the place of a constant Coulomb friction
+
+    def heat(self, solution: Any, kelvin: float) -> Heat:
+        """Return the heats of a contact solved at a temperature."""
+        raise NotImplementedError
+
+    def area(self, solution: Any) -> float:
+        """Return the area of a solved contact."""
+        raise NotImplementedError
+
+    def scaled(self, heat: Heat, larger: Array) -> ThermalResistances:
+        """Return resistances of contacts (n,) whose area is larger by factors, from those of one solved."""
+        raise NotImplementedError
+
+    def kept(self, solution: Any) -> Any:
+        """Return what is kept of a solution."""
+        return solution
+
+    def log10_shift(self, kelvin: float) -> float:
+        """Return log10 α at a temperature; raise InputError where it is not known."""
+        assert self.material.shift is not None
+        return float(self.material.shift.log10(kelvin))
+
+    def modes(self, kelvin: float) -> Modes:
+        """Return the material's modes at a temperature."""
+        from viscofric.contact.fields.dissipation import Modes
+
+        spectrum = self.material.modes_at(kelvin)
+        return Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+
+    def coulomb_heat(self, load: float, area: float, kelvin: float) -> float:
+        """Return the heat at the interface of a contact under a load, at a temperature."""
+        return coulomb_heat(self.heating, self.interface, self.speed, load, area, kelvin)
 
     def at(self, rise: float, accuracy: float) -> Warmed:
         """Solve the contact at a rise of temperature."""
         kelvin = self.kelvin + rise
-        solution = self.solve(kelvin, accuracy)
-        resistances = thermal_resistances(solution, self.modes(kelvin), self.poisson_ratio, self.heating)
-        balance = HeatBalance.of(resistances, *heats(solution, self.heating, self.interface))
-        return Warmed(rise, solution, resistances, self.heating.rise(balance))
+        solution = self.isothermal(self.speed, kelvin, accuracy)
+        heat = self.heat(solution, kelvin)
+        friction = solution.friction_coefficient
+        return Warmed(rise, friction, self.kept(solution), heat, self.heating.rise(heat.balance))
 
     def next_rise(self, rise: float) -> float:
         """Return a rise at which α is noticeably smaller; raise InputError where α ends before."""
@@ -80,12 +128,22 @@ class ThermalContact:
         return rise + step
 
 
+def coulomb_heat(
+    heating: Heating, interface: InterfaceLaw | None, speed: float, load: float, area: float, kelvin: float
+) -> float:
+    """Return the heat at the interface of a contact: of a constant friction on its load, or of a stress on its area."""
+    slip = heating.sliding(speed)
+    if interface is None:
+        return heating.coulomb * load * slip
+    return float(interface(slip, kelvin)) * area * slip if slip > 0.0 else 0.0
+
+
 def enough(rise: float, produced: list[float]) -> bool:
     """Whether no state is to be expected beyond a rise, K, from what contacts up to it produce."""
     return rise >= max(_LEAST, _BEYOND * max(produced))
 
 
-def solve_heated(contact: ThermalContact, accuracy: float) -> ContactSolution:
+def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
     """Return the contact in the state of the branch wanted.
 
     Raises InputError if α is not known up to the temperature of the contact, ConvergenceError if the solves do not
@@ -107,7 +165,12 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> ContactSolution:
         raise beyond_shift(contact.kelvin + scanned[-1].rise) from ended
     found = [settle(contact, curve, one, accuracy) for one in dict.fromkeys((states[0], states[-1]))]
     order = found if contact.heating.branch == "cold" else found[::-1]
-    return finished(order, isothermal.solution.friction_coefficient, contact.heating)
+    return finished(contact, order[0].solution, *described(contact, order, isothermal.friction))
+
+
+def finished(contact: ThermalContact, solution: Any, heating: ContactHeating, notes: tuple[Note, ...]) -> Any:
+    """Return a solution at the temperature of the body, with its heat and more notes."""
+    return replace(solution, temperature=contact.kelvin, heating=heating, warnings=(*solution.warnings, *notes))
 
 
 def beyond_shift(kelvin: float) -> InputError:
@@ -135,7 +198,7 @@ class HeatCurve(NamedTuple):
         rise = np.array([one.rise for one in scanned])
         columns = (
             np.array([one.produced for one in scanned]),
-            np.array([math.log(max(abs(one.solution.friction_coefficient), 1e-300)) for one in scanned]),
+            np.array([math.log(max(abs(one.friction), 1e-300)) for one in scanned]),
         )
         if len(rise) == 1:
             return cls(rise, *columns)
@@ -170,15 +233,13 @@ def settle(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: fl
     return last[0]
 
 
-def finished(
-    found: list[Warmed], isothermal: float, heating: Heating, interface: InterfaceLaw | None = None
-) -> ContactSolution:
-    """Return the first of one or two states of a contact, with its heat, notes, and the numbers of the other."""
-    rise, solution, resistances, produced = found[0]
-    coulomb, loss = heats(solution, heating, interface)
-    balance, alone = (HeatBalance.of(resistances, coulomb, one) for one in (loss, 0.0))
+def described(
+    contact: ThermalContact, found: list[Warmed], isothermal: float
+) -> tuple[ContactHeating, tuple[Note, ...]]:
+    """Return the heat of the first of one or two states of a contact, with the numbers of the other, and notes."""
+    heating, (rise, _, _, heat, produced) = contact.heating, found[0]
+    balance, alone = heat.balance, HeatBalance.of(heat.resistances, heat.coulomb, 0.0)
     by_coulomb = heating.rise(alone)
-    half = 0.5 * (solution.front + solution.rear)
     result = ContactHeating(
         temperature_rise=rise,
         coulomb_rise=by_coulomb,
@@ -187,22 +248,19 @@ def finished(
         face_rise=balance.face_rise,
         loss_weighted_rise=balance.loss_weighted_rise,
         residual=produced - rise,
-        coulomb_heat=coulomb,
-        loss_heat=loss,
+        coulomb_heat=heat.coulomb,
+        loss_heat=heat.loss,
         rubber_heat=balance.rubber_heat,
         counterface_heat=balance.counterface_heat,
-        skin=math.sqrt(2.0 * heating.rubber.diffusivity / (abs(solution.speed) * half)),
+        skin=math.sqrt(2.0 * heating.rubber.diffusivity / (abs(contact.speed) * heat.size)),
         isothermal_friction=isothermal,
         other_rise=found[1].rise if len(found) > 1 else None,
-        other_friction=found[1].solution.friction_coefficient if len(found) > 1 else None,
+        other_friction=found[1].friction if len(found) > 1 else None,
     )
     notes = [] if len(found) == 1 else [_two_states(result)]
     if heating.average == "contact" and result.skin < THIN and rise > 0.0:
         notes.append(_thin_skin(result))
-    kelvin = solution.temperature
-    assert kelvin is not None
-    warnings = (*solution.warnings, *notes)
-    return replace(solution, temperature=kelvin - rise, heating=result, warnings=warnings)
+    return result, tuple(notes)
 
 
 def _two_states(result: ContactHeating) -> Note:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import scipy.fft
 
 from viscofric.contact.fields.dissipation import dissipation
+from viscofric.contact.heated import Heat, ThermalContact, coulomb_heat
 from viscofric.heat.heating import HeatBalance, ThermalResistances
 from viscofric.heat.influence import Diffusion
+from viscofric.heat.means import disc_mean, strip_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,6 +23,7 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.thermal import ThermalProperties
 
 
 #: Cells along the contact, and room behind, ahead of and beside it, in half lengths of the contact.
@@ -27,17 +31,45 @@ _CELLS, _MAPPED = 18, 40
 _BEHIND, _AHEAD, _BESIDE = 2.0, 0.6, 0.6
 
 
-def heats(solution: ContactSolution, heating: Heating, interface: InterfaceLaw | None = None) -> tuple[float, float]:
-    """Return the heat of Coulomb friction and that of the loss, W, or W/m of a line contact.
+@dataclass(frozen=True)
+class FreeThermalContact(ThermalContact):
+    """Contact of an indenter at any rise of temperature."""
 
-    That of an `interface`, at the temperature at which the contact was solved, takes the place of a constant
-    coefficient.
-    """
-    loss, slip = abs(solution.friction_force * solution.speed), heating.sliding(solution.speed)
-    if interface is None:
-        return heating.coulomb * solution.load * slip, loss
-    stress = float(interface(slip, solution.temperature)) if slip > 0.0 else 0.0
-    return stress * solution.contact_area * slip, loss
+    line: bool = False
+
+    def heat(self, solution: ContactSolution, kelvin: float) -> Heat:
+        """Return the heats of a contact solved at a temperature."""
+        return Heat(
+            thermal_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating),
+            self.coulomb_heat(solution.load, solution.contact_area, kelvin),
+            abs(solution.friction_force * solution.speed),
+            solution.contact_area,
+            0.5 * (solution.front + solution.rear),
+        )
+
+    def area(self, solution: ContactSolution) -> float:
+        """Return the area of a solved contact, m² or m."""
+        return solution.contact_area
+
+    def scaled(self, heat: Heat, larger: Array) -> ThermalResistances:
+        """Return resistances of larger contacts (n,): they change as those of discs or strips."""
+        line = self.line
+        size = 0.5 * heat.area if line else math.sqrt(heat.area / math.pi)
+        mean = strip_mean if line else disc_mean
+
+        def factor(body: ThermalProperties, velocity: float) -> Array:
+            """Return the power of the area that the resistance follows, as a factor."""
+            peclet = np.maximum(velocity * size / (2.0 * body.diffusivity) * np.array([1.0, 1.1]), 1e-9)
+            first, second = (mean(float(one), hertz=True) for one in peclet)
+            # Per heat, the rise of a disc falls as its mean in units of q̄ a over a, that of a strip as the mean alone.
+            power = np.log(second / first) / np.log(1.1) - (0.0 if line else 1.0)
+            return np.asarray(larger ** (power if line else 0.5 * power))
+
+        one, speed = heat.resistances, abs(self.speed)
+        rubber = factor(self.heating.rubber, speed)
+        other = factor(self.heating.counterface, abs(speed - self.heating.sliding(speed)))
+        parts: Any = (*(rubber * part for part in one[:4]), one.track, one.counterface * other)
+        return ThermalResistances(*parts)
 
 
 def thermal_resistances(
@@ -48,35 +80,20 @@ def thermal_resistances(
     The mean over the face is over the contact.  Heat on the face is distributed like the pressure, and that of the loss
     as it is released below (in a half-space); what is released farther behind does not reach the contact.
     """
-    speed, (_, loss) = abs(solution.speed), heats(solution, heating)
-    cells = _Cells.of(solution, _CELLS)
+    speed, loss = abs(solution.speed), abs(solution.friction_force * solution.speed)
+    cells = Cells.of(solution, _CELLS)
     radius = cells.radius(solution)
-    flux = cells.pressure[None] / cells.pressure.sum()
-    face = cells.inside[None]
+    flux, face = cells.pressure / cells.pressure.sum(), cells.inside
     released = dissipation(cells.x, cells.y, cells.pressure, modes, poisson_ratio, speed, radius)
     found = float(released.power.sum())
-    power = _per_loss(released, loss)
     weight = released.power / found if found > 0.0 else released.power
+    power = released._replace(power=_per_loss(released, loss))
     other_speed = abs(speed - heating.sliding(speed))
     other = math.inf
     if not (cells.is_line and other_speed == 0.0):
-        other = cells.mean_rise(cells.influence(Diffusion(heating.counterface, other_speed)), flux, face)
-    layers, between = len(released.depth), _between_depths(released)
-
-    def factors(lengths: Array) -> Array:
-        """Return those of `Diffusion.influence`: on the face, from each depth to it or back, and between depths."""
-        return np.concatenate([_to_face(released, lengths), between(lengths)])
-
-    found_influence = cells.influence(Diffusion(heating.rubber, speed), factors)
-    on_face, to_face, below = np.split(found_influence, [1, 1 + layers])
-    return ThermalResistances(
-        surface=cells.mean_rise(on_face, flux, face),
-        loss=cells.mean_rise(to_face, power, face),
-        surface_below=cells.mean_rise(to_face, flux, weight),
-        loss_below=cells.mean_rise(below, power, weight),
-        track=heating.track_resistance(radius, speed),
-        counterface=other,
-    )
+        other = cells.mean_rise(cells.influence(Diffusion(heating.counterface, other_speed)), flux[None], face[None])
+    rises = cells.rises(Diffusion(heating.rubber, speed), flux, face, power, weight)
+    return ThermalResistances(*rises, heating.track_resistance(radius, speed), other)
 
 
 class FaceTemperature(NamedTuple):
@@ -102,9 +119,12 @@ def face_temperature(
 
     The heat is shared such that both faces are equally warm on average; where they touch they may differ.
     """
-    coulomb, loss = heats(solution, heating, interface)
+    loss = abs(solution.friction_force * solution.speed)
+    assert solution.temperature is not None
+    area, kelvin = solution.contact_area, solution.temperature
+    coulomb = coulomb_heat(heating, interface, solution.speed, solution.load, area, kelvin)
     balance = HeatBalance.of(thermal_resistances(solution, modes, poisson_ratio, heating), coulomb, loss)
-    speed, cells = abs(solution.speed), _Cells.of(solution, _MAPPED)
+    speed, cells = abs(solution.speed), Cells.of(solution, _MAPPED)
     radius = cells.radius(solution)
     released = dissipation(cells.x, cells.y, cells.pressure, modes, poisson_ratio, speed, radius)
     entering = (coulomb - balance.counterface_heat) * cells.pressure / cells.pressure.sum()
@@ -148,7 +168,7 @@ def _between_depths(released: Dissipation) -> Callable[[Array], Array]:
     return factors
 
 
-class _Cells:
+class Cells:
     """Pressure (nx, ny) and weights of the mean over the contact on coarse cells, in motion towards +x."""
 
     def __init__(self, x: Array, y: Array, pressure: Array, inside: Array) -> None:
@@ -158,7 +178,7 @@ class _Cells:
         self.cell = x[1] - x[0], math.inf if self.is_line else y[1] - y[0]
 
     @classmethod
-    def of(cls, solution: ContactSolution, across_contact: int) -> _Cells:
+    def of(cls, solution: ContactSolution, across_contact: int) -> Cells:
         """Return so many cells along the contact, those of the solution put together, and room around it."""
         pressure = solution.pressure[::-1] if solution.speed < 0.0 else solution.pressure
         loaded = np.asarray(pressure > 0.0, dtype=np.float64)
@@ -179,6 +199,14 @@ class _Cells:
     def radius(self, solution: ContactSolution) -> float:
         """Return the half-width of a line contact, or the radius of a disc of equal area, m."""
         return 0.5 * solution.contact_area if self.is_line else math.sqrt(solution.contact_area / math.pi)
+
+    @classmethod
+    def of_disc(cls, radius: float) -> Cells:
+        """Return cells of a disc under a uniform pressure."""
+        step = 2.0 * radius / _CELLS
+        place: Array = step * (np.arange(float(_CELLS)) - 0.5 * (_CELLS - 1))
+        inside = np.asarray(np.hypot(place[:, None], place) < radius, dtype=np.float64)
+        return cls(place, place, inside, inside)
 
     @staticmethod
     def _room(loaded: Indices, size: int, before: float, after: float) -> tuple[int, int]:
@@ -202,6 +230,27 @@ class _Cells:
         padded = [scipy.fft.next_fast_len(size, real=True) for size in both.shape[1:]]
         spectrum = scipy.fft.rfft2(both, padded) * scipy.fft.rfft2(heat, padded)
         return np.asarray(scipy.fft.irfft2(spectrum.sum(0), padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])
+
+    def rises(
+        self, diffusion: Diffusion, flux: Array, face: Array, released: Dissipation, weight: Array
+    ) -> tuple[float, float, float, float]:
+        """Return mean rises by heat (nx, ny) on the face and by that of layers (nz, nx, ny), W.
+
+        Over the face, with its weights, by the one and the other; then over the layers, with theirs.
+        """
+        layers, between = len(released.depth), _between_depths(released)
+
+        def factors(lengths: Array) -> Array:
+            """Return those of `Diffusion.influence`: on the face, from each depth to it or back, and between depths."""
+            return np.concatenate([_to_face(released, lengths), between(lengths)])
+
+        on_face, to_face, below = np.split(self.influence(diffusion, factors), [1, 1 + layers])
+        return (
+            self.mean_rise(on_face, flux[None], face[None]),
+            self.mean_rise(to_face, released.power, face[None]),
+            self.mean_rise(to_face, flux[None], weight),
+            self.mean_rise(below, released.power, weight),
+        )
 
     def mean_rise(self, influence: Array, heat: Array, weight: Array) -> float:
         """Return the rise, K, by heat (m, nx, ny), W, averaged with weights (n, nx, ny), over all pairs of layers."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -11,13 +12,13 @@ import numpy as np
 from viscofric.arguments import flag, insist_on
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.derivatives.friction import differentiate
-from viscofric.contact.fields.dissipation import Modes
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.estimates import friction_estimate
 from viscofric.contact.free.nested import GivenGrid, find_window, refine
 from viscofric.contact.free.problem import COARSEST, Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
-from viscofric.contact.heated import ThermalContact, solve_heated
+from viscofric.contact.heated import solve_heated
+from viscofric.contact.heating import FreeThermalContact
 from viscofric.contact.indenters.indenter import (
     SMALL_STRAIN,
     Indenter,
@@ -183,7 +184,8 @@ def solve_steady(
             raise InputError("derivatives = True: not with heating; leave out one of them.", code="not-with-heating")
         held = {"load": load, "indentation": indentation}
         contact = thermal_contact(material, indenter, heating, speed, temperature, settings, **held)
-        return solve_heated(contact, settings.accuracy)
+        heated: ContactSolution = solve_heated(contact, settings.accuracy)
+        return heated
     solved = _solve(material, indenter, speed, load, indentation, temperature, settings)
     solution = solved.solution()
     return replace(solution, derivatives=solved.derivatives()) if differentiated else solution
@@ -197,15 +199,14 @@ def thermal_contact(
     temperature: Quantity | None,
     settings: ContactSettings,
     **held: Quantity | None,
-) -> ThermalContact:
+) -> FreeThermalContact:
     """Return a contact that its own friction heats; `held` is its load or indentation.
 
     Raises InputError if it cannot be: without α(T), a temperature or motion, with shear, or on a layer.
     """
     insist_on(heating, "heating", Heating)
     insist_on_material(material)
-    law = material.shift
-    if law is None or temperature is None:
+    if material.shift is None or temperature is None:
         raise InputError("heating: needs a material with a shift, and a temperature.", code="no-shift")
     moving = velocity(speed)
     if moving == 0.0 or math.isinf(moving):
@@ -216,19 +217,22 @@ def thermal_contact(
     if heating.passes > 0 and indenter.geometry.dimension == 1:
         raise InputError("passes: a line contact leaves no circular track.", code="line-track")
 
-    def modes(kelvin: float) -> Modes:
-        spectrum = material.modes_at(kelvin)
-        return Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+    solve = functools.partial(_isothermal, material, indenter, settings, held)
+    line = indenter.geometry.dimension == 1
+    return FreeThermalContact(material, heating, to_si(temperature, "K", "temperature"), moving, solve, line=line)
 
-    def solve(kelvin: float, accuracy: float) -> ContactSolution:
-        chosen = replace(settings, accuracy=accuracy)
-        return _solve(material, indenter, moving, held["load"], held["indentation"], kelvin, chosen).solution()
 
-    def log10_shift(kelvin: float) -> float:
-        return float(law.log10(kelvin))
-
-    kelvin = to_si(temperature, "K", "temperature")
-    return ThermalContact(heating, kelvin, material.poisson_ratio, log10_shift, modes, solve)
+def _isothermal(
+    material: Material,
+    indenter: Indenter,
+    settings: ContactSettings,
+    held: dict[str, Quantity | None],
+    speed: float,
+    kelvin: float,
+    accuracy: float,
+) -> ContactSolution:
+    chosen = replace(settings, accuracy=accuracy)
+    return _solve(material, indenter, speed, held["load"], held["indentation"], kelvin, chosen).solution()
 
 
 @one_blas_thread

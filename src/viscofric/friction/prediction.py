@@ -18,6 +18,7 @@ from viscofric.friction.interface.prediction import check_interface, with_interf
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
 from viscofric.processes import Workers, call_all
+from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.material import insist_on_material
 from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_array
 
@@ -170,12 +171,7 @@ def _check_heating(
     assert isinstance(heating, Heating)
     if samples is not None:
         raise InputError("heating: not with samples; leave out one.", code="not-with-heating")
-    if interface is not None and (heating.coulomb != 0.0 or slip is not None):
-        raise InputError(
-            "heating: with an interface, its shear stress makes the Coulomb heat, and the slip is that of the Heating; "
-            "leave out coulomb of the Heating, and slip.",
-            code="not-with-heating",
-        )
+    check_interface_heat(heating, interface, slip)
 
 
 def _insist_on_values(values: Array, name: str, unit: str) -> None:

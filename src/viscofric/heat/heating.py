@@ -8,6 +8,7 @@ from typing import Any, Literal, NamedTuple
 
 from viscofric.arguments import insist_on, number
 from viscofric.errors import InputError, check_choice
+from viscofric.heat.means import disc_mean
 from viscofric.heat.track import track_temperature
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, positive, to_si
@@ -37,6 +38,9 @@ class Heating:
     branch : {"cold", "hot"}
         Where a contact has a cold and a hot state: the one that a rising speed reaches from slow sliding, or the one
         that a falling speed reaches from fast sliding.
+    nominal_radius : float, str or pint.Quantity, optional
+        Of rough contacts: radius of the nominal contact, a disc that moves over the rubber with the contact, m.  Its
+        mean heat warms both bodies; without it, the rise is that above the mean of the surface.
 
     Raises
     ------
@@ -59,6 +63,7 @@ class Heating:
     passes: float = 0
     average: Literal["contact", "loss"] = "contact"
     branch: Literal["cold", "hot"] = "cold"
+    nominal_radius: Quantity | None = None
 
     def __post_init__(self) -> None:
         for name in ("rubber", "counterface"):
@@ -76,6 +81,8 @@ class Heating:
             )
         if self.slip is not None:
             object.__setattr__(self, "slip", abs(to_si(self.slip, "m/s", "slip")))
+        if self.nominal_radius is not None:
+            object.__setattr__(self, "nominal_radius", positive(self.nominal_radius, "m", "nominal_radius"))
         if self.track_radius is not None:
             object.__setattr__(self, "track_radius", positive(self.track_radius, "m", "track_radius"))
         elif passes > 0.0:
@@ -98,9 +105,32 @@ class Heating:
         )
         return float(rise[0])
 
+    def nominal(self, speed: float) -> NominalResistances:
+        """Return the rises of the nominal contact of a rough surface that moves at a speed, m/s."""
+        if self.nominal_radius is None:
+            return NominalResistances(0.0, 0.0, 0.0)
+        radius, speed = float(self.nominal_radius), abs(speed)
+        area = math.pi * radius**2
+        rubber, other = (
+            disc_mean(velocity * radius / (2.0 * body.diffusivity), hertz=False) * radius / float(body.conductivity)
+            for body, velocity in ((self.rubber, speed), (self.counterface, abs(speed - self.sliding(speed))))
+        )
+        return NominalResistances(rubber, other, area * self.track_resistance(radius, speed))
+
+
+class NominalResistances(NamedTuple):
+    """Mean rise of a nominal contact per heat of its area, K m²/W.
+
+    Of the rubber and of the counterface by the present heat, and of the rubber by heat in earlier passes.
+    """
+
+    rubber: float
+    counterface: float
+    track: float
+
 
 class ThermalResistances(NamedTuple):
-    """Rise of a contact per heat, K/W, or K m/W of a line contact.
+    """Rise of a contact per heat, K/W, K m/W of a line contact, or K m²/W of a rough surface.
 
     Of the rubber's face, on average, by heat on it and by the loss below; of the rubber where the loss is released, on
     average with it, by both; of all of the rubber by its heat in earlier passes; of the counterface's face, infinite

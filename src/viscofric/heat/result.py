@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from viscofric.data import read_only
 from viscofric.datasets import dataset
+from viscofric.errors import InputError
 
 if TYPE_CHECKING:
     import xarray
@@ -13,11 +17,80 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
 
 
+#: Rises of temperature of a steady contact, with unit and long name.
+RISES = {
+    "temperature_rise": ("K", "mean rise of temperature that the rubber responds to"),
+    "coulomb_rise": ("K", "rise of temperature due to Coulomb friction"),
+    "loss_rise": ("K", "rise of temperature due to the viscoelastic loss"),
+    "track_rise": ("K", "rise of temperature by earlier passes"),
+    "face_rise": ("K", "mean rise of temperature of the face"),
+    "loss_weighted_rise": ("K", "mean rise of temperature where the loss is released"),
+}
+#: Columns of friction with heating.
+COLUMNS = {
+    "isothermal": ("1", "viscoelastic friction coefficient without heating"),
+    **RISES,
+    "cold_viscoelastic": ("1", "viscoelastic friction coefficient as the speed rises"),
+    "cold_rise": ("K", "rise of temperature as the speed rises"),
+    "hot_viscoelastic": ("1", "viscoelastic friction coefficient as the speed falls"),
+    "hot_rise": ("K", "rise of temperature as the speed falls"),
+}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HeatColumns:
+    """Friction without heating, rises of temperature and both thermal states, an array each.
+
+    Attributes
+    ----------
+    isothermal : array
+        Viscoelastic friction coefficient without heating.
+    temperature_rise, coulomb_rise, loss_rise, track_rise : array
+        Rise of temperature that the rubber responds to, its parts due to Coulomb friction and to the loss, and the part
+        left by earlier passes, K.
+    face_rise, loss_weighted_rise : array
+        Both mean rises, over the face and where the loss is released, K; see `Heating`.
+    cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : array
+        Friction and rise of the coldest and of the hottest stable state, equal where there is one only.  A speed that
+        rises slowly follows the cold states, one that falls slowly the hot ones: the difference is the hysteresis.
+    """
+
+    isothermal: Array
+    temperature_rise: Array
+    coulomb_rise: Array
+    loss_rise: Array
+    track_rise: Array
+    face_rise: Array
+    loss_weighted_rise: Array
+    cold_viscoelastic: Array
+    cold_rise: Array
+    hot_viscoelastic: Array
+    hot_rise: Array
+
+    def keep_heat(self, shape: tuple[int, ...]) -> None:
+        """Make all columns read-only; raise InputError if one is not finite or of another shape."""
+        for name in COLUMNS:
+            column = read_only(getattr(self, name), f"{name} of heated friction")
+            if column.shape != shape or not np.all(np.isfinite(column)):
+                raise InputError(
+                    f"{name} of heated friction must hold one number for each friction coefficient.",
+                    code="wrong-length",
+                )
+            object.__setattr__(self, name, column)
+
+    def heat_variables(self, *dimensions: str) -> dict[str, tuple[tuple[str, ...], Array, dict[str, str]]]:
+        """Return the columns along dimensions of a data set."""
+        return {
+            name: (dimensions, getattr(self, name), {"units": unit, "long_name": words})
+            for name, (unit, words) in COLUMNS.items()
+        }
+
+
 @dataclass(frozen=True)
 class ContactHeating:
     """Heat and rise of temperature of a contact, and its friction without them.
 
-    Heats are in W, of a line contact in W/m.
+    Heats are in W, of a line contact in W/m, of a rough surface in W/m² of its nominal area.
 
     Attributes
     ----------
@@ -39,7 +112,8 @@ class ContactHeating:
     rubber_heat, counterface_heat : float
         The parts of their sum that both bodies take up.
     skin : float
-        Depth to which heat spreads while the contact passes, √(2κa/v) in the rubber, over the contact radius.
+        Depth to which heat spreads while the contact passes, √(2κa/v) in the rubber, over a: half the length of the
+        contact along the motion, or the mean one of the contact spots of a rough surface.
     isothermal_friction : float
         Friction coefficient at the temperature given, without heating.
     other_rise, other_friction : float or None
@@ -64,19 +138,14 @@ class ContactHeating:
 
     def to_dataset(self) -> xarray.Dataset:
         """Return all numbers with units and long names; those of the other state only where there is one."""
-        meanings = {
-            "temperature_rise": ("K", "mean rise of temperature that the rubber responds to"),
-            "coulomb_rise": ("K", "rise of temperature due to Coulomb friction"),
-            "loss_rise": ("K", "rise of temperature due to the viscoelastic loss"),
-            "track_rise": ("K", "rise of temperature by earlier passes"),
-            "face_rise": ("K", "mean rise of temperature of the face"),
-            "loss_weighted_rise": ("K", "mean rise of temperature where the loss is released"),
+        heat = "(W/m of a line contact, W/m² of a rough surface)"
+        meanings = RISES | {
             "residual": ("K", "rise produced minus rise assumed"),
-            "coulomb_heat": ("W", "heat of Coulomb friction (of a line contact per m)"),
-            "loss_heat": ("W", "heat of the viscoelastic loss (of a line contact per m)"),
-            "rubber_heat": ("W", "heat that the rubber takes up (of a line contact per m)"),
-            "counterface_heat": ("W", "heat that the counterface takes up (of a line contact per m)"),
-            "skin": ("1", "depth that the heat reaches during the contact over the contact radius"),
+            "coulomb_heat": ("W", f"heat of Coulomb friction {heat}"),
+            "loss_heat": ("W", f"heat of the viscoelastic loss {heat}"),
+            "rubber_heat": ("W", f"heat that the rubber takes up {heat}"),
+            "counterface_heat": ("W", f"heat that the counterface takes up {heat}"),
+            "skin": ("1", "depth that the heat reaches during the contact over half the length of the contact"),
             "isothermal_friction": ("1", "friction coefficient without heating"),
             "other_rise": ("K", "rise of temperature in the contact's other state"),
             "other_friction": ("1", "friction coefficient in the contact's other state"),

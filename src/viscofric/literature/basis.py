@@ -34,10 +34,10 @@ from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.roughness.ensemble import RoughFriction
 from viscofric.roughness.line_spectrum import LineSpectrum
 from viscofric.roughness.patches import ContactStatistics
 from viscofric.roughness.persson import PerssonTheory
+from viscofric.roughness.rough_friction import RoughFriction
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.study import StudyResults
 

@@ -5,33 +5,30 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from statistics import NormalDist
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 import numpy as np
 
 from viscofric.arguments import insist_on_function
-from viscofric.contact.periodic.solve import solve_periodic
+from viscofric.contact.periodic.heating import MEAN_LEFT_OUT, insist_on_heatable
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.datasets import dataset
-from viscofric.errors import ConvergenceError, InputError, brief, check_choice
+from viscofric.errors import InputError, brief
 from viscofric.processes import Workers, call_all
-from viscofric.rheology.interface.friction import friction_on_area, insist_on_interface
+from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
 from viscofric.rheology.material import Material, insist_on_material
-from viscofric.roughness.patches import contact_statistics
+from viscofric.roughness.ensemble_contacts import Numbers, OnDisk, on_disk, predict_heated, solve_one
+from viscofric.roughness.rough_friction import HeatedRoughFriction, RoughFriction
 from viscofric.roughness.topography import Topography
-from viscofric.units import Quantities, Quantity, positive, share, to_si_array
+from viscofric.units import Quantities, Quantity, positive, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import xarray
-
     from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.bodies import Layer
+    from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
 
 
@@ -52,146 +49,6 @@ class PeriodicSettings(TypedDict, total=False):
     backend: Backend | str
 
 
-@dataclass(frozen=True, eq=False)
-class RoughFriction:
-    """Friction and contact area on several rough surfaces, over temperatures and speeds.
-
-    Attributes
-    ----------
-    temperature : (m,) array
-        K; NaN where none was given: a material with a shift is then at its reference.
-    speed : (n,) array
-        m/s.
-    pressure : float
-        Nominal, Pa.
-    surfaces : tuple of str
-        Names of the k surfaces.
-    friction_coefficient : (m, n, k) array
-        For every temperature, speed and surface.
-    friction_error : (m, n, k) array
-        Estimated error that the grid makes in each; see `PeriodicDiagnostics.friction_error`.
-    contact_area_fraction : (m, n, k) array
-        Points under pressure over all.
-    corrected_area_fraction : (m, n, k) array
-        The same, corrected for the excess of counted points; see `ContactStatistics`.
-    stretch : (m, n, k) array
-        How many times longer the contact patches are along the motion than across; see `ContactStatistics`.
-    interface_friction, interface_error : (m, n, k) array or None
-        With an interface, its friction τ_s A/F on the corrected area, and the standard error due to the law.
-    notes : tuple of str
-        On the interface, one sentence each.
-    """
-
-    temperature: Array
-    speed: Array
-    pressure: float
-    surfaces: tuple[str, ...]
-    friction_coefficient: Array
-    friction_error: Array
-    contact_area_fraction: Array
-    corrected_area_fraction: Array
-    stretch: Array
-    interface_friction: Array | None = None
-    interface_error: Array | None = None
-    notes: tuple[str, ...] = ()
-
-    @property
-    def total(self) -> Array:
-        """Friction coefficient of hysteresis and interface, (m, n, k) array; InputError without an interface."""
-        if self.interface_friction is None:
-            raise InputError(
-                "there is no interfacial friction; give predict_rough_friction() an interface.", code="no-interface"
-            )
-        return self.friction_coefficient + self.interface_friction
-
-    @property
-    def mean_friction(self) -> Array:
-        """Mean friction coefficient over the surfaces, (m, n) array."""
-        return np.asarray(self.friction_coefficient.mean(axis=-1))
-
-    @property
-    def mean_area(self) -> Array:
-        """Mean corrected contact area fraction over the surfaces, (m, n) array."""
-        return np.asarray(self.corrected_area_fraction.mean(axis=-1))
-
-    def interval(
-        self, probability: float = 0.95, *, of: Literal["hysteresis", "total"] = "hysteresis"
-    ) -> tuple[Array, Array]:
-        """Return the confidence interval of the mean friction of all such surfaces.
-
-        By Student's t, for friction that scatters normally from surface to surface.  That of the total also has the
-        error of the law of the interface, which all surfaces share.  The error of the grid is not included.
-
-        Parameters
-        ----------
-        probability : float
-            Between 0 and 1.
-        of : {"hysteresis", "total"}
-
-        Returns
-        -------
-        lower, upper : (m, n) array
-
-        Raises
-        ------
-        InputError
-            If there is one surface only, the probability is out of range, or there is no interface.
-        """
-        check_choice(of, "of", "hysteresis", "total")
-        if of == "hysteresis":
-            return interval_of_mean(self.friction_coefficient, probability)
-        mean, (lower, _) = self.total.mean(axis=-1), interval_of_mean(self.total, probability)
-        assert self.interface_error is not None
-        shared = NormalDist().inv_cdf(0.5 + 0.5 * probability) * self.interface_error.mean(axis=-1)
-        half = np.hypot(mean - lower, shared)
-        return mean - half, mean + half
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Return everything over temperature, speed and surface, with the nominal pressure as an attribute."""
-        names = {
-            "friction_coefficient": "friction coefficient",
-            "friction_error": "estimated error of the friction coefficient",
-            "contact_area_fraction": "points under pressure over all",
-            "corrected_area_fraction": "real over nominal contact area",
-            "stretch": "length of contact patches along over across the motion",
-            "interface_friction": "friction coefficient of the interface",
-            "interface_error": "standard error of the friction coefficient of the interface",
-        }
-        return dataset(
-            ("temperature", "speed", "surface"),
-            {
-                name: (getattr(self, name), "1", long_name)
-                for name, long_name in names.items()
-                if getattr(self, name) is not None
-            },
-            coordinates={
-                "temperature": (self.temperature, "K", "temperature"),
-                "speed": (self.speed, "m/s", "sliding speed"),
-                "surface": (list(self.surfaces), "1", "name of the surface"),
-            },
-            attributes={"pressure": self.pressure} | ({"notes": "\n".join(self.notes)} if self.notes else {}),
-        )
-
-
-def interval_of_mean(found: Array, probability: float = 0.95) -> tuple[Array, Array]:
-    """Return lower and upper limit (...) of the confidence interval of the mean over all surfaces of a kind.
-
-    By Student's t, for values `found` (..., k) on k surfaces that scatter normally.  Raises InputError if there is one
-    surface only, or the probability is not between 0 and 1.
-    """
-    from scipy.special import stdtrit
-
-    wanted, count = share(probability, "probability", example=0.95), found.shape[-1]
-    if count < 2:
-        raise InputError(
-            "interval: needs two surfaces at least, since it rests on the scatter from surface to surface.",
-            code="one-surface",
-        )
-    mean = found.mean(axis=-1)
-    reach = float(stdtrit(count - 1, 0.5 + 0.5 * wanted)) * found.std(axis=-1, ddof=1) / math.sqrt(count)
-    return mean - reach, mean + reach
-
-
 def predict_rough_friction(
     material: Material,
     surfaces: Topography | PeriodicSurface | Sequence[Topography | PeriodicSurface],
@@ -202,6 +59,7 @@ def predict_rough_friction(
     interface: InterfaceLaw | None = None,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
+    heating: Heating | None = None,
     **settings: Unpack[PeriodicSettings],
 ) -> RoughFriction:
     """Solve the contact on every one of several rough surfaces at every speed and temperature.
@@ -224,6 +82,10 @@ def predict_rough_friction(
         Processes among which the contacts are distributed; the result is the same to the last digit.
     progress : callable, optional
         Called as ``progress(done, total)`` before the first and after every contact.
+    heating : Heating, optional
+        Thermal properties and Coulomb heat: each contact is at the temperature to which its own friction heats its
+        spots, in its cold and its hot state where it has two.  With an interface, its shear stress at that temperature
+        makes the Coulomb heat, and the slip is that of the heating.  Not with a layer or `coulomb`.
     **settings
         Of `solve_periodic`: `direction`, `coulomb`, `layer`, `indenter_modulus`, `indenter_poisson_ratio`, `tolerance`
         (1e-6 if left out), `most_products` and `backend`.
@@ -231,6 +93,7 @@ def predict_rough_friction(
     Returns
     -------
     RoughFriction
+        With heating `HeatedRoughFriction`.
 
     Raises
     ------
@@ -256,6 +119,62 @@ def predict_rough_friction(
     if unknown := settings.keys() - PeriodicSettings.__annotations__.keys():
         raise TypeError(f"predict_rough_friction() got an unexpected keyword argument {min(unknown)!r}")
     named = _named(surfaces)
+    velocities, kelvins = _states(speeds, temperatures)
+    insist_on_function(progress, "progress")
+    load = positive(pressure, "Pa", "pressure")
+    if interface is not None:
+        insist_on_interface(interface)
+    call: dict[str, Any] = {"material": material, "pressure": load, "tolerance": _TOLERANCE, **settings}
+    total = len(kelvins) * len(velocities) * len(named)
+    if heating is not None:
+        total *= 2
+        for speed in velocities:
+            known = None if temperatures is None else kelvins[0]
+            insist_on_heatable(heating, material, float(speed), known, call.get("layer"), call.get("coulomb", 0.0))
+        check_interface_heat(heating, interface)
+
+    def report(done: int) -> None:
+        if progress is not None:
+            progress(done, total)
+
+    report(0)
+    columns: dict[str, Any] = {}
+    with tempfile.TemporaryDirectory(prefix="viscofric-") as folder:
+        each: list[tuple[str, PeriodicSurface | OnDisk]] = list(named)
+        if (workers.number if isinstance(workers, Workers) else workers) != 1:
+            each = on_disk(named, Path(folder))
+        contacts = [
+            {"name": name, "surface": surface, "speed": float(speed), "temperature": kelvin}
+            for kelvin in kelvins
+            for speed in velocities
+            for name, surface in each
+        ]
+        if heating is None:
+            found = call_all(solve_one, [call | one for one in contacts], workers=workers, progress=report)
+        else:
+            found, columns = predict_heated(call, contacts, heating, interface, workers, report)
+    shape = len(kelvins), len(velocities), len(named)
+    numbers: dict[str, Any] = {name: np.array([getattr(one, name) for one in found]) for name in Numbers._fields}
+    numbers = {name: column.reshape(shape) for name, column in (numbers | columns).items()}
+    kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
+    if interface is not None:
+        warm = kelvin_or_nan[:, None, None] + numbers.get("temperature_rise", np.zeros(shape))
+        slip = velocities if heating is None else np.array([heating.sliding(float(one)) for one in velocities])
+        numbers |= friction_on_area(interface, slip, warm, load, numbers["corrected_area_fraction"])
+    if heating is not None and heating.nominal_radius is None:
+        numbers["notes"] = (*numbers.get("notes", ()), MEAN_LEFT_OUT)
+    result = RoughFriction if heating is None else HeatedRoughFriction
+    return result(
+        temperature=kelvin_or_nan,
+        speed=velocities,
+        pressure=load,
+        surfaces=tuple(name for name, _ in named),
+        **numbers,
+    )
+
+
+def _states(speeds: Quantities, temperatures: Quantities | None) -> tuple[Array, list[float | None]]:
+    """Return speeds, m/s, and temperatures, K, at least one of each; None where no temperature was given."""
     velocities = to_si_array(speeds, "m/s", "speeds")
     if not velocities.size:
         raise InputError("speeds must hold at least one value.", code="empty-list")
@@ -264,99 +183,7 @@ def predict_rough_friction(
         kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
         if not kelvins:
             raise InputError("temperatures must hold at least one value.", code="empty-list")
-    insist_on_function(progress, "progress")
-    load = positive(pressure, "Pa", "pressure")
-    if interface is not None:
-        insist_on_interface(interface)
-    calls: list[dict[str, Any]] = [
-        {
-            "name": name,
-            "material": material,
-            "surface": surface,
-            "speed": float(speed),
-            "temperature": kelvin,
-            "pressure": load,
-            "tolerance": _TOLERANCE,
-            **settings,
-        }
-        for kelvin in kelvins
-        for speed in velocities
-        for name, surface in named
-    ]
-
-    def report(done: int) -> None:
-        if progress is not None:
-            progress(done, len(calls))
-
-    report(0)
-    with tempfile.TemporaryDirectory(prefix="viscofric-") as folder:
-        if (workers.number if isinstance(workers, Workers) else workers) != 1:
-            _put_on_disk(calls, Path(folder))
-        found: list[_Numbers] = call_all(solve_one, calls, workers=workers, progress=report)
-    shape = len(kelvins), len(velocities), len(named)
-    numbers: dict[str, Any] = {
-        name: np.array([getattr(one, name) for one in found]).reshape(shape) for name in _Numbers._fields
-    }
-    kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
-    area = numbers["corrected_area_fraction"]
-    by_interface = {} if interface is None else friction_on_area(interface, velocities, kelvin_or_nan, load, area)
-    return RoughFriction(
-        temperature=kelvin_or_nan,
-        speed=velocities,
-        pressure=load,
-        surfaces=tuple(name for name, _ in named),
-        **numbers,
-        **by_interface,
-    )
-
-
-class _Numbers(NamedTuple):
-    """Results of one contact."""
-
-    friction_coefficient: float
-    friction_error: float
-    contact_area_fraction: float
-    corrected_area_fraction: float
-    stretch: float
-
-
-class _OnDisk(NamedTuple):
-    """A surface in a file, which every process reads for itself: each contact handed over would hold a copy."""
-
-    path: Path
-    spacing: tuple[float, float]
-
-    def read(self) -> PeriodicSurface:
-        return PeriodicSurface(np.load(self.path), self.spacing)
-
-
-def _put_on_disk(calls: list[dict[str, Any]], folder: Path) -> None:
-    """Put a file in the place of each surface."""
-    stored: dict[int, _OnDisk] = {}
-    for call in calls:
-        surface = call["surface"]
-        if id(surface) not in stored:
-            path = folder / f"{len(stored)}.npy"
-            np.save(path, surface.z)
-            stored[id(surface)] = _OnDisk(path, surface.spacing)
-    for call in calls:
-        call["surface"] = stored[id(call["surface"])]
-
-
-def solve_one(name: str, surface: PeriodicSurface | _OnDisk, **call: Any) -> _Numbers:
-    """Solve one contact of an ensemble, in whatever process; keep its numbers."""
-    try:
-        solution = solve_periodic(surface=surface.read() if isinstance(surface, _OnDisk) else surface, **call)
-    except ConvergenceError as error:
-        raise error.at(f"surface {name!r} at {call['speed']:g} m/s") from None
-    described = contact_statistics(solution)
-    return _Numbers(
-        solution.friction_coefficient,
-        solution.diagnostics.friction_error,
-        described.area_fraction,
-        described.corrected_area_fraction,
-        described.stretch,
-    )
+    return velocities, kelvins
 
 
 def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:

@@ -10,6 +10,7 @@ Along the motion dy/dt = −v dy/dx, so that s_k = −iqvτ_k/(1 − iqvτ_k) σ
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -18,12 +19,14 @@ import scipy.fft
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from viscofric.arrays import Array
 
 #: Depths in contact radii: Gauss's rule for ζ in z = ζ/(1 − ζ).
 _DEPTHS = 6
-#: Modes are put together within this factor of their times.
-_TOGETHER = 4.0
+#: Ratio of the times of modes that stand for a denser spectrum.
+_TOGETHER = 2.5
 
 
 class Modes(NamedTuple):
@@ -33,17 +36,34 @@ class Modes(NamedTuple):
     tau: Array
 
     def merged(self, shortest: float, longest: float) -> Modes:
-        """Return few modes with the same loss at times between these, and its power laws beyond."""
-        tau = np.clip(self.tau, shortest, longest)
+        """Return few modes with the same loss at times between these, and its power laws beyond.
+
+        Those of a dense spectrum are replaced by others, whose loss is fitted to theirs to a few parts in a thousand.
+        """
+        from scipy.optimize import nnls
+
+        lossy = self.C > 0.0
+        C, tau = self.C[lossy], self.tau[lossy]
+        held = np.clip(tau, shortest, longest)
+        times, place = np.unique(held, return_inverse=True)
         # Faster modes lose C τ ω², slower ones C/τ.
-        C = self.C * np.where(
-            self.tau < shortest, self.tau / shortest, np.where(self.tau > longest, longest / self.tau, 1.0)
-        )
-        group = np.round(np.log(tau / shortest) / np.log(_TOGETHER)).astype(int)
-        weight = np.bincount(group, C)
-        there = weight > 0.0
-        centre = np.bincount(group, C * np.log(tau))[there] / weight[there]
-        return Modes(np.asarray(weight[there], dtype=np.float64), np.exp(centre))
+        weight = np.bincount(place, C * np.minimum(tau / held, held / tau)).astype(np.float64)
+        found = Modes(weight, times)
+        span = math.log(longest / shortest)
+        few = np.geomspace(shortest, longest, 1 + math.ceil(span / math.log(_TOGETHER)))
+        if len(times) <= len(few):
+            return found
+        frequency = np.geomspace(1.0 / longest, 1.0 / shortest, 8 * len(few))
+        relative = _loss(frequency, few) / (_loss(frequency, times) @ found.C)[:, None]
+        unit = float(relative.max())
+        fitted = nnls(relative / unit, np.ones(len(frequency)))[0] / unit
+        return Modes(fitted[fitted > 0.0], few[fitted > 0.0])
+
+
+def _loss(frequency: Array, tau: Array) -> Array:
+    """Return ωτ/(1 + ω²τ²), (n, m)."""
+    x = np.multiply.outer(frequency, tau)
+    return np.asarray(x / (1.0 + np.square(x)))
 
 
 class Dissipation(NamedTuple):
@@ -90,10 +110,19 @@ def _density(stress: Array, step: float, modes: Modes, poisson_ratio: float) -> 
     padded = scipy.fft.next_fast_len(2 * nx, real=True)
     spectrum = scipy.fft.rfft(stress, padded, axis=1)
     rate = -2.0j * np.pi * scipy.fft.rfftfreq(padded, step)[:, None]
-    total = np.zeros(stress.shape[1:])
+
+    def on_dashpot(tau: float) -> Array:
+        return np.asarray(scipy.fft.irfft(spectrum * (rate * tau / (1.0 + rate * tau)), padded, axis=1)[:, :nx])
+
+    return power_density(on_dashpot, modes, poisson_ratio)
+
+
+def power_density(on_dashpot: Callable[[float], Array], modes: Modes, poisson_ratio: float) -> Array:
+    """Return w (...), W/m³, from the stress (6, ...) on the dashpot of a mode with a retardation time."""
+    total: Array | float = 0.0
     for C, tau in zip(*modes, strict=True):
-        on_dashpot = scipy.fft.irfft(spectrum * (rate * tau / (1.0 + rate * tau)), padded, axis=1)[:, :nx]
-        normal, shear = on_dashpot[:3], on_dashpot[3:]
+        stress = on_dashpot(float(tau))
+        normal, shear = stress[:3], stress[3:]
         squares = np.square(normal).sum(0) + 2.0 * np.square(shear).sum(0)
-        total += C / tau * ((1.0 + poisson_ratio) * squares - poisson_ratio * np.square(normal.sum(0)))
-    return total
+        total = total + C / tau * ((1.0 + poisson_ratio) * squares - poisson_ratio * np.square(normal.sum(0)))
+    return np.asarray(total)

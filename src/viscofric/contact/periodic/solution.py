@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.heat.result import ContactHeating
 
 #: Numbers of a contact on a rough surface.
 NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
@@ -118,6 +119,8 @@ class PeriodicSolution:
         One note for each assumption that is doubtful.
     coulomb : float
         Coulomb friction coefficient whose shear changed the pressure, as given; not part of `friction_coefficient`.
+    heating : ContactHeating or None
+        Heat, rise of temperature and isothermal friction, where requested; `temperature` is that without the rise.
     """
 
     speed: float
@@ -139,6 +142,12 @@ class PeriodicSolution:
     diagnostics: PeriodicDiagnostics
     warnings: tuple[str, ...] = ()
     coulomb: float = 0.0
+    heating: ContactHeating | None = None
+
+    @property
+    def temperature_rise(self) -> float:
+        """Rise of temperature by friction at which the contact was solved, K; zero without `heating`."""
+        return 0.0 if self.heating is None else self.heating.temperature_rise
 
     @property
     def numbers(self) -> xarray.Dataset:
@@ -153,7 +162,8 @@ class PeriodicSolution:
             "energy_balance": found.energy,
             "cells": max(self.pressure.shape),
         }
-        return labelled_numbers(NUMBERS, values)
+        found_numbers = labelled_numbers(NUMBERS, values)
+        return found_numbers if self.heating is None else found_numbers.assign(self.heating.to_dataset().data_vars)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return pressure, displacement and gap over x and y, and all `numbers`; main results also as attributes."""

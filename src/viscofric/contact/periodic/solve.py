@@ -20,6 +20,7 @@ from viscofric.contact.bodies import (
     unit_direction,
 )
 from viscofric.contact.indenters.indenter import too_steep
+from viscofric.contact.periodic.heating import PeriodicThermalContact, insist_on_heatable, solve_heated_surface
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.levels import Work
     from viscofric.contact.periodic.surface import Coarser
+    from viscofric.heat.heating import Heating
     from viscofric.notes import Note
     from viscofric.rheology.material import Material
 
@@ -71,6 +73,7 @@ def solve_periodic(
     tolerance: float = 1e-8,
     most_products: int = 10_000,
     backend: Backend | str = "scipy",
+    heating: Heating | None = None,
 ) -> PeriodicSolution:
     """Solve the steady contact of a rough surface that slides over a viscoelastic half-space or layer.
 
@@ -104,6 +107,9 @@ def solve_periodic(
         Products with the transfer function on the finest grid after which the solver gives up.
     backend : Backend or str
         Arrays and FFTs to solve with, such as "ducc0" or "torch:cuda"; see `Backend`.
+    heating : Heating, optional
+        Thermal properties and Coulomb heat: the contact is at the temperature to which its own friction heats its
+        spots; `PeriodicSolution.heating` holds it.  Several solves; not with a layer or `coulomb`.
 
     Returns
     -------
@@ -158,6 +164,16 @@ def solve_periodic(
     where = Backend.of(backend)
     modulus = material.at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
+    if heating is not None:
+        insist_on_heatable(heating, material, sliding, kelvin, layer, coulomb)
+        assert kelvin is not None
+        call = {
+            "surface": surface, "pressure": pressure, "gap": gap, "direction": direction, "tolerance": tolerance,
+            "indenter_modulus": indenter_modulus, "indenter_poisson_ratio": indenter_poisson_ratio,
+            "most_products": most_products, "backend": where,
+        }  # fmt: skip
+        isothermal = functools.partial(_isothermal, material, call)
+        return solve_heated_surface(PeriodicThermalContact(material, heating, kelvin, sliding, isothermal))
     solid = SlidingSolid(
         modulus,
         material.poisson_ratio,
@@ -188,6 +204,10 @@ def solve_periodic(
     motion = sliding, toward, kelvin
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
     return replace(solution, coulomb=float(coulomb), warnings=_large_strains(solution, steepness, layer))
+
+
+def _isothermal(material: Material, call: dict[str, Any], speed: float, kelvin: float, _: float) -> PeriodicSolution:
+    return solve_periodic(material, speed=speed, temperature=kelvin, **call)
 
 
 def _large_strains(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[Note, ...]:

@@ -25,7 +25,7 @@ from viscofric.report.results import group, is_synthetic, nearest, nominal_tempe
 from viscofric.report.sweeps import SAMPLE, labelled, solved_cases, sweep_axes, thinned
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-from viscofric.roughness.ensemble import RoughFriction
+from viscofric.roughness.rough_friction import RoughFriction
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

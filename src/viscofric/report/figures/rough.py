@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.roughness.ensemble import RoughFriction
     from viscofric.roughness.persson import PerssonTheory
+    from viscofric.roughness.rough_friction import RoughFriction
     from viscofric.roughness.scales import FrictionByWavelength
     from viscofric.roughness.spectrum import PowerSpectrum
     from viscofric.roughness.topography import Topography

@@ -90,7 +90,7 @@ def _middle_and_band(part: xr.Dataset, along: str) -> tuple[Array, Array, Array]
     """Return friction along an axis and the limits of its band, NaN where there is none."""
     each = _of_seeds(part, along)
     if each is not None:
-        from viscofric.roughness.ensemble import interval_of_mean
+        from viscofric.roughness.rough_friction import interval_of_mean
 
         return each.mean(axis=-1), *interval_of_mean(each)
     mu = np.asarray(best_estimate(part)[_COEFFICIENT].values, dtype=float)

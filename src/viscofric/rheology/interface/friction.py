@@ -13,6 +13,7 @@ from viscofric.rheology.shifts.shift_law import LN10
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
+    from viscofric.heat.heating import Heating
 
 
 #: Within this factor pressures are those of the fit.
@@ -28,6 +29,16 @@ def insist_on_interface(given: object) -> InterfaceLaw:
             code="not-a-law",
         )
     return given
+
+
+def check_interface_heat(heating: Heating, interface: object, slip: object = None) -> None:
+    """Raise InputError where the Coulomb heat of a contact would follow from two laws."""
+    if interface is not None and (heating.coulomb != 0.0 or slip is not None):
+        raise InputError(
+            "heating: with an interface, its shear stress makes the Coulomb heat, and the slip is that of the Heating; "
+            "leave out coulomb of the Heating, and slip.",
+            code="not-with-heating",
+        )
 
 
 def interface_friction(
@@ -75,10 +86,10 @@ def interface_notes(law: InterfaceLaw, speed: Array, kelvin: Array | None, press
 def friction_on_area(law: InterfaceLaw, speed: Array, kelvin: Array, pressure: float, area: Array) -> dict[str, Any]:
     """Return friction, standard error (m, n, k) and notes of an interface on parts (m, n, k) of the nominal area.
 
-    At m temperatures, NaN where none was given, n speeds of sliding and a nominal pressure.
+    At temperatures (m, n, k), NaN where none was given, n speeds of sliding and a nominal pressure.
     """
     v = np.broadcast_to(speed[None, :, None], area.shape)
-    T = np.broadcast_to(kelvin[:, None, None], area.shape) if np.all(np.isfinite(kelvin)) else None
+    T = kelvin if np.all(np.isfinite(kelvin)) else None
     local = pressure / area
     friction, error = interface_friction(law, v, T, local, np.zeros(area.shape))
     notes = interface_notes(law, v, T, local)

@@ -1,0 +1,152 @@
+"""Rise of temperature of a solved contact of a rough surface by its own friction.
+
+Heats are per nominal area.  Coulomb heat is released on the contact spots like the pressure, the loss where it is
+dissipated below.  Temperatures differ from place to place by both; the mean heat of the surface, of which a periodic
+contact knows no steady state, adds the rise of a nominal contact of a given size.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.arguments import insist_on
+from viscofric.contact.fields.dissipation import Dissipation
+from viscofric.contact.fields.periodic_dissipation import periodic_dissipation
+from viscofric.contact.heated import Heat, ThermalContact, solve_heated
+from viscofric.contact.heating import Cells
+from viscofric.errors import InputError
+from viscofric.heat.heating import Heating, ThermalResistances
+from viscofric.heat.influence import Diffusion
+from viscofric.heat.layers import MovingHeat, Waves
+from viscofric.notes import Note
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.contact.fields.dissipation import Modes
+    from viscofric.contact.periodic.solution import PeriodicSolution
+    from viscofric.heat.heating import NominalResistances
+    from viscofric.heat.layers import LayeredHeat
+    from viscofric.rheology.material import Material
+    from viscofric.units import Quantity
+
+
+#: Relative change of friction by the rise of temperature that may be left: points join and leave the spots.
+ACCURACY = 1e-2
+#: Power of the contact area with which local rises fall: 1 for more spots of the same size, ½ to ¾ for larger ones.
+_WITH_AREA = 0.7
+MEAN_LEFT_OUT = Note(
+    "mean-heat-left-out",
+    "The rise of temperature is that above the mean of the surface: how much the mean heat warms the surface depends "
+    "on the size of the nominal contact, which was not given (Heating.nominal_radius).",
+)
+
+
+@dataclass(frozen=True)
+class PeriodicThermalContact(ThermalContact):
+    """Contact of a rough surface at any rise of temperature."""
+
+    def heat(self, solution: PeriodicSolution, kelvin: float) -> Heat:
+        """Return the heats of a contact solved at a temperature, per nominal area."""
+        return Heat(
+            periodic_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating),
+            self.coulomb_heat(solution.mean_pressure, self.area(solution), kelvin),
+            abs(solution.friction_coefficient * solution.mean_pressure * solution.speed),
+            self.area(solution),
+            0.5 * _length(solution),
+        )
+
+    def area(self, solution: PeriodicSolution) -> float:
+        """Return the contact area over the nominal one."""
+        return solution.contact_area_fraction
+
+    def scaled(self, heat: Heat, larger: Array) -> ThermalResistances:
+        """Return resistances of larger contacts (n,): there are more and larger spots."""
+        nominal = self.heating.nominal(self.speed)
+        rubber = [nominal.rubber + (one - nominal.rubber) / larger**_WITH_AREA for one in heat.resistances[:4]]
+        other = nominal.counterface + (heat.resistances.counterface - nominal.counterface) / larger**_WITH_AREA
+        parts: Any = (*rubber, nominal.track, other)
+        return ThermalResistances(*parts)
+
+
+def insist_on_heatable(
+    heating: object, material: Material, speed: float, temperature: Quantity | None, layer: object, coulomb: float
+) -> None:
+    """Raise InputError unless a contact can be heated by its friction."""
+    insist_on(heating, "heating", Heating)
+    assert isinstance(heating, Heating)
+    if material.shift is None or temperature is None:
+        raise InputError("heating: needs a material with a shift, and a temperature.", code="no-shift")
+    if speed == 0.0 or math.isinf(speed):
+        raise InputError(f"heating: an elastic limit, speed = {speed:g}, has no heat.", code="elastic-limit")
+    if layer is not None or coulomb != 0.0:
+        raise InputError("heating: not with the shear of Coulomb friction or a layer.", code="not-with-heating")
+    if heating.passes > 0 and heating.nominal_radius is None:
+        raise InputError("passes: of a rough surface, need the nominal_radius.", code="give-one")
+
+
+def solve_heated_surface(contact: PeriodicThermalContact) -> PeriodicSolution:
+    """Return the contact of a rough surface in the state of the branch wanted."""
+    found: PeriodicSolution = solve_heated(contact, ACCURACY)
+    if contact.heating.nominal_radius is None:
+        found = replace(found, warnings=(*found.warnings, MEAN_LEFT_OUT))
+    return found
+
+
+def periodic_resistances(
+    solution: PeriodicSolution, modes: Modes, poisson_ratio: float, heating: Heating
+) -> ThermalResistances:
+    """Return rises of a contact per heat of its nominal area, K m²/W.
+
+    `modes` are those at the temperature at which it was solved.  The mean over the face is over the contact spots.
+    """
+    shape = solution.pressure.shape[0], solution.pressure.shape[1]
+    speed, toward = solution.speed, solution.direction
+    velocity = speed * toward[0], speed * toward[1]
+    waves = Waves(shape, (shape[0] * _step(solution.x), shape[1] * _step(solution.y)))
+    flux, loaded = waves.of(solution.pressure / solution.pressure.mean()), solution.pressure > 0.0
+    # Where all is in contact its mean is that of the surface: the mean of what the heat meets takes its place.
+    face = flux if loaded.all() else waves.of(loaded / loaded.mean())
+    released = periodic_dissipation(solution.pressure, waves, modes, poisson_ratio, velocity).unit
+    spots = MovingHeat(heating.rubber, waves, velocity).rises(flux, face, released)
+    over = speed - math.copysign(heating.sliding(speed), speed)
+    other = MovingHeat(heating.counterface, waves, (over * toward[0], over * toward[1])).surface_rise(flux, face)
+    nominal = heating.nominal(speed)
+    mean = _nominal_rises(heating, nominal, abs(speed), released)
+    surface, loss, surface_below, loss_below = (one + another for one, another in zip(spots, mean, strict=True))
+    return ThermalResistances(
+        surface, loss, surface_below, loss_below, track=nominal.track, counterface=nominal.counterface + other
+    )
+
+
+def _nominal_rises(
+    heating: Heating, nominal: NominalResistances, speed: float, released: LayeredHeat
+) -> tuple[float, ...]:
+    """Return mean rises of the nominal contact per heat on its face and in layers: of the face, then of the layers.
+
+    Of a disc on cells, relative to the rise of the face by heat on it, which is known exactly.
+    """
+    if heating.nominal_radius is None:
+        return 0.0, 0.0, 0.0, 0.0
+    cells = Cells.of_disc(float(heating.nominal_radius))
+    edges = np.concatenate([[0.0], np.cumsum(released.thickness)])
+    power = released.mean[:, None, None] * cells.inside
+    below = Dissipation(0.5 * (edges[1:] + edges[:-1]), released.thickness, power)
+    rises = cells.rises(Diffusion(heating.rubber, speed), cells.inside, cells.inside, below, power)
+    return tuple(nominal.rubber * one / rises[0] for one in rises)
+
+
+def _step(places: Array) -> float:
+    return float(places[1] - places[0]) if len(places) > 1 else 1.0
+
+
+def _length(solution: PeriodicSolution) -> float:
+    """Return the mean length of the contact spots along the motion's nearer axis, m; of all in contact, the period."""
+    axis = 0 if abs(solution.direction[0]) >= abs(solution.direction[1]) else 1
+    loaded = solution.pressure > 0.0
+    step = _step((solution.x, solution.y)[axis])
+    ends = int(np.count_nonzero(loaded != np.roll(loaded, 1, axis)))
+    return step * (2.0 * np.count_nonzero(loaded) / ends if ends else loaded.shape[axis])
