@@ -61,7 +61,7 @@ SMALL = {
     "solver": {"accuracy": 0.1, "cases": "each", "master_curve_points": 2},
     "outputs": {"fields": "none"},
 }
-CONTACT = "page.state.state.result('contact')"
+CONTACT = "page.jobs.result('contact')"
 
 
 @pytest.mark.slow
@@ -77,7 +77,7 @@ def _look_and_move(tab: Tab) -> None:
     found = curves(tab)
     assert {"30\u00a0°C", "60\u00a0°C", "90\u00a0°C", "live contact"} <= set(found)
     assert all(len(found[f"{celsius}\u00a0°C"]) == 25 for celsius in (30, 60, 90))
-    result = tab.value("page.state.state.result('curve')")
+    result = tab.value("page.jobs.result('curve')")
     assert found["30\u00a0°C"] == result["friction"][:25]
     assert len(found.get("doubtful", ())) == sum(map(bool, result["doubts"]))
     assert "75 points" in tab.text("#step-contact .progress-text")
@@ -95,18 +95,18 @@ def _look_and_move(tab: Tab) -> None:
 
     before = requested(tab)
     drag(tab, "speed", *range(100, 300, 4))
-    tab.until(f"Math.abs(Math.log10({CONTACT}.speed) - (-4 + 296 / 400 * 6)) < 0.01")
+    tab.until(f"Math.abs(Math.log10({CONTACT}?.speed) - (-4 + 296 / 400 * 6)) < 0.01")
     finished(tab)
     assert 1 <= requested(tab) - before < 40  # 50 places
     tab.page.fill(".live-number >> nth=1", "45")
     tab.page.press(".live-number >> nth=1", "Enter")
-    tab.until(f"{CONTACT}.temperature === 318.15")
+    tab.until(f"{CONTACT}?.temperature === 318.15")
     assert tab.page.get_attribute("#live-temperature", "aria-valuetext") == "45\u00a0°C"
     # A point of the curve is clicked.
     box = tab.page.locator(f"{CURVE} .scatterlayer .trace").first.locator(".point").nth(12).bounding_box()
     assert box is not None
     tab.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    tab.until(f"{CONTACT}.temperature === 303.15 && Math.abs({CONTACT}.speed - 0.1) < 1e-6")
+    tab.until(f"{CONTACT}?.temperature === 303.15 && Math.abs({CONTACT}?.speed - 0.1) < 1e-6")
 
 
 _FOLLOW = """async (given) => {
@@ -194,11 +194,11 @@ def _change_shapes(tab: Tab) -> None:
     study = "page.state.state.study"
     tab.page.select_option("#contact-shape", "cylinder")
     assert tab.value(f"[{study}.indenter.shape, {study}.conditions.load]") == ["cylinder", "2 N/mm"]
-    tab.until(f"{CONTACT}.kind === 'line'")
+    tab.until(f"{CONTACT}?.kind === 'line'")
     tab.page.wait_for_selector(MAP, state="hidden")
     tab.page.select_option("#contact-shape", "made")
     assert tab.value(f"[{study}.indenter, {study}.conditions.load, {study}.surface.hurst]") == [None, None, 0.8]
-    tab.until(f"{CONTACT}.kind === 'rough' && page.state.state.result('curve').kind === 'rough'")
+    tab.until(f"{CONTACT}?.kind === 'rough' && page.jobs.result('curve')?.kind === 'rough'")
     assert "Contact area fraction" in tab.text("#step-contact .key-numbers")
     tab.until(f"{_DRAWN}.some((one) => one.error_y?.array)")
     tab.page.select_option("#contact-shape", "ball")
@@ -237,11 +237,11 @@ def test_heated_friction_is_drawn_beside_the_isothermal_one(browser: Browser, se
         counterface = tab.page.get_by_label("Thermal properties of the indenter")
         counterface.fill("PTFE")
         counterface.press("Enter")
-        tab.until("Boolean(page.state.state.result('curve')?.heated_friction)", 120.0)
+        tab.until("Boolean(page.jobs.result('curve')?.heated_friction)", 120.0)
         tab.page.get_by_label("Shown").select_option("heated_friction")
         tab.until(f"{_DRAWN}.filter((one) => one.y.length === 2).length === 2")
         drawn = tab.value(f"{_DRAWN}.filter((one) => one.y.length === 2).map((one) => Array.from(one.y))")
-        found = tab.value("page.state.state.result('curve')")
+        found = tab.value("page.jobs.result('curve')")
         assert drawn == [found["heated_friction"], found["friction"]]
         assert all(one > 0.0 for one in found["temperature_rise"])
         tab.page.get_by_label("Shown").select_option("temperature_rise")

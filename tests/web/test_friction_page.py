@@ -74,7 +74,7 @@ def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> 
     step.get_by_label("Column of the disc speed").select_option(label="V1")
     step.get_by_label("Unit of the disc speed").fill("mm/s")
     step.get_by_role("button", name="Read with these columns").click()
-    tab.until("page.state.state.result('measured')?.runs === true", _SECONDS)
+    tab.until("page.jobs.result('measured')?.runs === true", _SECONDS)
     assert tab.value("page.state.state.get('measurement')") == {
         "mtm": "strange.csv",
         "columns": {"disc_speed": "V1 (mm/s)"},
@@ -172,5 +172,5 @@ def test_a_real_export_that_cannot_be_separated_says_what_to_do(tab: Tab, real_d
     zero = card.get_by_label("Zero of the force cell", exact=True)
     zero.fill("0")
     zero.press("Tab")
-    tab.until("page.state.state.result('measured')?.curves?.length > 0", _SECONDS)
+    tab.until("page.jobs.result('measured')?.curves?.length > 0", _SECONDS)
     tab.screenshot("measurement-real")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from web.browser_tab import tab as opened_tab
+from web.every_input import AT_REST, SEEN, STATE, STUDY
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -14,19 +15,6 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
     from web.served_page import Server
 
-STATE = "page.state.state"
-#: A study of sweeps with a measurement, so that every step has figures; small enough to be there at once.
-STUDY: dict[str, Any] = {
-    "title": "A ball on a synthetic rubber",
-    "data_origin": "synthetic",
-    "material": {"dma": "dma.csv", "reference_temperature": "30 degC", "deformation": "tension"},
-    "indenter": {"shape": "ball", "radius": "9.525 mm"},
-    "conditions": {"load": "25 N", "speed": ["10 mm/s", "100 mm/s"], "temperature": ["30 degC", "60 degC"]},
-    "solver": {"accuracy": 0.1, "cases": "each", "master_curve_points": 2},
-    "uncertainty": {"draws": 0},
-    "outputs": {"fields": "none"},
-    "measurement": {"mtm": "mtm.csv"},
-}
 #: One change of each input, and the steps with figures that depend on it.
 RUBBER, ALL = ("shift", "spectrum", "contact", "measurement"), ("sweeps", "shift", "spectrum", "contact", "measurement")
 CHANGES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
@@ -40,17 +28,6 @@ CHANGES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
     ({"conditions.temperature": ["60 degC", "90 degC"]}, ("contact",)),
     ({"measurement.zero": "0.05 N"}, ("measurement",)),
 ]
-#: Of each figure that is seen: whether it is grey, the inputs that it is of, and what is drawn.
-SEEN = """Object.fromEntries([...document.querySelectorAll('.step:not([hidden]) .figure')]
-  .filter((one) => one.offsetParent)
-  .map((one) => [one.id, {
-    stale: Boolean(one.closest('.stale')),
-    inputs: one.dataset.inputs,
-    words: one.querySelector('figcaption').textContent,
-    drawn: (one.querySelector('.plot').data ?? []).map((trace) =>
-      [trace.name, ...['x', 'y', 'z'].map((axis) => JSON.stringify(Array.from(trace[axis] ?? [])))])}]))"""
-#: The page computes nothing more.
-AT_REST = "[...document.querySelectorAll('.progress')].every((one) => one.hidden || one.classList.contains('done'))"
 
 
 def figures_of(tab: Tab, step: str) -> dict[str, Any]:
@@ -96,24 +73,28 @@ def test_a_figure_that_changes_while_it_is_hidden_is_drawn_when_it_is_seen(tab: 
 
 def test_results_of_earlier_inputs_are_grey_until_the_inputs_are_theirs_again(tab: Tab) -> None:
     def grey(change: str) -> bool:
-        return tab.value(
-            f"""await (async () => {{
-              const inputs = await import('/static/js/inputs.js');
-              {change};
-              return window.numbers.classList.contains('stale');
-            }})()"""
-        )
+        return tab.value(f"({change}, window.numbers.classList.contains('stale'))")
 
+    tab.value(
+        """(() => {
+          window.numbers = document.createElement('p');
+          const study = () => page.state.state.study;
+          const job = new page.jobs.Job('measured-again', { name: 'curve', inputs: () => ({ study: study() }) });
+          window.show = () => {
+            const answer = {};
+            job.put({ study: study() }, answer);
+            page.jobs.shows(window.numbers, answer);
+          };
+        })()"""
+    )
     load = f"{STATE}.set('conditions.load', '25 N')"
-    shown = """window.numbers = document.createElement('p');
-      window.answer = {};
-      inputs.computedFrom(window.answer, 'curve', page.state.state.study);
-      inputs.shows(window.numbers, window.answer)"""
-    assert not grey(f"{load}; {shown}")
+    assert not grey(f"{load}, window.show()")
     assert not grey(f"{STATE}.set('title', 'another title')")  # no number depends on it
     assert grey(f"{STATE}.set('conditions.load', '26 N')")
     assert not grey(load)
-    assert not grey(f"{STATE}.set('material', {{ file: 'rubber.json' }}); {shown}")
+    assert grey(f"{STATE}.set('conditions.load', '26 N')")
+    assert not grey(f"{STATE}.undo()")
+    assert not grey(f"{STATE}.set('material', {{ file: 'rubber.json' }}), window.show()")
     assert grey(f"{STATE}.renew(['rubber.json'])")  # other contents under the same name
 
 

@@ -57,7 +57,7 @@ def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
 
     page.get_by_text("History of the study").click()
     solved(tab)
-    found = tab.value("page.state.state.result('motion')")
+    found = tab.value("page.jobs.result('motion')")
     assert found["method"] == "springs"
     assert found["load"][-1] == pytest.approx(20.0, rel=1e-6)
     tab.until("document.querySelector('#figure-motion-indentation .plot').data?.length > 0")
@@ -74,11 +74,11 @@ def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
     page.get_by_label("Example").select_option("start")
     page.get_by_role("button", name="Use in the study").click()
     tab.until("page.state.state.get('history')?.slide !== undefined")
-    tab.until("page.state.state.result('run_file').text.includes('[history]')")
+    tab.until("page.jobs.result('export-run-file')?.text.includes('[history]')")
     drawn = tab.value(f"{_HISTORY}.rows")
     page.get_by_label("Dwell, one or several").fill("0.1, 1")
     page.get_by_label("Dwell, one or several").press("Tab")
-    tab.until("page.state.state.result('run_file').text.includes('dwell = [')")
+    tab.until("page.jobs.result('export-run-file')?.text.includes('dwell = [')")
     page.get_by_role("button", name="Show the study’s").click()
     tab.until(f"{_HISTORY}.rows[1][0] === 0.1")
     assert len(tab.value(f"{_HISTORY}.rows")) == len(drawn) == 4
@@ -107,7 +107,7 @@ def test_a_mass_hits_the_material(tab: Tab) -> None:
     tab.page.get_by_label("Speed (m/s)").fill("0.5")
     tab.page.get_by_label("Speed (m/s)").press("Tab")
     solved(tab)
-    assert 0.0 < tab.value("page.state.state.result('motion').contacts[0].restitution") < 1.0
+    assert 0.0 < tab.value("page.jobs.result('motion').contacts[0].restitution") < 1.0
     assert "restitution 0." in tab.text('#steps a[href="#motion"] .step-summary')
     tab.screenshot("motion-impact")
 
@@ -124,7 +124,7 @@ def test_a_rough_surface_goes_back_and_forth_until_it_is_stopped(browser: Browse
         tab.until(f"document.querySelector('{_STEP} progress').value > 1e-3", 60.0)
         tab.page.get_by_role("button", name="Cancel").click()
         tab.page.get_by_text("Stopped; the results end after").wait_for(timeout=30_000)
-        found = tab.value("page.state.state.result('motion')")
+        found = tab.value("page.jobs.result('motion')")
         assert found["interrupted"] == 1
         assert 0.0 < found["time"][-1] < tab.value(f"{_HISTORY}.rows").pop()[0]
         tab.screenshot("motion-stopped")

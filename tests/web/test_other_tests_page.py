@@ -30,8 +30,8 @@ def drawn(tab: Tab, figure: str, curves: int) -> None:
 
 def friction_is_predicted(tab: Tab) -> None:
     tab.step("contact")
-    tab.until("page.state.state.result('rubber')?.shift?.reference > 0")
-    assert tab.value("page.state.state.result('rubber').spectrum.modes !== null")
+    tab.until("page.jobs.result('rubber')?.shift?.reference > 0")
+    assert tab.value("page.jobs.result('rubber').spectrum.modes !== null")
 
 
 @pytest.mark.slow  # a browser
@@ -53,10 +53,10 @@ def test_creep_tests_are_recognised_and_asked_about(tab: Tab, tmp_path: Path) ->
     assert tab.text("#step-shift .verdict") == "Superposition holds"
     tab.screenshot("creep-shift")
     tab.step("spectrum")
-    tab.until("page.state.state.result('rubber')?.band?.draws > 0", 60.0)
+    tab.until("page.jobs.result('rubber')?.band?.draws > 0", 60.0)
     assert "misfit of the step tests" in tab.text("#step-spectrum .key-numbers")
     tab.screenshot("creep-spectrum")
-    found = tab.value("page.state.state.result('rubber').shift.factors")
+    found = tab.value("page.jobs.result('rubber').shift.factors")
     assert found["temperature"] == pytest.approx([273.15, 283.15, 293.15])
     planted = vf.synthetic_fluoroelastomer().shift
     # the step tests' own standard errors, 0.1 decades at most
@@ -90,7 +90,7 @@ def test_a_ramp_at_one_frequency_asks_for_a_law(tab: Tab, tmp_path: Path) -> Non
     law.wait_for()
     law.fill("universal")
     law.press("Tab")
-    tab.until("page.state.state.result('rubber')?.shift?.used === 'assumed'")
+    tab.until("page.jobs.result('rubber')?.shift?.used === 'assumed'")
     assert tab.value("page.state.state.get('material')")["ramps"] == "ramp.csv"
     tab.screenshot("ramp-data")
     tab.step("shift")
@@ -112,5 +112,5 @@ def test_an_amplitude_sweep_scales_the_material_of_the_contact(tab: Tab, tmp_pat
     assert material["amplitude_sweep"] == "payne.csv"
     assert 0.005 < material["strain"] < 0.1  # 0.2 a/R of 10 N on a ball of 9.525 mm
     assert "instead of" in tab.text("#step-sweeps")
-    tab.until("page.state.state.result('rubber')?.name.includes('scaled')")
+    tab.until("page.jobs.result('rubber')?.name.includes('scaled')")
     tab.screenshot("amplitude")

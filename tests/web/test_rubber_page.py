@@ -34,7 +34,7 @@ def example(opened: Tab) -> None:
 
 
 def rubber_is_made(opened: Tab) -> None:
-    opened.until("page.state.state.result('rubber')?.band !== undefined")
+    opened.until("page.jobs.result('rubber')?.band !== undefined")
 
 
 def point_of(opened: Tab, figure: str, curve: str) -> tuple[float, float, float]:
@@ -80,11 +80,11 @@ def test_from_the_example_to_its_spectrum(tab: Tab) -> None:
     fit = vf.superpose(vf.read_dma(files("viscofric") / "example" / "dma.csv"), "30 degC")
     # a pixel is a fiftieth of a decade
     assert held(tab) == {"60 degC": pytest.approx(fit.shift_factors.log10("60 degC") + 1.0, abs=0.03)}
-    tab.until("page.state.state.result('rubber')?.shift.origin === 'held'")
+    tab.until("page.jobs.result('rubber')?.shift.origin === 'held'")
     tab.until("document.querySelector('#dragged-misfit').textContent.startsWith('Fixed manually')")
     tab.screenshot("rubber-shift")
     tab.page.get_by_role("button", name="Undo all corrections").click()
-    tab.until("page.state.state.result('rubber')?.shift.origin === 'found'")
+    tab.until("page.jobs.result('rubber')?.shift.origin === 'found'")
 
     tab.step("spectrum")
     rubber_is_made(tab)
@@ -111,7 +111,7 @@ def test_steps_are_for_keyboards_and_screen_readers(tab: Tab) -> None:
         tab.page.keyboard.press("ArrowRight")
     tab.until("page.state.state.get('material.fixed_shift_factors') !== undefined")
     assert held(tab) == {"100 degC": pytest.approx(before + 0.1, abs=0.002)}
-    tab.until("page.state.state.result('rubber')?.shift.origin === 'held'")
+    tab.until("page.jobs.result('rubber')?.shift.origin === 'held'")
     tab.page.fill("#dragged-to", "-2.5")
     tab.page.keyboard.press("Tab")
     tab.until("page.state.state.get('material.fixed_shift_factors')?.['100 degC'] === -2.5")
@@ -121,7 +121,7 @@ def test_steps_are_for_keyboards_and_screen_readers(tab: Tab) -> None:
     tab.page.locator("#step-shift").get_by_label("Reference temperature").fill("50 °C")
     tab.page.keyboard.press("Tab")
     tab.until("page.state.state.get('material.fixed_shift_factors') === undefined")
-    tab.until("page.state.state.result('rubber')?.shift.reference === 323.15")
+    tab.until("page.jobs.result('rubber')?.shift.reference === 323.15")
     tab.step("spectrum")
     rubber_is_made(tab)
     drawn(tab, "modulus", 8)
@@ -197,7 +197,7 @@ def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     assert tab.page.get_by_label("Column of the frequency").count() == 0
     unit.fill("Pa")
     unit.press("Tab")
-    tab.until("page.state.state.result('rubber')?.spectrum.measured?.storage_modulus.length === 11")
+    tab.until("page.jobs.result('rubber')?.spectrum.measured?.storage_modulus.length === 11")
     drawn(tab, "isotherms-storage-modulus", 1)
     tab.step("shift")
     tab.until("document.querySelector('#step-shift').textContent.includes('valid at one temperature only')")
@@ -219,7 +219,7 @@ def test_rubbers_of_the_catalogue_and_laws(tab: Tab) -> None:
     assert tab.page.is_visible("#synthetic")
     tab.step("shift")
     tab.page.get_by_role("button", name="Use WLF", exact=True).click()
-    tab.until("page.state.state.result('rubber')?.shift.used === 'wlf'")
+    tab.until("page.jobs.result('rubber')?.shift.used === 'wlf'")
     assert tab.value("page.state.state.get('material.shift')") == "wlf"
 
 

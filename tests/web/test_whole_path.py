@@ -65,7 +65,7 @@ def rubber_of(tab: Tab, path: Path) -> None:
     tab.step("sweeps")
     tab.page.check("input[name=material-source][value=dma]")
     tab.page.set_input_files("#step-sweeps .panel:not([hidden]) input[type=file]", path)
-    tab.until("page.state.state.result('sweeps')?.isotherms.length === 19", _SECONDS)
+    tab.until("page.jobs.result('sweeps')?.isotherms.length === 19", _SECONDS)
     # the first study's third temperature lies beyond these sweeps
     assert tab.value("page.state.state.get('conditions.temperature')") == ["30 degC", "60 degC"]
     assert tab.value("page.state.state.get('title')") == "Friction of vinyl_nitrile_foam"
@@ -74,7 +74,7 @@ def rubber_of(tab: Tab, path: Path) -> None:
     choose(tab, "Measured in", "shear: G′, G″")
     sound(tab, "1-data")
     tab.step("shift")
-    tab.until("page.state.state.result('rubber')?.band !== undefined", _SECONDS)
+    tab.until("page.jobs.result('rubber')?.band !== undefined", _SECONDS)
     assert tab.text("#step-shift .verdict").startswith("Superposition")
     sound(tab, "2-shift")
     tab.step("spectrum")
@@ -91,11 +91,11 @@ def friction_of(tab: Tab) -> dict[str, Any]:
     tab.page.get_by_label("Layer on a rigid base").check()
     fill(tab, "Thickness", "3")
     tab.until("page.state.state.get('layer.thickness') === '3 mm'")
-    done = "page.state.state.result('curve')?.friction.length === 6 && page.state.state.result('curve').kind === 'line'"
+    done = "page.jobs.result('curve')?.friction.length === 6 && page.jobs.result('curve')?.kind === 'line'"
     tab.until(f"{done} && document.querySelector('#step-contact .progress').className.includes('done')", _SECONDS)
     tab.until("document.querySelector('.live-status').textContent === 'converged'", _SECONDS)
     sound(tab, "4-contact")
-    found: dict[str, Any] = tab.value("page.state.state.result('curve')")
+    found: dict[str, Any] = tab.value("page.jobs.result('curve')")
     return found
 
 

@@ -11,7 +11,6 @@
  * downloadUrl(name), workspace
  */
 
-import { computedFrom } from "./inputs.js";
 import { state } from "./state.js";
 
 const MOST_STREAMS = 4;
@@ -72,10 +71,6 @@ async function request(address, options = {}) {
 }
 
 export async function runJob(kind, { study = {}, options = {} } = {}, { onProgress, onPart, onStart, signal } = {}) {
-  const own = (found) => {
-    computedFrom(found, kind, study);
-    return found;
-  };
   return inTurn(signal, async () => {
     const response = await request(`/api/jobs/${encodeURIComponent(kind)}`, {
       method: "POST",
@@ -85,10 +80,10 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
     });
     for await (const message of messages(response.body)) {
       if (message.event === "progress") onProgress?.(message);
-      else if (message.event === "part") onPart?.(own(message.part));
+      else if (message.event === "part") onPart?.(message.part);
       else if (message.event === "started") onStart?.(message.job);
       else if (message.event === "cancelled") throw new DOMException("The job was cancelled.", "AbortError");
-      else if (message.event === "result") return own(message.result);
+      else if (message.event === "result") return message.result;
       else if (message.event === "error") throw jobError(message);
     }
     throw new JobError("The program behind this page ended before it answered; restart it with: viscofric web");

@@ -1,5 +1,7 @@
 // The form of a contact: shape, load, layer, speeds and temperatures, all of them keys of the study's document.
 
+import { effect } from "./reactive.js";
+
 const SHAPES = [
   ["ball", "Ball"],
   ["cylinder", "Cylinder (line contact)"],
@@ -144,8 +146,7 @@ export function contactForm({ state, fields, api, announce }) {
         const next = steps.map(([one]) => one).filter((one) => (one === step ? box.checked : now.includes(one)));
         state.set("surface.prepare", [...next, ...now.filter((one) => !steps.some(([known]) => known === one))]);
       });
-      state.subscribe("surface", show);
-      show();
+      effect(show);
       return h("label", { class: "row" }, box, text);
     });
     return [
@@ -172,8 +173,7 @@ export function contactForm({ state, fields, api, announce }) {
   function optional(path, ...children) {
     const element = h("div", { class: "form" }, ...children);
     const show = () => (element.hidden = state.get(path) === undefined);
-    state.subscribe(path, show);
-    show();
+    effect(show);
     return element;
   }
 
@@ -282,8 +282,7 @@ export function contactForm({ state, fields, api, announce }) {
     select.value = now;
     for (const [shapes, element] of groups) element.hidden = !shapes.includes(now);
   };
-  state.subscribe(["indenter", "surface"], show);
-  show();
+  effect(show);
 
   return [
     card(

@@ -155,8 +155,8 @@ export function ghostTraces(curve, look, name, dash) {
 }
 
 /** Where the live contact is on the curve. */
-export function liveTrace(live, { view, quantity, combination }, units) {
-  if (!live || quantity !== "friction" || live.combination !== combination) return [];
+export function liveTrace(live, { view, quantity }, units) {
+  if (!live || quantity !== "friction") return [];
   const { friction_coefficient: friction, reduced_speed: reduced } = live.numbers;
   const star = { mode: "markers", symbol: "star", size: 13, colour: "purple", decoration: true };
   const x = view === "shifted" ? reduced.value : live.speed;

@@ -1,10 +1,11 @@
 // Fields, notes, progress bars and other parts of a form; each returns an element to put into a step's section.
 //
-// Every field edits one path of the study's document (state.js) and shows, beside itself, the error whose `field` is that
-// path. showErrors([{field, message}]) shows what the check of the document found; showError(error, job) adds that of a job,
-// which stays until clearError(job), or until what it is about is changed.
+// Every field edits one path of the study's document (state.js) and shows, beside itself, the errors whose `field` is that
+// path: of the check of the document, and of the jobs.
 
+import * as jobs from "./jobs.js";
 import { h } from "./parts.js";
+import { computed, effect, signal } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
@@ -29,16 +30,18 @@ function field({ path, label, help, classes = "", beside = null }, control, cont
     element.setAttribute("role", "group");
     element.setAttribute("aria-labelledby", `${id}-label`);
   }
-  element.setError = (message) => {
-    error.textContent = message ?? "";
+  if (!path) return element;
+  if (!homes.peek().includes(path)) homes.value = [...homes.peek(), path];
+  effect(() => {
+    const message = [...(sentencesOf.value.get(path) ?? [])].join(" ");
+    error.textContent = message;
     error.hidden = !message;
-    for (const one of controls) one.toggleAttribute("aria-invalid", Boolean(message));
-    for (const one of controls) if (message) one.setAttribute("aria-invalid", "true");
+    for (const one of controls) {
+      if (message) one.setAttribute("aria-invalid", "true");
+      else one.removeAttribute("aria-invalid");
+    }
     element.classList.toggle("wrong", Boolean(message));
-  };
-  if (path) {
-    enrol(path, element);
-  }
+  });
   return element;
 }
 
@@ -61,7 +64,8 @@ function box(path, { read, write, placeholder, type = "text", label, ...rest }) 
     ...rest,
   });
   const refresh = () => {
-    if (document.activeElement !== input || !input.dataset.typing) input.value = write(state.get(path));
+    const words = write(state.get(path));
+    if (document.activeElement !== input || !input.dataset.typing) input.value = words;
   };
   input.addEventListener("input", () => (input.dataset.typing = "yes"));
   input.addEventListener("change", () => {
@@ -69,8 +73,7 @@ function box(path, { read, write, placeholder, type = "text", label, ...rest }) 
     state.set(path, input.value.trim() === "" ? undefined : read(input.value));
     refresh();
   });
-  state.subscribe(path, refresh);
-  refresh();
+  effect(refresh);
   return input;
 }
 
@@ -110,22 +113,20 @@ export function choiceField({ path, label, options, help, otherwise, onChange })
     if (onChange) onChange(value);
     else state.set(path, value);
   });
-  state.subscribe(path, refresh);
-  refresh();
+  effect(refresh);
   return field({ path, label, help }, select);
 }
 
 /** A switch that stands for a table or a key: toggleField({path: "layer", label: "Layer", value: {thickness: "2 mm"}}). */
 export function toggleField({ path, label, value = true, help }) {
   const input = h("input", { type: "checkbox", role: "switch" });
-  const refresh = () => (input.checked = state.get(path) !== undefined);
+  const refresh = () => void (input.checked = state.get(path) !== undefined);
   let last = value;
   input.addEventListener("change", () => {
     if (!input.checked) last = structuredClone(state.get(path));
     state.set(path, input.checked ? last : undefined);
   });
-  state.subscribe(path, refresh);
-  refresh();
+  effect(refresh);
   return field({ path: "", label, help, classes: "switch" }, input);
 }
 
@@ -181,8 +182,7 @@ export function rangeField({ path, label, kind = "plain", help, spacing = ["log"
     gap.value = state.get(`${path}.spacing`) ?? spacing[0];
   };
   mode.addEventListener("change", () => state.set(path, inForm(mode.value, state.get(path), { spacing, otherwise })));
-  state.subscribe(path, refresh);
-  refresh();
+  effect(refresh);
   return field({ path, label, help, beside: mode }, h("span", { class: "range-field" }, one, list, range), [
     one,
     list,
@@ -216,60 +216,32 @@ function inForm(form, value, { spacing, otherwise }) {
 
 // What is wrong with the study, each sentence beside the field that it is about.
 
-const shown = new Map(); // path -> fields that show its errors
-let checked = new Map(); // path -> what the check of the document says of it
-const ofJobs = new Map(); // job -> {error, forget}: what a job said
-
-/** Have a field show what is wrong with its path. */
-function enrol(path, element) {
-  if (!shown.has(path)) shown.set(path, new Set());
-  shown.get(path).add(element);
-  showAll();
-}
-
+const homes = signal([]); // paths of the fields on the page
 const within = (place, path) =>
   path !== "" && (place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`));
 
 /** The field's path that is nearest to the place of an error; undefined where the page has none. */
-const homeOf = (place) =>
-  [...shown.keys()].filter((path) => within(place ?? "", path)).sort((one, other) => other.length - one.length)[0];
+export const homeOf = (place) =>
+  homes.value.filter((path) => within(place ?? "", path)).sort((one, other) => other.length - one.length)[0];
 
-function showAll() {
-  const sentencesOf = new Map([...checked].map(([path, sentences]) => [path, new Set(sentences)]));
-  for (const { error } of ofJobs.values()) {
-    const home = homeOf(error.field);
-    if (home !== undefined) sentencesOf.set(home, (sentencesOf.get(home) ?? new Set()).add(error.message));
+/** All paths that have a field. */
+export const paths = () => homes.value;
+
+/** What the check of the document found, or else nothing yet: [{field, message}]. */
+const problems = () => jobs.newest("export-run-file")?.problems ?? [];
+
+/** Problems that have no field on the page. */
+export const homeless = () => problems().filter(({ field }) => homeOf(field) === undefined);
+
+/** Sentences by path: those of the check, and of jobs where the check has nothing to say. */
+const sentencesOf = computed(() => {
+  const found = new Map();
+  for (const errors of [problems(), jobs.errors()]) {
+    const before = new Set(found.keys());
+    for (const { field, message } of errors) {
+      const home = homeOf(field);
+      if (home !== undefined && !before.has(home)) found.set(home, (found.get(home) ?? new Set()).add(message));
+    }
   }
-  for (const [path, elements] of shown)
-    for (const element of elements) element.setError([...(sentencesOf.get(path) ?? [])].join(" "));
-}
-
-/** Show each sentence beside its field and none beside the others; returns those that have no field on the page. */
-export function showErrors(problems) {
-  const homeless = [];
-  checked = new Map();
-  for (const problem of problems) {
-    const home = homeOf(problem.field);
-    if (home === undefined) homeless.push(problem);
-    else checked.set(home, [...(checked.get(home) ?? []), problem.message]);
-  }
-  showAll();
-  return homeless;
-}
-
-/** Show the error of a job beside its field; returns whether there is such a field. */
-export function showError(error, job = "job") {
-  clearError(job);
-  if (!error?.field) return false;
-  ofJobs.set(job, { error, forget: state.subscribe(error.field, () => clearError(job)) });
-  showAll();
-  return homeOf(error.field) !== undefined;
-}
-
-/** Forget the error of a job. */
-export function clearError(job) {
-  if (!ofJobs.has(job)) return;
-  ofJobs.get(job).forget();
-  ofJobs.delete(job);
-  showAll();
-}
+  return found;
+});

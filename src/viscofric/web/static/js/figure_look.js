@@ -1,5 +1,7 @@
 // Colours of figures, light and dark, and one look for each temperature: blue where cold, red where warm.
 
+import { signal } from "./reactive.js";
+
 // Okabe and Ito's colours, cold to warm, as in the reports; [on light, on dark]
 const HUES = {
   blue: ["#0072b2", "#56a9e0"],
@@ -26,10 +28,22 @@ const SYMBOLS = ["circle", "square", "triangle-up", "diamond", "triangle-down", 
 
 const DASHES = ["solid", "9px,3px", "3px,3px", "9px,3px,3px,3px"];
 
+const darkSystem = matchMedia("(prefers-color-scheme: dark)");
+const chosenTheme = signal(document.documentElement.dataset.theme); // none: as the system
+const systemIsDark = signal(darkSystem.matches);
+darkSystem.addEventListener("change", () => (systemIsDark.value = darkSystem.matches));
+
 /** Whether the page is dark now. */
-export function isDark() {
-  const chosen = document.documentElement.dataset.theme;
-  return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+export const isDark = () => (chosenTheme.value ? chosenTheme.value === "dark" : systemIsDark.value);
+
+/** Have the page "light" or "dark", also after a reload. */
+export function chooseTheme(theme) {
+  chosenTheme.value = document.documentElement.dataset.theme = theme;
+  try {
+    localStorage.setItem("viscofric.theme", theme);
+  } catch {
+    // Without storage the choice holds until the page is left.
+  }
 }
 
 function mixed(one, other, share) {

@@ -5,7 +5,7 @@
 //   x: {label: "speed", kind: "speed", log: true}, y: {label: "friction coefficient"},
 //   traces: [{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size,
 //             lower, upper (a band around y), error (bars, SI), hidden, legend: false, text, width}],
-//   of: the result of a job that is drawn: the figure is grey while the study's inputs are others (inputs.js),
+//   of: the result of a job that is drawn: the figure is grey while the inputs are others (jobs.js),
 //   marks: [{x | y, label}] (lines across the figure), height, empty: "text without data", synthetic: true,
 //   layout: {…plotly}, onClick: (point) => … })
 // handle.update({traces: …})    changes parts of the spec and draws again
@@ -18,14 +18,14 @@
 import { layoutOf, mapTraces, plotlyTraces } from "./figure_drawing.js";
 import { isDark } from "./figure_look.js";
 import { csv, described, hasData, numbers } from "./figure_numbers.js";
-import { forget, shows } from "./inputs.js";
+import { forget, shows } from "./jobs.js";
 import { button, h, table } from "./parts.js";
+import { effect } from "./reactive.js";
 import * as units from "./units.js";
 
-export { hue, isDark, temperatureColour, temperatureLook } from "./figure_look.js";
+export { chooseTheme, hue, isDark, temperatureColour, temperatureLook } from "./figure_look.js";
 export { csv, numbers } from "./figure_numbers.js";
 
-const live = new Set();
 let plotly = null;
 
 /** Plotly, once it has come. */
@@ -203,17 +203,20 @@ export function figure(container, first) {
       request();
       return handle;
     },
-    redraw: request,
     remove() {
       size.disconnect();
-      live.delete(handle);
+      follow();
       forget(element);
       if (drawnOnce) window.Plotly.purge(plot);
       element.remove();
     },
   };
-  live.add(handle);
-  request();
+  // another choice of units, or of light and dark
+  const follow = effect(() => {
+    isDark();
+    units.choices();
+    request();
+  });
   return handle;
 }
 
@@ -221,12 +224,3 @@ export function figure(container, first) {
 export function map(container, spec) {
   return figure(container, { z: [], ...spec });
 }
-
-/** Draw all figures again, as after another choice of units or of light and dark. */
-export function redrawAll() {
-  for (const handle of live) handle.redraw();
-}
-
-units.subscribe(redrawAll);
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
-document.addEventListener("themechange", redrawAll);

@@ -1,7 +1,8 @@
 // Tools in the page's header: undo and redo, the menu of units, light and dark.
 
-import { isDark } from "./figures.js";
+import { chooseTheme, isDark } from "./figures.js";
 import { button, h, icon } from "./parts.js";
+import { effect } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
@@ -34,8 +35,7 @@ function unitsMenu() {
       h("div", { class: "menu-grid" }, rows.flat()),
     );
   };
-  fill();
-  units.subscribe(() => {
+  effect(() => {
     const focused = document.activeElement?.id;
     fill();
     if (focused) document.getElementById(focused)?.focus();
@@ -44,29 +44,13 @@ function unitsMenu() {
 }
 
 function themeButton() {
-  const show = () => {
-    const dark = isDark();
-    toggle.setAttribute("aria-label", dark ? "Dark; change to light" : "Light; change to dark");
-    toggle.title = dark ? "Light" : "Dark";
-  };
   const toggle = h("button", { type: "button", class: "button quiet" }, icon("theme"));
-  toggle.addEventListener("click", () => {
-    chooseTheme(isDark() ? "light" : "dark");
-    show();
+  toggle.addEventListener("click", () => chooseTheme(isDark() ? "light" : "dark"));
+  effect(() => {
+    toggle.setAttribute("aria-label", isDark() ? "Dark; change to light" : "Light; change to dark");
+    toggle.title = isDark() ? "Light" : "Dark";
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
-  show();
   return toggle;
-}
-
-function chooseTheme(theme) {
-  document.documentElement.dataset.theme = theme;
-  try {
-    localStorage.setItem("viscofric.theme", theme);
-  } catch {
-    // Without storage the choice holds until the page is left.
-  }
-  document.dispatchEvent(new Event("themechange"));
 }
 
 function undoButtons(announce) {
@@ -93,12 +77,10 @@ function undoButtons(announce) {
     },
     icon("redo"),
   );
-  const show = () => {
+  effect(() => {
     undo.disabled = !state.canUndo;
     redo.disabled = !state.canRedo;
-  };
-  state.subscribe("", show);
-  show();
+  });
   document.addEventListener("keydown", (event) => {
     if (
       !(event.ctrlKey || event.metaKey) ||

@@ -2,7 +2,7 @@
 //
 // const live = follow({request, show, fail, busy, rest: 250})
 //   request(position, "coarse" | "sharp", signal) -> Promise<result>      result.stage is "sharp" where nothing is left to sharpen
-//   show(result, position), fail(error), busy("" | "coarse" | "sharp")
+//   show(result, position), fail(error, position), busy("" | "coarse" | "sharp")
 // live.want(position)     the slider is there now; of those that come while a coarse result is awaited the last one counts
 // live.stop()             nothing more is wanted
 
@@ -36,7 +36,7 @@ export function follow({ request, show, fail, busy = () => {}, rest = 250 }) {
       if (!signal.aborted) show(result, position);
     } catch (error) {
       // The failure of a result that is no longer wanted is not shown.
-      if (!signal.aborted && newest === null && error.name !== "AbortError") fail(error);
+      if (!signal.aborted && newest === null && error.name !== "AbortError") fail(error, position);
     }
     if (signal.aborted) return;
     coarse = null;
@@ -53,7 +53,7 @@ export function follow({ request, show, fail, busy = () => {}, rest = 250 }) {
       const result = await request(position, "sharp", mine.signal);
       if (sharp === mine) show(result, position);
     } catch (error) {
-      if (sharp === mine && error.name !== "AbortError") fail(error);
+      if (sharp === mine && error.name !== "AbortError") fail(error, position);
     }
     if (sharp !== mine) return;
     sharp = null;

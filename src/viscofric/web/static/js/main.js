@@ -4,6 +4,8 @@ import * as api from "./api.js";
 import * as figures from "./figures.js";
 import * as fields from "./fields.js";
 import { headerTools } from "./header.js";
+import { Job } from "./jobs.js";
+import { effect } from "./reactive.js";
 import { state } from "./state.js";
 import contact from "./steps/contact.js";
 import * as lazy from "./steps/lazy.js";
@@ -28,7 +30,7 @@ const FIRST = "contact";
 
 const app = { state, units, figures, fields, api, start: null, goTo, announce, explain, waits, isSynthetic };
 const steps = new Map();
-let current = null;
+const check = new Job("export-run-file", { wait: 200, inputs: () => ({ study: state.study }) });
 
 /** A sentence for screen readers alone. */
 function announce(text) {
@@ -54,8 +56,8 @@ function explain(error, here) {
 }
 
 /** The same for the contact's step, which does not repeat the sentence at the field. */
-function waits(what, error, job) {
-  const beside = fields.showError(error, job) && stepOf(error.field) === "contact";
+function waits(what, error) {
+  const beside = fields.homeOf(error.field) !== undefined && stepOf(error.field) === "contact";
   return beside ? `Fix the marked field to update ${what}.` : explain(error, "contact");
 }
 
@@ -73,7 +75,7 @@ function scrollRailTo(link) {
 function goTo(id, { focus = true } = {}) {
   if (!steps.has(id)) return;
   if (location.hash !== `#${id}`) history.pushState(null, "", `#${id}`);
-  current = id;
+  state.lookAt(id);
   for (const [one, step] of steps) {
     step.section.hidden = one !== id;
     if (one === id) step.link.setAttribute("aria-current", "step");
@@ -101,18 +103,6 @@ async function mount(step) {
   }
 }
 
-function summarise() {
-  for (const step of steps.values()) {
-    let text = "";
-    try {
-      text = step.module.summary?.(state) ?? "";
-    } catch (error) {
-      console.error(error);
-    }
-    step.summary.textContent = text;
-  }
-}
-
 function addStep(module, number) {
   const { id, title } = module;
   const summary = h("span", { class: "step-summary" });
@@ -136,7 +126,8 @@ function addStep(module, number) {
     body,
   );
   document.getElementById("main").append(section);
-  steps.set(id, { id, title, module, link, summary, section, heading, body, mounted: false });
+  steps.set(id, { id, title, module, link, section, heading, body, mounted: false });
+  effect(() => void (summary.textContent = module.summary(state)));
 }
 
 /** Whether a study rests on synthetic data. */
@@ -147,43 +138,22 @@ function isSynthetic(study) {
   );
 }
 
-function showSynthetic() {
-  document.getElementById("synthetic").hidden = !isSynthetic(state.study);
-}
-
 /** A problem without a field on the page, with what it is about before its sentence. */
 function named({ field, message }) {
   const about = field ? `${steps.get(stepOf(field)).title}: ${message[0].toLowerCase()}${message.slice(1)}` : message;
   return { field, message: about };
 }
 
-/** Have the document checked after each change, and each sentence shown beside its field. */
+/** Have the document checked after each change, and show the sentences that have no field. */
 function watch() {
   const elsewhere = fields.note([], "error");
   elsewhere.setAttribute("aria-live", "assertive");
   document.getElementById("main").prepend(elsewhere);
-  let timer = null;
-  let running = null;
-  const check = async () => {
-    running?.abort();
-    running = new AbortController();
-    try {
-      const found = await api.runJob(
-        "export-run-file",
-        { study: state.study, options: {} },
-        { signal: running.signal },
-      );
-      elsewhere.set(fields.showErrors(found.problems).map((problem) => explain(named(problem), current)));
-      state.setResult("run_file", found);
-    } catch (error) {
-      if (error.name !== "AbortError") elsewhere.set([error.message]);
-    }
-  };
-  state.subscribe("", () => {
-    clearTimeout(timer);
-    timer = setTimeout(check, 200);
+  check.start();
+  effect(() => {
+    const failed = check.error ? [check.error.message] : [];
+    elsewhere.set([...fields.homeless().map((problem) => explain(named(problem), state.step)), ...failed]);
   });
-  check();
 }
 
 async function begin() {
@@ -197,32 +167,13 @@ async function begin() {
     main.append(fields.note([`The page could not be started: ${error.message}`], "error"));
     return;
   }
-  state.subscribe("", () => {
-    summarise();
-    showSynthetic();
-  });
-  for (const key of [
-    "run_file",
-    "sweeps",
-    "rubber",
-    "shift",
-    "spectrum",
-    "curve",
-    "contact",
-    "motion",
-    "measured",
-    "agreement",
-    "export",
-  ])
-    state.onResult(key, summarise);
-  summarise();
-  showSynthetic();
+  effect(() => void (document.getElementById("synthetic").hidden = !isSynthetic(state.study)));
   document.querySelector(".skip").addEventListener("click", (event) => {
     event.preventDefault();
-    steps.get(current).heading.focus();
+    steps.get(state.step).heading.focus();
   });
-  const fromAddress = () => (steps.has(location.hash.slice(1)) ? location.hash.slice(1) : (current ?? FIRST));
-  window.addEventListener("popstate", () => fromAddress() !== current && goTo(fromAddress()));
+  const fromAddress = () => (steps.has(location.hash.slice(1)) ? location.hash.slice(1) : (state.step ?? FIRST));
+  window.addEventListener("popstate", () => fromAddress() !== state.step && goTo(fromAddress()));
   goTo(fromAddress(), { focus: false });
   watch();
 }

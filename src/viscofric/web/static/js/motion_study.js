@@ -1,5 +1,7 @@
 // The history of the study ([history] in the run file): set from this step, shown in it, edited or removed.
 
+import { effect } from "./reactive.js";
+
 /** Part of the card; `rows()` returns the history of the step, `take(found)` shows another one in the step. */
 export function studyHistory({ state, fields, units, api, explain, announce }, { rows, take }) {
   const { h, button } = fields;
@@ -62,8 +64,7 @@ export function studyHistory({ state, fields, units, api, explain, announce }, {
       ? "Export and viscofric run also solve the study over time; stages use its loads and speeds."
       : "“Use in the study” adds this history to the run file; Export and viscofric run then also solve over time.";
   };
-  state.subscribe("history", refresh);
-  refresh();
+  effect(refresh);
   const head = h("summary", {}, "History of the study");
   return h(
     "details",

@@ -1,5 +1,6 @@
 // Parts of the page: elements, buttons, cards, notes, progress bars, key numbers, tables, places to drop files.
 
+import { effect } from "./reactive.js";
 import * as units from "./units.js";
 
 let made = 0;
@@ -102,30 +103,24 @@ export function note(list = [], kind = "note") {
   return element;
 }
 
-/** Progress of one computation: bar.start("…"), bar.set(3, 39, "60 °C"), bar.finish("…"), bar.fail("…"), with a cancel button. */
-export function progressBar({ label = "Computing", onCancel } = {}) {
+/** Progress of a job, with a button that cancels it; `ended({seconds, cancelled})` words its end, by default only a cancelled one. */
+export function progressBar(job, { label = "Computing", cancels = true, ended = ({ cancelled }) => (cancelled ? "Cancelled." : "") }) {
   const bar = h("progress", { max: 1, "aria-label": label });
   const text = h("span", { class: "progress-text" });
-  const cancel = button({ label: "Cancel", kind: "quiet small", onClick: () => onCancel?.() });
-  const element = h("div", { class: "progress", hidden: true }, bar, text, onCancel ? cancel : null);
-  const show = (words, running, kind = "") => {
-    element.hidden = words === "";
-    element.className = `progress ${kind}`.trim();
-    bar.hidden = cancel.hidden = !running;
-    text.textContent = words;
-  };
-  return Object.assign(element, {
-    start(words = label) {
-      bar.removeAttribute("value");
-      show(`${words} …`, true);
-    },
-    set(done, total, words = "") {
-      if (total > 0) bar.value = done / total;
-      show([total > 1 ? `${done} of ${total}` : "", words].filter(Boolean).join(" · ") || `${label} …`, true);
-    },
-    finish: (words = "") => show(words, false, "done"),
-    fail: (words = "") => show(words, false, "failed"),
+  const cancel = button({ label: "Cancel", kind: "quiet small", onClick: () => job.cancel() });
+  const element = h("div", { class: "progress", hidden: true }, bar, text, cancels ? cancel : null);
+  effect(() => {
+    const { done, total, label: words } = job.progress ?? {};
+    const counted = total > 1 ? `${Math.round(done)} of ${total}` : "";
+    const end = !job.progress && job.ended ? ended(job.ended) : "";
+    text.textContent = job.progress ? [counted, words].filter(Boolean).join(" · ") || `${label} …` : end;
+    element.hidden = text.textContent === "";
+    element.className = job.progress ? "progress" : "progress done";
+    bar.hidden = cancel.hidden = !job.progress;
+    if (total > 0) bar.value = done / total;
+    else bar.removeAttribute("value");
   });
+  return element;
 }
 
 /** The main numbers of a result: keyNumbers([{label, value, remark}]). */

@@ -1,4 +1,5 @@
 // The page's state: the document of a study (the tables of a run file, as the user typed them), with undo, kept over reloads.
+// It is held in signals: an effect, a computed value or a view that reads some of it follows that part.
 //
 // state.study                       the document, frozen; never change it in place
 // state.get("conditions.load")      a value, or undefined; paths like "material.dma[1]" reach into lists
@@ -6,21 +7,21 @@
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
 // state.change({path: value, …})    changes several keys as one step of undo
 // state.replace(document)           another document altogether
-// state.renew(names)                files of these names have other contents: what depends on them is notified as of a change
+// state.renew(names)                files of these names have other contents: results of them are outdated
 // state.renewals(name)              how often that happened
-// state.subscribe(paths, callback)  callback({changed: [paths]}) after a change of one of these paths or below ("" is all);
-//                                   returns what ends the subscription
 // state.undo(), state.redo(), state.canUndo, state.canRedo
-// state.setResult(key, value), state.result(key), state.onResult(key, callback)    what steps hand to each other
 // state.view(key, otherwise), state.setView(key, value)    what is chosen on the page but is no part of the study
-// state.edit(key, value)            the same as one step of undo; subscribe to "view.key"
+// state.edit(key, value)            the same as one step of undo
+// state.step                        the step that is looked at; state.lookAt(step)
+
+import { batch, computed, effect, signal } from "./reactive.js";
 
 const KEY = "viscofric.study";
 const VIEW = "viscofric.view";
 const MOST_UNDO = 100;
 
 /** Parts of a path: "material.dma[1]" -> ["material", "dma", 1]. */
-export function partsOf(path) {
+function partsOf(path) {
   if (!path) return [];
   return path
     .split(/\.|\[|\]\.?/)
@@ -59,13 +60,6 @@ function frozen(value) {
   return value;
 }
 
-/** Whether a change of one path is seen at another: either lies below the other. */
-function touches(changed, watched) {
-  if (changed === "" || watched === "" || changed === watched) return true;
-  const below = (one, other) => one.startsWith(other) && /[.[]/.test(one[other.length]);
-  return below(changed, watched) || below(watched, changed);
-}
-
 function stored(key) {
   try {
     return JSON.parse(sessionStorage.getItem(key));
@@ -82,100 +76,90 @@ function store(key, value) {
   }
 }
 
-function createState() {
-  let study = frozen({});
-  let past = [];
-  let future = [];
-  let views = stored(VIEW) ?? {};
-  const listeners = new Set();
-  const results = new Map();
-  const resultListeners = new Set();
-  const renewed = new Map();
+const before = stored(KEY);
+const kept = before?.study && Object.keys(before.study).length > 0 ? before : { study: {} };
+const study = signal(frozen(kept.study));
+const past = signal(kept.past ?? []); // [{study, edited: [key, value] of a view or null}]
+const future = signal(kept.future ?? []);
+const views = signal(stored(VIEW) ?? {});
+const renewed = signal({}); // name of a file -> how often it got other contents
+const step = signal(null);
+const values = new Map(); // path -> its computed value
+const viewed = new Map(); // key of a view -> its computed value
 
-  function notify(changed) {
-    store(KEY, { study, past, future });
-    for (const { paths, callback } of [...listeners]) {
-      if (paths.some((watched) => changed.some((path) => touches(path, watched)))) callback({ changed });
-    }
-  }
+effect(() => store(KEY, { study: study.value, past: past.value, future: future.value }));
+effect(() => store(VIEW, views.value));
 
-  const setView = (key, value) => store(VIEW, (views = { ...views, [key]: value }));
-
-  function become(next, changed, edited = null) {
-    if (!edited && JSON.stringify(next) === JSON.stringify(study)) return;
-    past = [...past.slice(1 - MOST_UNDO), { study, changed, edited: edited && [edited[0], views[edited[0]]] }];
-    future = [];
-    study = frozen(next);
-    if (edited) setView(...edited);
-    notify(changed);
-  }
-
-  function move(from, to) {
-    const last = from.pop();
-    if (!last) return false;
-    to.push({ ...last, study, edited: last.edited && [last.edited[0], views[last.edited[0]]] });
-    study = frozen(last.study);
-    if (last.edited) setView(...last.edited);
-    notify(last.changed);
-    return true;
-  }
-
-  return {
-    get study() {
-      return study;
-    },
-    get canUndo() {
-      return past.length > 0;
-    },
-    get canRedo() {
-      return future.length > 0;
-    },
-    /** Take what an earlier load of this tab left, or the document of a fresh page. */
-    begin(document) {
-      const before = stored(KEY);
-      if (before?.study && Object.keys(before.study).length > 0) {
-        ({ past = [], future = [] } = before);
-        study = frozen(before.study);
-      } else study = frozen(structuredClone(document));
-      notify([""]);
-    },
-    get: (path) => valueAt(study, path),
-    set: (path, value) => become(withValue(study, partsOf(path), structuredClone(value)), [path]),
-    change(values) {
-      let next = study;
-      for (const [path, value] of Object.entries(values)) next = withValue(next, partsOf(path), structuredClone(value));
-      become(next, Object.keys(values));
-    },
-    replace: (document) => become(structuredClone(document), [""]),
-    renew(names) {
-      const mentions = (value) =>
-        value && typeof value === "object" ? Object.values(value).some(mentions) : names.includes(value);
-      for (const name of names) renewed.set(name, (renewed.get(name) ?? 0) + 1);
-      const changed = Object.keys(study).filter((table) => mentions(study[table]));
-      if (changed.length) notify(changed);
-    },
-    renewals: (name) => renewed.get(name) ?? 0,
-    undo: () => move(past, future),
-    redo: () => move(future, past),
-    subscribe(paths, callback) {
-      const listener = { paths: Array.isArray(paths) ? paths : [paths ?? ""], callback };
-      listeners.add(listener);
-      return () => listeners.delete(listener);
-    },
-    result: (key) => results.get(key),
-    setResult(key, value) {
-      results.set(key, value);
-      for (const listener of [...resultListeners]) if (listener.key === key) listener.callback(value);
-    },
-    onResult(key, callback) {
-      const listener = { key, callback };
-      resultListeners.add(listener);
-      return () => resultListeners.delete(listener);
-    },
-    view: (key, otherwise) => (key in views ? views[key] : otherwise),
-    setView,
-    edit: (key, value) => become(study, [`view.${key}`], [key, value]),
-  };
+/** What a signal holds in one place, of which others do not notice changes elsewhere. */
+function held(all, key, read) {
+  if (!all.has(key)) all.set(key, computed(read));
+  return all.get(key).value;
 }
 
-export const state = createState();
+const setView = (key, value) => (views.value = { ...views.peek(), [key]: value });
+
+/** Put a document and a view in place; returns what was there, an entry of past or future. */
+function put(next, edited) {
+  const was = { study: study.peek(), edited: edited && [edited[0], views.peek()[edited[0]]] };
+  study.value = frozen(next);
+  if (edited) setView(...edited);
+  return was;
+}
+
+function become(next, edited = null) {
+  if (!edited && JSON.stringify(next) === JSON.stringify(study.peek())) return;
+  batch(() => {
+    past.value = [...past.peek().slice(1 - MOST_UNDO), put(next, edited)];
+    future.value = [];
+  });
+}
+
+function move(from, to) {
+  const last = from.peek().at(-1);
+  if (!last) return false;
+  batch(() => {
+    from.value = from.peek().slice(0, -1);
+    to.value = [...to.peek(), put(last.study, last.edited)];
+  });
+  return true;
+}
+
+const changed = (values) =>
+  Object.entries(values).reduce(
+    (next, [path, value]) => withValue(next, partsOf(path), structuredClone(value)),
+    study.peek(),
+  );
+
+export const state = {
+  get study() {
+    return study.value;
+  },
+  get canUndo() {
+    return past.value.length > 0;
+  },
+  get canRedo() {
+    return future.value.length > 0;
+  },
+  get step() {
+    return step.value;
+  },
+  lookAt: (id) => (step.value = id),
+  /** Begin with the document of a fresh page, unless an earlier load of this tab left one. */
+  begin(document) {
+    if (Object.keys(study.peek()).length === 0) study.value = frozen(structuredClone(document));
+  },
+  get: (path) => held(values, path, () => valueAt(study.value, path)),
+  set: (path, value) => become(changed({ [path]: value })),
+  change: (values) => become(changed(values)),
+  replace: (document) => become(structuredClone(document)),
+  renew(names) {
+    const more = Object.fromEntries(names.map((name) => [name, (renewed.peek()[name] ?? 0) + 1]));
+    renewed.value = { ...renewed.peek(), ...more };
+  },
+  renewals: (name) => renewed.value[name] ?? 0,
+  undo: () => move(past, future),
+  redo: () => move(future, past),
+  view: (key, otherwise) => held(viewed, key, () => views.value[key]) ?? otherwise,
+  setView,
+  edit: (key, value) => become(study.peek(), [key, value]),
+};

@@ -7,7 +7,9 @@
 // si(20, "speed") -> 0.02                   words(0.02, "speed") -> "20 mm/s", as run files write it ("30 degC")
 // parse("9.525 mm", "length") -> 0.009525   (null if it cannot be read; the run file's own check says why)
 // typed("20", "speed") -> "20 mm/s"          what people type, as run files write it
-// subscribe(callback)                       after the user chose other units
+// What is chosen is a signal: an effect or view that shows a unit follows it.
+
+import { signal } from "./reactive.js";
 
 const KEY = "viscofric.units";
 const HZ = 2 * Math.PI;
@@ -65,8 +67,7 @@ const TITLES = {
   angle: "Angle",
 };
 
-let chosen = { ...SYSTEMS.engineering, ...remembered() };
-const listeners = new Set();
+const chosen = signal({ ...SYSTEMS.engineering, ...remembered() });
 
 function remembered() {
   try {
@@ -80,16 +81,16 @@ function remembered() {
 /** Factor and offset of a kind in the unit that the user chose: SI = factor * number + offset. */
 function scale(kind) {
   if (kind === "area") return [scale("length")[0] ** 2, 0];
-  if (kind === "angular_frequency") return [chosen.frequency === "Hz" ? HZ : 1, 0];
-  const [factor, offset = 0] = UNITS[kind]?.[chosen[kind]] ?? [1, 0];
+  if (kind === "angular_frequency") return [chosen.value.frequency === "Hz" ? HZ : 1, 0];
+  const [factor, offset = 0] = UNITS[kind]?.[chosen.value[kind]] ?? [1, 0];
   return [factor, offset];
 }
 
 /** The unit's label; "" of a plain number. */
 export function label(kind) {
-  if (kind === "area") return `${chosen.length}²`;
-  if (kind === "angular_frequency") return chosen.frequency;
-  return chosen[kind] ?? "";
+  if (kind === "area") return `${chosen.value.length}²`;
+  if (kind === "angular_frequency") return chosen.value.frequency;
+  return chosen.value[kind] ?? "";
 }
 
 /** A number, or a list of numbers, in the user's unit; null stays null. */
@@ -141,7 +142,7 @@ export function words(value, kind, digits = 6) {
 
 /** The user's unit as a run file writes it: "degC" for °C. */
 export function unitWords(kind) {
-  return UNITS[kind]?.[chosen[kind]]?.[2] ?? label(kind);
+  return UNITS[kind]?.[chosen.value[kind]]?.[2] ?? label(kind);
 }
 
 /** The SI value of a quantity in a document's words; null where the words are others than the menu's. */
@@ -180,7 +181,7 @@ export function choices() {
     kind,
     title: TITLES[kind],
     units: Object.keys(units),
-    chosen: chosen[kind],
+    chosen: chosen.value[kind],
   }));
 }
 
@@ -189,16 +190,10 @@ export const systems = Object.keys(SYSTEMS);
 
 /** Choose the unit of a kind, or a whole set: choose("speed", "m/s"), choose("SI"). */
 export function choose(kindOrSystem, unit) {
-  chosen = unit === undefined ? { ...SYSTEMS[kindOrSystem] } : { ...chosen, [kindOrSystem]: unit };
+  chosen.value = unit === undefined ? { ...SYSTEMS[kindOrSystem] } : { ...chosen.value, [kindOrSystem]: unit };
   try {
-    localStorage.setItem(KEY, JSON.stringify(chosen));
+    localStorage.setItem(KEY, JSON.stringify(chosen.value));
   } catch {
     // Without storage the choice holds until the page is left.
   }
-  for (const callback of [...listeners]) callback();
-}
-
-export function subscribe(callback) {
-  listeners.add(callback);
-  return () => listeners.delete(callback);
 }

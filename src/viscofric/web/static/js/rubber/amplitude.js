@@ -1,10 +1,26 @@
 // The amplitude sweep of the material: Kraus's law, the linear range, and the strain that the moduli are scaled to.
 
-import { shows } from "../inputs.js";
+import { Job, shows } from "../jobs.js";
+import { effect } from "../reactive.js";
+import { state } from "../state.js";
+
+const amplitude = new Job("amplitude", {
+  wait: 0,
+  remember: 2,
+  inputs: () => {
+    const [material] = [state.get("material") ?? {}].flat();
+    // the law is that of the sweep, whatever strain the moduli are scaled to
+    return material.amplitude_sweep === undefined ? null : { study: { material: { ...material, strain: undefined } } };
+  },
+});
+const atContact = new Job("amplitude", {
+  name: "amplitude-contact",
+  inputs: () => amplitude.inputs.value && { study: { ...state.study, ...amplitude.inputs.value.study }, options: { contact: true } },
+});
 
 /** The card, hidden without an amplitude sweep. */
 export function amplitudeCard(app) {
-  const { state, fields, figures, units, api } = app;
+  const { fields, figures, units } = app;
   const { h, card, button, note } = fields;
   const words = note([]);
   const problem = note([], "error");
@@ -26,7 +42,7 @@ export function amplitudeCard(app) {
     max: 10,
     placeholder: "small",
   });
-  const use = button({ label: "Use the strain of the contact", onClick: () => request(true) });
+  const use = button({ label: "Use the strain of the contact", onClick: () => atContact.run() });
   const remove = () =>
     state.change({
       "material.amplitude_sweep": undefined,
@@ -36,30 +52,24 @@ export function amplitudeCard(app) {
   const away = button({ label: "Remove the amplitude sweep", kind: "quiet small", onClick: remove });
   const element = card("Amplitude sweep", problem, words, place, strain, small, contact, h("div", { class: "row" }, use, away));
 
-  let running = null;
-  async function request(ofContact) {
-    running?.abort();
-    running = new AbortController();
-    const mine = running;
-    const study = ofContact ? state.study : { material: state.get("material") };
-    contact.textContent = ofContact ? "Solving the contact" : contact.textContent;
-    try {
-      const found = await api.runJob("amplitude", { study, options: { contact: ofContact } }, { signal: mine.signal });
-      if (running !== mine) return;
-      problem.set([]);
-      draw(found);
-      if (!found.contact) return;
-      const { strain: of, friction, linear, speed, temperature } = found.contact;
-      contact.textContent =
-        `At ${units.show(speed, "speed")}, ${units.show(temperature, "temperature")} the strain of the contact is ` +
-        `${(100 * of).toPrecision(2)} %: friction ${friction.toPrecision(3)} instead of ${linear.toPrecision(3)} (small strain).`;
-      state.set("material.strain", Number(of.toPrecision(2)));
-    } catch (error) {
-      if (running !== mine || error.name === "AbortError") return;
-      contact.textContent = "";
-      problem.set([app.explain(error, "amplitude")]);
-    }
-  }
+  const ofContact = ({ strain: of, friction, linear, speed, temperature }) =>
+    `At ${units.show(speed, "speed")}, ${units.show(temperature, "temperature")} the strain of the contact is ` +
+    `${(100 * of).toPrecision(2)} %: friction ${friction.toPrecision(3)} instead of ${linear.toPrecision(3)} (small strain).`;
+
+  atContact.done = ({ contact: { strain: of } }) => state.set("material.strain", Number(of.toPrecision(2)));
+  amplitude.start();
+  effect(() => {
+    const error = amplitude.error ?? atContact.error;
+    problem.set(error ? [app.explain(error, "amplitude")] : []);
+  });
+  effect(() => {
+    const found = atContact.current?.contact;
+    contact.textContent = atContact.progress ? "Solving the contact" : found ? ofContact(found) : "";
+  });
+  effect(() => {
+    element.hidden = state.get("material.amplitude_sweep") === undefined;
+    if (amplitude.result) draw(amplitude.result);
+  });
 
   function draw(found) {
     const letter = found.deformation === "shear" ? "G" : "E";
@@ -83,15 +93,5 @@ export function amplitudeCard(app) {
     });
   }
 
-  let last = null;
-  const refresh = () => {
-    const file = state.get("material.amplitude_sweep");
-    element.hidden = file === undefined;
-    const now = JSON.stringify([file, state.get("material.measured_at"), state.get("material.deformation")]);
-    if (file !== undefined && now !== last) request(false);
-    last = now;
-  };
-  state.subscribe("material", refresh);
-  refresh();
   return element;
 }

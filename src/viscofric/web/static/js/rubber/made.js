@@ -1,12 +1,8 @@
 // The rubber of the study, computed when it is first needed and again after each change of [material]; for several steps.
-//
-// follow(app, callback)   callback({running, words, error, result, complete}) now and whenever that changes; `result` is
-//                         the job's (jobs/rubber.py), without its bands until `complete`
-// and what else the steps about the rubber share
+// And what else the steps about the rubber share.
 
-import { DEPENDS_ON } from "../inputs.js";
-
-const WAIT = 150; // ms after the last change
+import { Job } from "../jobs.js";
+import { state } from "../state.js";
 
 export const SOURCES = [
   ["dma", "Sweeps of a DMA or rheometer"],
@@ -28,64 +24,18 @@ export const FIRST_REFERENCE = "30 degC";
 export const sourceOf = (material) =>
   SOURCES.map(([key]) => key).find((key) => [material].flat()[0]?.[key] !== undefined) ?? null;
 
-let now = { running: false, words: "", error: null, result: null, complete: false };
-const followers = new Set();
-let started = false;
-let timer = null;
-let running = null;
+/** The job that makes the material; its part is the material without its bands. */
+export const rubber = new Job("rubber", {
+  remember: 6,
+  inputs: () => {
+    const { material, uncertainty } = state.study;
+    if (!sourceOf(material)) return null;
+    return { study: uncertainty === undefined ? { material } : { material, uncertainty } };
+  },
+});
 
-export function follow(app, callback) {
-  followers.add(callback);
-  if (!started) {
-    started = true;
-    app.state.subscribe(DEPENDS_ON.rubber, () => {
-      clearTimeout(timer);
-      timer = setTimeout(() => make(app), WAIT);
-    });
-    make(app);
-  }
-  callback(now);
-  return () => followers.delete(callback);
-}
-
-function become(changes) {
-  now = { ...now, ...changes };
-  for (const callback of [...followers]) callback(now);
-}
-
-async function make(app) {
-  running?.abort();
-  const mine = new AbortController();
-  running = mine;
-  const { material, uncertainty } = app.state.study;
-  if (!sourceOf(material)) return become({ running: false, error: null, result: null, complete: false, words: "" });
-  become({ running: true, words: "Fitting the material", complete: false });
-  if (app.state.result("rubber")) app.state.setResult("rubber", null); // it was another rubber's
-  app.fields.clearError("rubber");
-  const take = (result, complete) => {
-    if (running === mine)
-      become({ result: Object.assign(result, { made_of: material }), complete, error: null, running: !complete });
-  };
-  try {
-    const study = uncertainty === undefined ? { material } : { material, uncertainty };
-    const result = await app.api.runJob(
-      "rubber",
-      { study, options: {} },
-      {
-        signal: mine.signal,
-        onPart: (part) => take(part, false),
-        onProgress: ({ label }) => running === mine && become({ words: label }),
-      },
-    );
-    take(result, true);
-    if (running === mine) app.state.setResult("rubber", now.result);
-  } catch (error) {
-    if (running !== mine || error.name === "AbortError") return;
-    app.fields.showError(error, "rubber");
-    app.state.setResult("rubber", null);
-    become({ running: false, error, result: null, complete: false });
-  }
-}
+/** What is shown of it: also that of earlier inputs, while another one is made. */
+export const shownRubber = () => (rubber.error ? null : rubber.result);
 
 /** "60 °C", as the user's units have it. */
 export const named = (kelvin, { units }) => units.show(kelvin, "temperature");

@@ -1,5 +1,6 @@
 // Whether superposition holds, in figures: diagrams that no shift changes, distances of neighbours, E′ against E″.
 
+import { signal } from "../reactive.js";
 import { byTemperature, fewEnough, named, pick, synthetic } from "./made.js";
 
 const DIAGRAMS = {
@@ -25,16 +26,15 @@ const DIAGRAMS = {
 export function qualityCards(app) {
   const { fields, figures } = app;
   const { h, card } = fields;
-  let diagram = "van_gurp_palmen";
-  let result = null;
+  const diagram = signal("van_gurp_palmen");
   const first = card("Validity of superposition");
   first.append(
     pick(
       {
         label: "Diagram",
         options: Object.entries(DIAGRAMS).map(([key, [title]]) => [key, title]),
-        value: diagram,
-        onChange: (value) => ((diagram = value), draw()),
+        value: diagram.value,
+        onChange: (value) => (diagram.value = value),
       },
       fields,
     ),
@@ -66,11 +66,10 @@ export function qualityCards(app) {
     traces: [],
   });
   third.append(sentence);
-  const draw = () => {
-    const check = result?.check;
-    if (!check?.diagrams) return;
-    const [title, x, y] = DIAGRAMS[diagram];
-    const curves = check.diagrams[diagram];
+  const draw = (result) => {
+    const { check } = result;
+    const [title, x, y] = DIAGRAMS[diagram.value];
+    const curves = check.diagrams[diagram.value];
     const temperatures = curves.map((one) => one.temperature);
     points.update({
       of: result,
@@ -139,10 +138,9 @@ export function qualityCards(app) {
   };
   return {
     cards: [first, second, third],
-    show(next) {
-      result = next;
-      for (const one of [first, second, third]) one.hidden = !next?.check?.diagrams;
-      draw();
+    show(result) {
+      for (const one of [first, second, third]) one.hidden = !result?.check?.diagrams;
+      if (result?.check?.diagrams) draw(result);
     },
   };
 }

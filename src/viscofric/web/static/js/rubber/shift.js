@@ -1,7 +1,8 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
-import { shows } from "../inputs.js";
-import { decades, follow, sourceOf, synthetic } from "./made.js";
+import { shows } from "../jobs.js";
+import { effect } from "../reactive.js";
+import { decades, rubber, shownRubber, sourceOf, synthetic } from "./made.js";
 import { qualityCards } from "./quality.js";
 import { shiftedCard } from "./shifted.js";
 import { stepFigure } from "./sweeps_figures.js";
@@ -32,9 +33,9 @@ const KIND = {
 };
 
 export function mount(section, app) {
-  const { state, fields, figures } = app;
+  const { fields, figures } = app;
   const { h, card, note } = fields;
-  const wait = fields.progressBar({ label: "Shifting the isotherms" });
+  const wait = fields.progressBar(rubber.start(), { label: "Fitting the material", cancels: false });
   const problem = note([], "error");
   const nothing = note([], "note");
   const verdict = verdictCard(app);
@@ -87,18 +88,15 @@ export function mount(section, app) {
     h("div", { class: "grid thirds" }, ...quality.cards, vertical),
   );
 
-  const show = (now) => {
-    if (now.running) wait.start(now.words || "Fitting the material");
-    else wait.finish();
-    problem.set(now.error ? [app.explain(now.error, "shift")] : []);
-    const { result } = now;
+  effect(() => {
+    const result = shownRubber();
+    problem.set(rubber.error ? [app.explain(rubber.error, "shift")] : []);
     const shift = result?.shift;
     for (const one of [verdict, laws, notes, limits]) shows(one, result);
     nothing.set(
       result && !shift ? ["This material has no shift factors: it is valid at one temperature only."] : [],
     );
     verdict.show(result);
-    shifted.show(result, now);
     factors.hidden = !shift;
     laws.hidden = left.hidden = !shift?.laws.length;
     over.hidden = !shift?.steps;
@@ -113,10 +111,7 @@ export function mount(section, app) {
     table.replaceChildren(lawTable(shift, app));
     residual.update({ of: result, traces: residualTraces(shift), synthetic: synthetic(result, app) });
     if (shift.vertical) b.update({ of: result, ...verticalFigure(shift.vertical, result, app) });
-  };
-  let last = null;
-  follow(app, (now) => show((last = now)));
-  app.units.subscribe(() => last && show(last));
+  });
 }
 
 /** How sweeps are shifted; nothing of it holds for a rubber that is ready. */
@@ -190,8 +185,7 @@ function settings(app) {
         : []),
     );
   };
-  state.subscribe("material", refresh);
-  refresh();
+  effect(refresh);
   return element;
 }
 

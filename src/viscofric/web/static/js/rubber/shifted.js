@@ -1,7 +1,10 @@
 // The isotherms on one another, and one of them corrected by hand: dragged, or moved by a slider or a number.
 
+import { Job, inputsOf } from "../jobs.js";
+import { computed, effect, signal, watch } from "../reactive.js";
+import { state } from "../state.js";
 import { draggable, moveTrace } from "./drag.js";
-import { byTemperature, decades, fewEnough, named, pick, synthetic, worded } from "./made.js";
+import { byTemperature, decades, fewEnough, named, pick, rubber, shownRubber, synthetic, worded } from "./made.js";
 
 const QUANTITIES = [
   ["storage_modulus", "E′"],
@@ -12,18 +15,43 @@ const REACH = 3; // decades
 const STEP = 0.02;
 const SETTLE = 400; // ms after the last key
 
+const wanted = signal(null); // the isotherm that the user chose, K
+const isotherms = () => shownRubber()?.shift?.isotherms ?? [];
+/** Whether isotherms can be moved: neither factors of a file nor those of several kinds of tests are. */
+const movable = () => {
+  const { origin, joint } = shownRubber()?.shift ?? {};
+  return origin !== "given" && !joint;
+};
+/** The isotherm that can be moved: the one nearest to the chosen one, or else the first that is not the reference. */
+const chosen = computed(() => {
+  const all = isotherms();
+  const first = all.find((one) => !one.is_reference) ?? all[0] ?? null;
+  if (wanted.value === null || !first) return first;
+  const away = (one) => Math.abs(one.temperature - wanted.value);
+  return all.reduce((best, one) => (away(one) < away(best) ? one : best), first);
+});
+const misfits = new Job("isotherm_misfit", {
+  wait: 0,
+  remember: 6,
+  when: () => Boolean(rubber.current),
+  inputs: () => {
+    if (!chosen.value || chosen.value.is_reference || !movable()) return null;
+    const options = { temperature: worded(chosen.value.temperature), reach: REACH, step: STEP };
+    return { study: { material: state.study.material }, options };
+  },
+});
+
 /** The isotherms moved onto each other, and what is needed to move one by hand. */
 export function shiftedCard(app) {
-  const { state, fields, figures, api } = app;
+  const { fields, figures, units } = app;
   const { h, card, button } = fields;
-  let quantity = "storage_modulus";
-  let result = null;
-  let chosen = null; // K
-  let table = null; // misfit over decades moved, of the chosen isotherm
+  const quantity = signal("storage_modulus");
+  const moved = signal(0); // decades, while the slider or the mouse moves it
   let timer = null;
+  misfits.start();
   const element = card("Shifted isotherms");
   const choice = pick(
-    { label: "Quantity", options: QUANTITIES, value: quantity, onChange: (value) => ((quantity = value), draw()) },
+    { label: "Quantity", options: QUANTITIES, value: quantity.value, onChange: (value) => (quantity.value = value) },
     fields,
   );
   element.append(choice);
@@ -41,7 +69,7 @@ export function shiftedCard(app) {
   const exact = h("input", { type: "number", id: "dragged-to", step: 0.01 });
   const live = h("p", { class: "help", "aria-live": "polite", id: "dragged-misfit" });
   const { hold, release, releaseAll } = heldFactors(app);
-  const free = button({ label: "Undo this correction", kind: "small", onClick: () => release(chosen) });
+  const free = button({ label: "Undo this correction", kind: "small", onClick: () => release(chosen.value.temperature) });
   const freeAll = button({ label: "Undo all corrections", kind: "small", onClick: releaseAll });
   const why = h("p", { class: "help" });
   const parts = h(
@@ -74,168 +102,114 @@ export function shiftedCard(app) {
     parts,
   );
 
-  const isotherm = () => result?.shift?.isotherms.find((one) => one.temperature === chosen);
-  const misfitAt = (by) => {
-    if (!table) return null;
-    const at = Math.round((by - table.moved[0]) / STEP);
-    return table.misfit[at] ?? null;
-  };
-  const describe = (by) => {
-    const one = isotherm();
-    if (!one) return;
-    const misfit = misfitAt(by);
-    const now = misfitAt(0);
-    const words = [by ? `Shifted by ${decades(by)}` : one.held ? "Fixed manually" : "Fitted"];
+  const words = () => {
+    const one = chosen.value;
+    if (one.is_reference)
+      return "This is the reference isotherm (α = 1): choose another reference temperature to shift it.";
+    if (misfits.error) return misfits.error.message;
+    const by = moved.value;
+    const table = misfits.current;
+    const misfitAt = (distance) => table?.misfit[Math.round((distance - table.moved[0]) / STEP)] ?? null;
+    const [misfit, now] = [misfitAt(by), misfitAt(0)];
+    const about = [by ? `Shifted by ${decades(by)}` : one.held ? "Fixed manually" : "Fitted"];
     if (misfit !== null)
-      words.push(
+      about.push(
         `distance from its neighbours ${decades(misfit, 3)} (rms)${by && now !== null ? `, before ${now.toFixed(3)}` : ""}`,
       );
-    else if (table) words.push("no overlap with its neighbours");
-    live.textContent = `${words.join("; ")}.`;
+    else if (table) about.push("no overlap with its neighbours");
+    return `${about.join("; ")}.`;
   };
-  const choose = async (kelvin) => {
-    const other = kelvin !== chosen;
-    chosen = kelvin;
-    const one = isotherm();
-    if (!one) return;
-    select.value = String(kelvin);
-    slider.value = 0;
-    exact.value = one.log10_shift.toFixed(3);
-    for (const control of [slider, exact]) control.disabled = one.is_reference;
-    free.disabled = !one.held;
-    if (other) draw();
-    table = null;
-    live.textContent = one.is_reference
-      ? "This is the reference isotherm (α = 1): choose another reference temperature to shift it."
-      : "";
-    if (one.is_reference) return;
-    try {
-      const material = state.get("material");
-      const found = await api.runJob("isotherm_misfit", {
-        study: { material },
-        options: { temperature: worded(kelvin), reach: REACH, step: STEP },
-      });
-      if (chosen === kelvin && result?.made_of === material) {
-        table = found;
-        describe(Number(slider.value));
-      }
-    } catch (error) {
-      live.textContent = error.message;
-    }
-  };
-  const traceOf = (kelvin) => result.shift.isotherms.findIndex((one) => one.temperature === kelvin);
+  const holdMoved = (by) => by && hold(chosen.value.temperature, chosen.value.log10_shift + by);
 
-  select.addEventListener("change", () => choose(Number(select.value)));
+  select.addEventListener("change", () => (wanted.value = Number(select.value)));
   slider.addEventListener("input", () => {
-    const one = isotherm();
-    if (!one) return;
-    moveTrace(
-      handle,
-      traceOf(chosen),
-      app.units.number(one.angular_frequency, "angular_frequency"),
-      Number(slider.value),
-    );
-    exact.value = (one.log10_shift + Number(slider.value)).toFixed(3);
-    describe(Number(slider.value));
+    const one = chosen.value;
+    moved.value = Number(slider.value);
+    const x = units.number(one.angular_frequency, "angular_frequency");
+    moveTrace(handle, isotherms().indexOf(one), x, moved.value);
   });
   slider.addEventListener("change", () => {
     clearTimeout(timer);
-    timer = setTimeout(
-      () => Number(slider.value) !== 0 && isotherm() && hold(chosen, isotherm().log10_shift + Number(slider.value)),
-      SETTLE,
-    );
+    timer = setTimeout(() => holdMoved(Number(slider.value)), SETTLE);
   });
-  exact.addEventListener(
-    "change",
-    () => exact.value !== "" && Number.isFinite(Number(exact.value)) && hold(chosen, Number(exact.value)),
-  );
-
-  const canMove = (index) => {
-    const one = result?.shift?.isotherms[index];
-    return Boolean(one) && !one.is_reference && !parts.hidden;
-  };
+  exact.addEventListener("change", () => {
+    const given = Number(exact.value);
+    if (exact.value !== "" && Number.isFinite(given)) hold(chosen.value.temperature, given);
+  });
   draggable(handle, {
-    can: canMove,
-    onStart: (index) =>
-      result.shift.isotherms[index].temperature !== chosen && choose(result.shift.isotherms[index].temperature),
-    onMove: (index, by) => {
-      slider.value = by;
-      exact.value = (result.shift.isotherms[index].log10_shift + by).toFixed(3);
-      describe(Math.round(by / STEP) * STEP);
-    },
-    onEnd: (index, by) =>
-      by && hold(result.shift.isotherms[index].temperature, result.shift.isotherms[index].log10_shift + by),
+    can: (index) => movable() && isotherms()[index]?.is_reference === false,
+    onStart: (index) => (wanted.value = isotherms()[index].temperature),
+    onMove: (index, by) => (moved.value = Math.round(by / STEP) * STEP),
+    onEnd: (index, by) => ((moved.value = 0), holdMoved(by)),
   });
 
-  const draw = () => {
-    const isotherms = result?.shift?.isotherms ?? [];
-    const temperatures = isotherms.map((one) => one.temperature);
-    const [, label] = QUANTITIES.find(([key]) => key === quantity);
+  watch(
+    () => [inputsOf(shownRubber()), chosen.value?.temperature].join(),
+    () => (moved.value = 0),
+  );
+  effect(() => {
+    const all = isotherms();
+    element.hidden = controls.hidden = all.length === 0;
+    if (all.length === 0) return;
+    const { origin, joint } = shownRubber().shift;
+    why.textContent =
+      origin === "given"
+        ? "The shift factors are from a file; fit them to the sweeps to correct one."
+        : joint
+          ? "The shift factors are those of sweeps and step tests together; correct one with the sweeps alone."
+          : "";
+    parts.hidden = !movable();
+    freeAll.disabled = !all.some((one) => one.held);
+    const mark = ({ is_reference: reference, held }) => (reference ? " (reference)" : held ? " (fixed)" : "");
+    select.replaceChildren(
+      ...all.map((one) =>
+        h("option", { value: String(one.temperature) }, `${named(one.temperature, app)}${mark(one)}`),
+      ),
+    );
+    select.value = String(chosen.value.temperature);
+  });
+  effect(() => {
+    if (!chosen.value) return;
+    const { is_reference: reference, held, log10_shift: log10 } = chosen.value;
+    for (const control of [slider, exact]) control.disabled = reference;
+    free.disabled = !held;
+    slider.value = moved.value;
+    exact.value = (log10 + moved.value).toFixed(3);
+    live.textContent = words();
+  });
+  effect(() => {
+    const result = shownRubber();
+    const all = isotherms();
+    const temperatures = all.map((one) => one.temperature);
+    const [, label] = QUANTITIES.find(([key]) => key === quantity.value);
+    const tangent = quantity.value === "loss_tangent";
     handle.update({
       of: result,
-      caption: [byTemperature(temperatures, app), isotherms.some((one) => one.held) ? "Squares are fixed manually." : ""]
+      caption: [byTemperature(temperatures, app), all.some((one) => one.held) ? "Squares are fixed manually." : ""]
         .filter(Boolean)
         .join(" "),
       y: {
-        label: result?.shift?.vertical && quantity !== "loss_tangent" ? `${label}/b` : label,
-        kind: quantity === "loss_tangent" ? undefined : "modulus",
+        label: result?.shift?.vertical && !tangent ? `${label}/b` : label,
+        kind: tangent ? undefined : "modulus",
         log: true,
       },
       synthetic: result && synthetic(result, app),
       temperatures,
-      traces: isotherms.map((one) => ({
+      traces: all.map((one) => ({
         name: named(one.temperature, app),
         legend: fewEnough(temperatures),
         temperature: one.temperature,
         x: one.angular_frequency,
-        y: one[quantity],
+        y: one[quantity.value],
         mode: "lines+markers",
         dash: "solid",
         symbol: one.held ? "square" : "circle",
-        size: one.temperature === chosen ? 9 : 5,
-        width: one.temperature === chosen ? 3 : 1.2,
+        size: one === chosen.value ? 9 : 5,
+        width: one === chosen.value ? 3 : 1.2,
       })),
     });
-  };
-
-  element.controls = controls;
-  element.show = (next, { running }) => {
-    const same = next && next.made_of === result?.made_of;
-    result = next;
-    const isotherms = result?.shift?.isotherms ?? [];
-    element.hidden = controls.hidden = isotherms.length === 0;
-    element.toggleAttribute("aria-busy", Boolean(running));
-    if (isotherms.length === 0) return;
-    const given = result.shift.origin === "given";
-    const { joint } = result.shift;
-    why.textContent = given
-      ? "The shift factors are from a file; fit them to the sweeps to correct one."
-      : joint
-        ? "The shift factors are those of sweeps and step tests together; correct one with the sweeps alone."
-        : "";
-    parts.hidden = given || joint;
-    freeAll.disabled = !isotherms.some((one) => one.held);
-    if (!same) {
-      select.replaceChildren(
-        ...isotherms.map((one) =>
-          h(
-            "option",
-            { value: String(one.temperature) },
-            `${named(one.temperature, app)}${one.is_reference ? " (reference)" : one.held ? " (fixed)" : ""}`,
-          ),
-        ),
-      );
-      const near = isotherms.reduce(
-        (best, one) =>
-          chosen !== null && Math.abs(one.temperature - chosen) < Math.abs(best.temperature - chosen) ? one : best,
-        isotherms.find((one) => !one.is_reference) ?? isotherms[0],
-      );
-      chosen = null;
-      if (!given && !joint) choose(near.temperature);
-    }
-    draw();
-  };
-  return element;
+  });
+  return Object.assign(element, { controls });
 }
 
 // Shift factors fixed manually, in the run file's words: { "60 degC" = -2.1 }.  Factors are about a reference, and would
@@ -246,7 +220,7 @@ const MOST_KNOWN = 50;
 const REFERENCE = "material.reference_temperature";
 
 function heldFactors(app) {
-  const { state, units } = app;
+  const { units } = app;
   const all = () => state.get(HELD) ?? {};
   const keyOf = (kelvin) =>
     Object.keys(all()).find((key) => Math.abs((units.parse(key, "temperature") ?? -1) - kelvin) < 0.5);
@@ -257,12 +231,15 @@ function heldFactors(app) {
     state.set(HELD, Object.keys(factors).length ? factors : undefined);
   };
   const releaseAll = () => state.set(HELD, undefined);
-  state.subscribe(REFERENCE, () => {
-    const about = state.view("held", {})[JSON.stringify(all())];
-    if (!state.get(HELD) || about === undefined || about === state.get(REFERENCE)) return;
-    releaseAll();
-    app.announce("The fixed isotherms were released: their factors referred to another reference temperature.");
-  });
+  watch(
+    () => state.get(REFERENCE),
+    () => {
+      const about = state.view("held", {})[JSON.stringify(all())];
+      if (!state.get(HELD) || about === undefined || about === state.get(REFERENCE)) return;
+      releaseAll();
+      app.announce("The fixed isotherms were released: their factors referred to another reference temperature.");
+    },
+  );
   return {
     hold(kelvin, log10) {
       set({ ...all(), [keyOf(kelvin) ?? worded(kelvin)]: Number(log10.toFixed(4)) });

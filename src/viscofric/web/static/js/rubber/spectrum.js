@@ -1,19 +1,38 @@
 // Step 3: the spectrum, E'(ω) and E''(ω) at any temperature with their bands, and what the fit leaves unexplained.
 
-import { shows } from "../inputs.js";
-import { follow, named, pick, synthetic, worded } from "./made.js";
+import { Job, shows } from "../jobs.js";
+import { effect, signal } from "../reactive.js";
+import { named, pick, rubber, shownRubber, synthetic, worded } from "./made.js";
 import { settings, temperatureChoice } from "./spectrum_form.js";
 import { caption, keyNumbers, modesFigure, modesTable, modulusTraces, tangentTraces } from "./spectrum_figures.js";
 
+const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
+const moduli = new Job("moduli", {
+  remember: 6,
+  follows: true,
+  when: () => Boolean(rubber.current),
+  inputs: () => {
+    const { shift, spectrum } = rubber.result ?? {};
+    if (!shift || chosen.value === null || Math.abs(chosen.value - spectrum.reference) < 0.005) return null;
+    const options = { temperature: worded(chosen.value), bands: rubber.complete };
+    return { study: rubber.inputs.value.study, options };
+  },
+});
+
 export function mount(section, app) {
-  const { state, fields, figures, units } = app;
+  const { fields, figures } = app;
   const { h, card, note } = fields;
-  const wait = fields.progressBar({ label: "Fitting the spectrum" });
+  moduli.start();
+  const wait = fields.progressBar(rubber.start(), {
+    label: "Fitting the material",
+    cancels: false,
+    ended: () => (rubber.result?.no_band ? `No 95 % band: ${rubber.result.no_band}.` : ""),
+  });
   const problem = note([], "error");
   const doubts = note([], "warning");
   const numbers = fields.keyNumbers();
   const first = card("Modulus against frequency");
-  const at = temperatureChoice(app, (kelvin) => request(kelvin));
+  const at = temperatureChoice(app, chosen);
   const modulus = figures.figure(first, {
     id: "modulus",
     title: "E′ and E″",
@@ -41,7 +60,7 @@ export function mount(section, app) {
     traces: [],
   });
   const fourth = card("Spectrum");
-  let kind = "retardation";
+  const kind = signal("retardation");
   fourth.append(
     pick(
       {
@@ -50,8 +69,8 @@ export function mount(section, app) {
           ["retardation", "Retardation C(τ)"],
           ["relaxation", "Relaxation E(τ)"],
         ],
-        value: kind,
-        onChange: (value) => ((kind = value), draw()),
+        value: kind.value,
+        onChange: (value) => (kind.value = value),
       },
       fields,
     ),
@@ -75,42 +94,25 @@ export function mount(section, app) {
     h("div", { class: "grid thirds" }, second, third, fourth),
   );
 
-  let now = null;
-  let moved = null; // the result of "moduli" at another temperature
-  let running = null;
-
-  /** E(ω) at another temperature, by the server. */
-  const request = async (kelvin) => {
-    running?.abort();
-    const reference = now?.result?.spectrum.reference;
-    if (!now?.result || kelvin === null || Math.abs(kelvin - reference) < 0.005) {
-      moved = null;
-      at.note("");
-      return draw();
-    }
-    running = new AbortController();
-    const mine = running;
-    try {
-      const { material, uncertainty } = state.study;
-      const study = uncertainty === undefined ? { material } : { material, uncertainty };
-      const found = await app.api.runJob(
-        "moduli",
-        { study, options: { temperature: worded(kelvin), bands: now.complete } },
-        { signal: mine.signal },
-      );
-      if (running !== mine) return;
-      moved = found;
-      at.note(found.extrapolated ? "The shift factor is extrapolated at this temperature." : "");
-      draw();
-    } catch (error) {
-      if (running === mine && error.name !== "AbortError") at.note(error.message, true);
-    }
-  };
-
-  const draw = () => {
-    const result = now?.result;
+  effect(() => {
+    const result = shownRubber();
+    problem.set(rubber.error ? [app.explain(rubber.error, "spectrum")] : []);
+    for (const one of [first, second, third, fourth]) one.hidden = !result;
+    numbers.set(result ? keyNumbers(result, app) : []);
+    for (const one of [numbers, doubts, table]) shows(one, result);
+    doubts.set(
+      result ? [...(result.spectrum.fit?.notes ?? []), ...result.spectrum.notes, ...(result.band?.notes ?? [])] : [],
+    );
     if (!result) return;
+    at.show(result);
+    draw(result);
+  });
+
+  function draw(result) {
     const { spectrum } = result;
+    const moved = moduli.result;
+    const doubt = moved?.extrapolated ? "The shift factor is extrapolated at this temperature." : "";
+    at.note(moduli.error?.message ?? doubt, moduli.error);
     const here = moved ?? {
       temperature: spectrum.reference,
       modulus: spectrum.modulus,
@@ -152,30 +154,8 @@ export function mount(section, app) {
     }
     fourth.hidden = !spectrum.modes;
     if (spectrum.modes) {
-      modes.update({ of: result, ...modesFigure(result, kind, madeUp) });
+      modes.update({ of: result, ...modesFigure(result, kind.value, madeUp) });
       table.replaceChildren(modesTable(spectrum, app));
     }
-  };
-
-  const show = (next) => {
-    const before = now?.result?.made_of;
-    now = next;
-    if (now.running) wait.start(now.words || "Fitting the material");
-    else wait.finish(now.result?.no_band ? `No 95 % band: ${now.result.no_band}.` : "");
-    problem.set(now.error ? [app.explain(now.error, "spectrum")] : []);
-    const { result } = now;
-    for (const one of [first, second, third, fourth]) one.hidden = !result;
-    numbers.set(result ? keyNumbers(result, app) : []);
-    for (const one of [numbers, doubts, table]) shows(one, result);
-    doubts.set(
-      result ? [...(result.spectrum.fit?.notes ?? []), ...result.spectrum.notes, ...(result.band?.notes ?? [])] : [],
-    );
-    if (!result) return;
-    at.show(result);
-    if (result.made_of !== before) moved = null;
-    draw();
-    if (at.kelvin() !== null && (result.made_of !== before || now.complete)) request(at.kelvin());
-  };
-  follow(app, show);
-  units.subscribe(() => now && show(now));
+  }
 }

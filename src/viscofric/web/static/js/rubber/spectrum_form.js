@@ -1,5 +1,6 @@
 // What the user says of the spectrum, and the temperature that the modulus is shown at.
 
+import { effect } from "../reactive.js";
 import { sourceOf } from "./made.js";
 
 const KINDS = [
@@ -7,7 +8,6 @@ const KINDS = [
   ["regularised", "regularised: smooth"],
   ["sparse", "sparse: few modes"],
 ];
-const WAIT = 150; // ms after the slider moved
 
 export function settings(app) {
   const { state, fields } = app;
@@ -57,34 +57,18 @@ export function settings(app) {
     few.hidden = state.get("material.spectrum") !== "sparse";
     ratio.hidden = !few.hidden;
   };
-  state.subscribe("material", refresh);
-  refresh();
+  effect(refresh);
   return card("Spectrum", fitted, ready);
 }
 
-/** Slider and box of the temperature that E(ω) is shown at. */
-export function temperatureChoice({ fields, units }, onChange) {
+/** Slider and box of the temperature that E(ω) is shown at: a signal in K, null for the reference. */
+export function temperatureChoice({ fields, units }, chosen) {
   const { h } = fields;
   const slider = h("input", { type: "range", id: "modulus-temperature", step: 1 });
   const shown = h("output", { for: "modulus-temperature", class: "field-label" });
   const said = h("p", { class: "help", "aria-live": "polite" });
-  let chosen = null; // K; null is the reference
-  let reference = null;
-  let timer = null;
-  const showTemperature = () => (shown.textContent = units.show(chosen ?? reference, "temperature"));
-  slider.addEventListener("input", () => {
-    chosen = Number(slider.value);
-    showTemperature();
-    clearTimeout(timer);
-    timer = setTimeout(() => onChange(chosen), WAIT);
-  });
-  const back = fields.button({ label: "At the reference", kind: "small", onClick: () => reset() });
-  const reset = () => {
-    chosen = null;
-    slider.value = reference;
-    showTemperature();
-    onChange(null);
-  };
+  slider.addEventListener("input", () => (chosen.value = Number(slider.value)));
+  const back = fields.button({ label: "At the reference", kind: "small", onClick: () => (chosen.value = null) });
   const element = h(
     "div",
     { class: "field" },
@@ -92,22 +76,19 @@ export function temperatureChoice({ fields, units }, onChange) {
     h("div", { class: "slider-row" }, slider, shown, back),
     said,
   );
-  element.kelvin = () => chosen;
   element.note = (words, wrong) => {
     said.textContent = words;
     said.classList.toggle("field-error", Boolean(wrong));
   };
-  element.show = (result) => {
-    element.hidden = !result.shift;
-    if (!result.shift) return (chosen = null);
-    reference = result.spectrum.reference;
-    const line = result.shift.material.line.temperature;
+  element.show = ({ shift, spectrum: { reference } }) => {
+    element.hidden = !shift;
+    if (!shift) return;
+    const line = shift.material.line.temperature;
     slider.min = 273.15 + Math.ceil(line[0] - 273.15);
     slider.max = 273.15 + Math.floor(line.at(-1) - 273.15);
-    slider.step = 1;
-    if (chosen !== null && (chosen < line[0] || chosen > line.at(-1))) chosen = null;
-    slider.value = chosen ?? reference;
-    showTemperature();
+    if (chosen.value !== null && (chosen.value < line[0] || chosen.value > line.at(-1))) chosen.value = null;
+    slider.value = chosen.value ?? reference;
+    shown.textContent = units.show(chosen.value ?? reference, "temperature");
   };
   return element;
 }

@@ -1,8 +1,10 @@
 // Step 1: where the rubber comes from; what its files were taken for, what they hold, and what was flagged in them.
 
-import { shows } from "../inputs.js";
+import { Job, shows } from "../jobs.js";
+import { effect, signal } from "../reactive.js";
+import { state } from "../state.js";
 import { amplitudeCard } from "./amplitude.js";
-import { FIRST_REFERENCE, follow, named, sourceOf } from "./made.js";
+import { FIRST_REFERENCE, named, rubber, shownRubber, sourceOf } from "./made.js";
 import * as shownBy from "./sweeps_figures.js";
 import { sourceForm } from "./sweeps_form.js";
 
@@ -13,18 +15,25 @@ const MODULI = [
   ["loss_tangent", "loss tangent tan δ", ""],
 ];
 
+const sweeps = new Job("sweeps", {
+  wait: 120,
+  remember: 6,
+  inputs: () => (sourceOf(state.get("material")) ? { study: { material: state.get("material") } } : null),
+});
+
 export function mount(section, app) {
-  const { state, fields, units } = app;
+  const { fields } = app;
   const { h, card, note, button } = fields;
   const problem = note([], "error");
   problem.setAttribute("aria-live", "assertive");
-  const form = sourceForm(app, (error) => problem.set(error ? [error.message] : []));
+  const failed = signal(null); // an error of files that were brought
+  const form = sourceForm(app, (error) => (failed.value = error));
   const recognised = card("Recognised data");
   const numbers = fields.keyNumbers();
   const files = h("div", {});
   const notes = note([]);
   const flagged = h("div", {});
-  const wait = fields.progressBar({ label: "Reading" });
+  const wait = fields.progressBar(sweeps, { label: "Reading", cancels: false });
   recognised.append(h("div", { class: "waiting" }, wait), numbers, problem, notes, files, flagged);
   const pictures = h("div", { class: "grid thirds" });
   const onward = h(
@@ -55,42 +64,29 @@ export function mount(section, app) {
   pictures.prepend(stepCard);
   const steps = app.figures.figure(stepCard, { id: "step-tests", title: "Creep and relaxation tests", x: {}, y: {}, traces: [] });
 
-  let running = null;
-  const read = async () => {
-    running?.abort();
-    running = new AbortController();
-    const mine = running;
-    const material = state.get("material");
-    if (!sourceOf(material)) return show(null);
-    wait.start("Reading");
-    try {
-      const result = await app.api.runJob("sweeps", { study: { material }, options: {} }, { signal: mine.signal });
-      if (running !== mine) return;
-      problem.set([]);
-      state.setResult("sweeps", result);
-      show(result);
-      app.announce(result.source === "dma" ? `${result.isotherms.length} isotherms read.` : "Material read.");
-      followRange(app, result);
-    } catch (error) {
-      if (running !== mine || error.name === "AbortError") return;
-      show(null);
-      form.require(error.field?.replace("material.", ""), error.values);
-      problem.set([app.explain(error, "sweeps")]);
-    } finally {
-      if (running === mine) wait.finish();
-    }
+  sweeps.done = (result) => {
+    app.announce(result.source === "dma" ? `${result.isotherms.length} isotherms read.` : "Material read.");
+    followRange(app, result);
   };
-
-  const show = (result) => {
-    form.show(result);
+  sweeps.start();
+  effect(() => {
+    const error = failed.value ?? sweeps.error;
+    problem.set(error ? [error === failed.value ? error.message : app.explain(error, "sweeps")] : []);
+  });
+  const read = () => (sweeps.error ? null : sweeps.result);
+  effect(() => {
+    form.show(read());
+    if (sweeps.error) form.require(sweeps.error.field?.replace("material.", ""), sweeps.error.values);
+  });
+  effect(() => {
+    const result = read();
     for (const one of [numbers, files, flagged, notes]) shows(one, result);
     numbers.set(result ? shownBy.keyNumbers(result, app) : []);
     notes.set(result ? [...(result.about ?? []), ...result.notes] : []);
     files.replaceChildren(...shownBy.fileTable(result, app));
     flagged.replaceChildren(...shownBy.flaggedTable(result, app));
-    onward.hidden = !result;
+    onward.hidden = pictures.hidden = !result;
     const draw = { dma: shownBy.isothermFigure, ramps: shownBy.rampFigure }[result?.source];
-    pictures.hidden = !result;
     for (const { handle, key, label, primes, place } of figures) {
       if (draw) handle.update({ of: result, ...draw(result, { key, label, primes }, app) });
       place.hidden = !draw && key === "loss_tangent";
@@ -98,14 +94,14 @@ export function mount(section, app) {
     stepCard.hidden = !result?.steps;
     const madeUp = state.get("data_origin") === "synthetic";
     if (result?.steps) steps.update({ of: result, ...shownBy.stepFigure(result.steps, madeUp, app) });
-    if (result && !draw) showReady();
-  };
+  });
 
   // A rubber without sweeps has its moduli at the reference to show.
-  let latest = null;
-  const showReady = () => {
-    const result = latest?.result;
-    if (!result || MEASURED.includes(state.result("sweeps")?.source)) return;
+  const ready = () => !MEASURED.includes(sweeps.result?.source ?? sourceOf(state.get("material")));
+  effect(() => {
+    if (ready()) rubber.start();
+    const result = ready() ? shownRubber() : null;
+    if (!result) return;
     const { modulus, reference } = result.spectrum;
     const at = reference === null ? "" : ` at ${named(reference, app)}`;
     for (const { handle, key, label } of figures) {
@@ -121,30 +117,11 @@ export function mount(section, app) {
         traces: [{ name: label, x: modulus.angular_frequency, y: modulus[key], legend: false }],
       });
     }
-  };
-  let following = false;
-  const followReady = () => {
-    if (following || MEASURED.includes(sourceOf(state.get("material")))) return;
-    following = true;
-    follow(app, (now) => {
-      latest = now;
-      showReady();
-    });
-  };
-
-  let timer = null;
-  state.subscribe("material", () => {
-    clearTimeout(timer);
-    timer = setTimeout(read, 120);
-    followReady();
   });
-  units.subscribe(() => state.result("sweeps") && show(state.result("sweeps")));
-  followReady();
-  read();
 }
 
 /** A reference and temperatures outside the isotherms, which the user never chose, give way to those that they have. */
-function followRange({ state, start, units }, result) {
+function followRange({ start, units }, result) {
   const curves = result.ramps ?? (result.isotherms.length ? result.isotherms : result.steps?.curves) ?? [];
   if (curves.length === 0) return;
   const all = curves.flatMap((one) => one.temperature);

@@ -1,6 +1,7 @@
 // The form of the rubber's source: its kind, its files, and what these leave to the user.
 
 import { columnsForm } from "../columns_form.js";
+import { effect, watch } from "../reactive.js";
 import { FIRST_REFERENCE, SOURCES, TESTS, sourceOf } from "./made.js";
 
 const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "assumed_shift"];
@@ -40,7 +41,7 @@ const named = (value) => {
 export function sourceForm(app, onError) {
   const { state, fields, api, start, units } = app;
   const { h, card, button } = fields;
-  let shown = sourceOf(state.get("material")) ?? "dma";
+  const shown = () => state.view("sweeps.source", sourceOf(state.get("material")) ?? "dma");
   const group = h(
     "div",
     { class: "choices", role: "radiogroup", "aria-labelledby": "material-source-label" },
@@ -49,7 +50,7 @@ export function sourceForm(app, onError) {
   const radios = new Map();
   for (const [key, text] of SOURCES) {
     const radio = h("input", { type: "radio", name: "material-source", value: key });
-    radio.addEventListener("change", () => showPanel(key));
+    radio.addEventListener("change", () => state.setView("sweeps.source", key));
     radios.set(key, radio);
     group.append(h("label", { class: "choice" }, radio, h("span", {}, text)));
   }
@@ -64,7 +65,7 @@ export function sourceForm(app, onError) {
   };
   /** Sort uploaded files of tests by what they hold; a file that is not recognised belongs to the source that is chosen. */
   const sorted = async (names) => {
-    const chosen = TESTS.includes(shown) ? shown : "dma";
+    const chosen = TESTS.includes(shown()) ? shown() : "dma";
     try {
       const { kinds } = await api.runJob("recognise", { study: {}, options: { files: names } });
       return kinds;
@@ -262,7 +263,6 @@ export function sourceForm(app, onError) {
     }),
   );
   const showPanel = (key) => {
-    shown = key;
     radios.get(key).checked = true;
     for (const [name, panel] of Object.entries(panels)) panel.hidden = name !== key;
     tests.hidden = !TESTS.includes(key);
@@ -277,7 +277,7 @@ export function sourceForm(app, onError) {
         : [],
     );
     listFiles();
-    showPanel(sourceOf(state.get("material")) ?? shown);
+    showPanel(shown());
   };
   const questions = h("div", { class: "panel questions" }, ...Object.values(required));
   const several = fields.note([], "several");
@@ -291,12 +291,11 @@ export function sourceForm(app, onError) {
     for (const [key, field] of Object.entries(required))
       field.hidden = !result?.left_open?.includes(key) && state.get(`material.${key}`) === undefined;
   };
-  element.show(null);
-  state.subscribe(["material"], refresh);
-  refresh();
-  const wanted = (source) => source && showPanel(source); // another step may send the user here for one
-  state.onResult("wanted-source", wanted);
-  wanted(state.result("wanted-source"));
+  watch(
+    () => sourceOf(state.get("material")),
+    (source) => source && state.setView("sweeps.source", source),
+  );
+  effect(refresh);
   return element;
 }
 
@@ -324,7 +323,6 @@ function catalogueList({ state, start, fields }, choose) {
     return radio;
   });
   const refresh = () => radios.forEach((radio) => (radio.checked = radio.value === state.get("material.catalogue")));
-  state.subscribe("material", refresh);
-  refresh();
+  effect(refresh);
   return list;
 }

@@ -4,13 +4,15 @@ import { contactFigures } from "../contact_fields.js";
 import { contactForm, nounOf } from "../contact_form.js";
 import { numbersOf, whyItLeans } from "../contact_words.js";
 import { frictionCard } from "../friction_curve.js";
-import { DEPENDS_ON, outdated, shows, studyOf } from "../inputs.js";
+import { Job, result, shows, studyOf } from "../jobs.js";
 import { follow } from "../live.js";
-import { welcome } from "../welcome.js";
+import { effect, signal, untracked } from "../reactive.js";
+import { state } from "../state.js";
 
 const STEPS = 400; // of the speed's slider
 const DECADE = 1; // beyond the speeds of the study, on either side
 const BEYOND = 15; // K beyond its temperatures
+const REST = 200; // ms after a change of the form
 
 /** The ends of the quantities that the document gives as one value, a list or a range; null where they cannot be read. */
 export function endsOf(given, kind, units) {
@@ -21,8 +23,17 @@ export function endsOf(given, kind, units) {
   return all.length ? [Math.min(...all), Math.max(...all)] : null;
 }
 
+const combination = signal(0); // of all else that varies in the study
+const contact = new Job("contact", {
+  follows: true,
+  inputs: () => {
+    const { speed, temperature } = state.view("contact.position", {});
+    return speed ? { study: state.study, options: { speed, temperature, combination: combination.value } } : null;
+  },
+});
+
 function mount(section, app) {
-  const { state, units, fields } = app;
+  const { units, fields } = app;
   const { h, card } = fields;
   const number = fields.note([], "warning");
   const failed = fields.note([], "error");
@@ -38,38 +49,24 @@ function mount(section, app) {
     h("table", {}, rows),
   );
   pictures.grid.append(more);
-  let position = { speed: null, temperature: null };
-  let result = null;
-
-  const curve = frictionCard(app, { onPick: (where) => moveTo(where) });
+  const curve = frictionCard(app, { combination, onPick: (where) => moveTo(where), live: contact });
   const live = follow({
-    request: (where, stage, signal) =>
-      app.api.runJob(
-        "contact",
-        {
-          study: where.study,
-          options: {
-            speed: where.speed,
-            temperature: where.temperature,
-            combination: where.combination,
-            stages: stage,
-          },
-        },
-        { signal },
-      ),
-    show,
-    fail: (error) => {
-      // a position beyond the rubber is the sliders', no field's
-      const beyond = error.field === "conditions.temperature";
-      failed.set([beyond ? error.message : app.waits("the contact", error, "live")]);
-      outdated(result);
-    },
-    busy: (stage) =>
-      (status.textContent = {
-        coarse: "solving …",
-        sharp: "refining …",
-        "": result ? (result.stage === "sharp" ? "converged" : "coarse") : "",
-      }[stage]),
+    request: ({ study, options }, stages, signal) =>
+      app.api.runJob("contact", { study, options: { ...options, stages } }, { signal }),
+    show: (found, asked) => contact.put(asked, found),
+    fail: (error, asked) => contact.refuse(asked, error),
+    busy: (stage) => (contact.moving.value = stage && { done: 0, total: 0, label: stage }),
+  });
+  const WORDS = { coarse: "solving …", sharp: "refining …" };
+  effect(() => {
+    const ended = contact.current ? (contact.current.stage === "sharp" ? "converged" : "coarse") : "";
+    status.textContent = WORDS[contact.progress?.label] ?? ended;
+  });
+  effect(() => {
+    const { error } = contact;
+    // a position beyond the rubber is the sliders', no field's
+    const beyond = error?.field === "conditions.temperature";
+    failed.set(error ? [beyond ? error.message : app.waits("the contact", error)] : []);
   });
 
   /** A slider with a number field: both show and change one of the two coordinates. */
@@ -93,8 +90,8 @@ function mount(section, app) {
       refresh();
     });
     function refresh() {
-      const value = position[name];
-      if (value === null) return;
+      const value = state.view("contact.position")?.[name];
+      if (!value) return;
       slider.value = String(Math.round(toSlider(value)));
       slider.setAttribute("aria-valuetext", units.show(value, kind));
       if (document.activeElement !== text) text.value = units.show(value, kind);
@@ -105,7 +102,8 @@ function mount(section, app) {
       h("label", { for: id, class: "field-label" }, label),
       h("div", { class: "row" }, slider, text),
     );
-    return { element, refresh };
+    effect(refresh);
+    return element;
   }
 
   const speeds = () => {
@@ -133,46 +131,34 @@ function mount(section, app) {
   ];
 
   function moveTo(where) {
-    position = { ...position, ...where };
-    state.setView("contact.position", position);
-    for (const one of controls) one.refresh();
-    live.want({ ...position, combination: curve.combination, study: state.study });
+    state.setView("contact.position", { ...state.view("contact.position", {}), ...where });
   }
 
-  function show(found, where) {
-    result = Object.assign(found, { combination: where.combination });
-    const noun = nounOf(where.study);
-    failed.set([]);
-    fields.clearError("live");
-    for (const one of [numbers, rows.parentElement, why.parentElement, number]) shows(one, result);
+  effect(() => {
+    const found = contact.result;
+    if (!found) return;
+    const study = studyOf(found);
+    const noun = nounOf(study);
+    for (const one of [numbers, rows.parentElement, why.parentElement, number]) shows(one, found);
     number.set(found.warnings);
-    pictures.show(found, { noun, synthetic: app.isSynthetic(studyOf(found)) });
-    curve.mark(result);
-    words();
-    state.setResult("contact", result);
-  }
-
-  function words() {
-    if (!result) return;
-    const radius = ["ball", "cylinder"].includes(nounOf(state.study))
-      ? units.parse(state.get("indenter.radius"), "length")
-      : null;
-    const { key, others } = numbersOf(result, units);
+    pictures.show(found, { noun, synthetic: app.isSynthetic(study) });
+    const radius = ["ball", "cylinder"].includes(noun) ? units.parse(study.indenter?.radius, "length") : null;
+    const { key, others } = numbersOf(found, units);
     numbers.set(key);
     rows.replaceChildren(
       ...others.map(({ label, value, remark }) =>
         h("tr", {}, h("th", { scope: "row" }, label), h("td", {}, value), h("td", {}, remark)),
       ),
     );
-    why.textContent = whyItLeans(result, units, nounOf(state.study), radius);
-  }
+    why.textContent = whyItLeans(found, units, noun, radius);
+  });
 
   const liveCard = card(
     "One contact, live",
     h(
       "div",
       { class: "live-controls" },
-      controls.map((one) => one.element),
+      controls,
       status,
     ),
     failed,
@@ -188,29 +174,64 @@ function mount(section, app) {
 
   section.append(
     welcome(app),
-    h("div", { class: "columns" }, h("div", {}, contactForm(app)), h("div", {}, curve.card, liveCard)),
+    h("div", { class: "columns" }, h("div", {}, contactForm(app)), h("div", {}, curve, liveCard)),
   );
 
-  /** Where the sliders begin: what a reload keeps, or the middle of the study. */
-  function begin() {
-    const kept = state.view("contact.position", null);
-    const [low, high] = speeds();
-    const [cold, warm] = kelvins();
-    const middle = { speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) };
-    moveTo(kept?.speed && kept?.temperature ? kept : middle);
-  }
+  // Where the sliders begin: what a reload keeps, or the middle of the study.
+  const { speed, temperature } = state.view("contact.position", {});
+  const [[low, high], [cold, warm]] = [speeds(), kelvins()];
+  if (!speed || !temperature)
+    moveTo({ speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) });
 
+  // A slider is followed at once, a form when it rests.
   let timer = null;
-  state.subscribe(DEPENDS_ON.contact, () => {
+  let about = null;
+  effect(() => {
     clearTimeout(timer);
-    timer = setTimeout(() => moveTo({}), 200);
+    if (!contact.key.value) return;
+    const waits = about !== null && about !== contact.about.value;
+    about = contact.about.value;
+    const want = () => live.want(contact.inputs.peek());
+    if (waits) timer = setTimeout(want, REST);
+    else untracked(want);
   });
-  state.subscribe(["conditions.speed", "conditions.temperature"], () => controls.forEach((one) => one.refresh()));
-  units.subscribe(() => {
-    for (const one of controls) one.refresh();
-    words();
+}
+
+/** What the page is for, what it shows, and where one's own data go; short once they are there. */
+function welcome({ start, fields, goTo }) {
+  const { h, button } = fields;
+  const first = h(
+    "section",
+    { class: "welcome", "aria-label": "What this page does" },
+    h(
+      "p",
+      {},
+      h("strong", {}, "Hysteresis friction (rolling resistance) from DMA data. "),
+      "Sliding or rolling deforms rubber, and the dissipated energy causes friction. This page computes it from DMA data ",
+      "alone. The example is a synthetic material: change shape, load, speed or temperature, and the result updates.",
+    ),
+    h(
+      "div",
+      { class: "row" },
+      button({
+        label: "Use my DMA file",
+        kind: "main",
+        onClick: () => {
+          state.setView("sweeps.source", "dma");
+          goTo("sweeps");
+        },
+      }),
+      button({ label: "Compare with my friction test", onClick: () => goTo("measurement") }),
+      h("span", { class: "help" }, "Your files stay on this computer."),
+    ),
+  );
+  const later = h("p", {}, "Change shape, load, speed or temperature, and the friction is computed again.");
+  effect(() => {
+    const name = state.get("material.catalogue");
+    first.hidden = name === undefined || name !== start.study.material?.catalogue;
+    later.hidden = !first.hidden;
   });
-  begin();
+  return h("div", { class: "intro" }, first, later);
 }
 
 function summary(state) {
@@ -219,7 +240,7 @@ function summary(state) {
   const what = surface
     ? "rough surface"
     : [indenter?.shape ?? "ball", [indenter?.radius ?? indenter?.angle].flat()[0]].filter(Boolean).join(" ");
-  const found = state.result("curve")?.friction?.filter((value) => value !== null) ?? [];
+  const found = result("curve")?.friction?.filter((value) => value !== null) ?? [];
   const range = found.length ? `, μ ${Math.min(...found).toPrecision(2)} to ${Math.max(...found).toPrecision(2)}` : "";
   return `${what}, ${[load].flat()[0] ?? "no load"}${range}`;
 }

@@ -1,6 +1,8 @@
 // The rubber as a card for finite-element programs; and how texts are copied and files are fetched.
 
-import { isCurrent } from "../inputs.js";
+import { Job } from "../jobs.js";
+import { effect, signal, watch } from "../reactive.js";
+import { state } from "../state.js";
 
 const PROGRAMS = [
   ["abaqus", "Abaqus"],
@@ -17,6 +19,19 @@ const LAWS = [
   ["wlf", "WLF"],
   ["arrhenius", "Arrhenius"],
 ];
+const SYSTEMS = [
+  ["Pa", "Pa, m, s, kg"],
+  ["MPa", "MPa, mm, s, t"],
+];
+const TEMPERATURES = [
+  ["K", "kelvin"],
+  ["degC", "°C"],
+];
+const DOMAINS = [
+  ["time", "time (Prony series)"],
+  ["frequency", "frequency"],
+];
+const FIRST = { program: "abaqus", system: "Pa", temperature: "K", domain: "time", law: "", poisson: "", density: "" };
 const WITH_UNITS = ["abaqus", "ansys", "ls-dyna"];
 const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
 
@@ -48,13 +63,34 @@ export function fileLine(app, { name, title, size: bytes }) {
   return h("li", {}, link, h("span", { class: "help" }, `${title}, ${size(bytes)}`));
 }
 
+const viewed = (key) => state.view(`card.${key}`, FIRST[key]);
+const refusedRatio = () => {
+  const ratio = viewed("poisson");
+  return ratio && !Number.isFinite(Number(ratio)) ? `Poisson's ratio: enter a number, e.g. 0.499; got ${ratio}.` : null;
+};
+
+const cardJob = new Job("export-card", {
+  manual: true,
+  inputs: () => ({
+    study: state.study,
+    options: {
+      format: viewed("program"),
+      temperature_unit: viewed("temperature"),
+      unit_system: viewed("system"),
+      domain: viewed("domain"),
+      ...(viewed("law") ? { law: viewed("law") } : {}),
+      ...(viewed("poisson") ? { poisson_ratio: Number(viewed("poisson")) } : {}),
+      ...(viewed("density") ? { density: viewed("density") } : {}),
+    },
+  }),
+});
+
 /** A select or box that is no part of the study, kept over reloads. */
 function viewField(app, key, label, control, help) {
   const { h } = app.fields;
-  control.id = `view-${key.replace(".", "-")}`;
-  const kept = app.state.view(key);
-  if (kept !== undefined) control.value = kept;
-  control.addEventListener("change", () => app.state.setView(key, control.value));
+  control.id = `view-card-${key}`;
+  effect(() => void (control.value = viewed(key)));
+  control.addEventListener("change", () => state.setView(`card.${key}`, control.value.trim()));
   return h(
     "div",
     { class: "field" },
@@ -74,88 +110,51 @@ export function cardCard(app) {
       options.map(([value, text]) => h("option", { value }, text)),
     );
   const box = (placeholder) => h("input", { type: "text", placeholder, autocomplete: "off" });
-  const program = select(PROGRAMS);
-  const system = select([
-    ["Pa", "Pa, m, s, kg"],
-    ["MPa", "MPa, mm, s, t"],
-  ]);
-  const temperature = select([
-    ["K", "kelvin"],
-    ["degC", "°C"],
-  ]);
-  const domain = select([
-    ["time", "time (Prony series)"],
-    ["frequency", "frequency"],
-  ]);
-  const law = select(LAWS);
-  const poisson = box("that of the material");
-  const density = box("none");
   const wrong = note([], "error");
   const notes = note([]);
   const text = h("pre", { tabindex: "0", role: "group", "aria-label": "Card", hidden: true });
   const after = h("div", { class: "row" });
   const optional = {
-    system: viewField(app, "card.system", "Units of the model", system),
-    temperature: viewField(app, "card.temperature", "Temperatures of the model", temperature),
-    domain: viewField(app, "card.domain", "Analysis", domain),
-    law: viewField(app, "card.law", "Shift law", law, "fits a law, since the programs accept no table of factors"),
-    poisson: viewField(app, "card.poisson", "Poisson's ratio", poisson, "ANSYS and LS-DYNA do not accept 0.5"),
-    density: viewField(app, "card.density", "Density", density, "e.g. 1800 kg/m^3; required for LS-DYNA"),
+    system: viewField(app, "system", "Units of the model", select(SYSTEMS)),
+    temperature: viewField(app, "temperature", "Temperatures of the model", select(TEMPERATURES)),
+    domain: viewField(app, "domain", "Analysis", select(DOMAINS)),
+    law: viewField(app, "law", "Shift law", select(LAWS), "fits a law, since the programs accept no table of factors"),
+    poisson: viewField(app, "poisson", "Poisson's ratio", box("that of the material"), "ANSYS and LS-DYNA do not accept 0.5"),
+    density: viewField(app, "density", "Density", box("none"), "e.g. 1800 kg/m^3; required for LS-DYNA"),
   };
-  const programField = viewField(app, "card.program", "Program", program);
-  const fit = () => {
-    const own = ["json", "csv"].includes(program.value);
-    optional.system.hidden = !WITH_UNITS.includes(program.value);
-    optional.domain.hidden = program.value !== "abaqus";
-    for (const one of [optional.temperature, optional.law, optional.poisson, optional.density]) one.hidden = own;
-  };
-  program.addEventListener("change", fit);
-  fit();
-
-  async function write() {
-    wrong.set([]);
-    const ratio = poisson.value.trim();
-    const options = {
-      format: program.value,
-      temperature_unit: temperature.value,
-      unit_system: system.value,
-      domain: domain.value,
-    };
-    if (law.value) options.law = law.value;
-    if (ratio) options.poisson_ratio = Number(ratio);
-    if (density.value.trim()) options.density = density.value.trim();
-    go.disabled = true;
-    try {
-      if (ratio && !Number.isFinite(options.poisson_ratio))
-        throw new Error(`Poisson's ratio: enter a number, e.g. 0.499; got ${ratio}.`);
-      const found = await app.api.runJob("export-card", { study: app.state.study, options });
-      if (!isCurrent(found)) throw new Error("The material has changed; write the card again.");
-      text.textContent = found.text;
-      text.hidden = false;
-      notes.set(found.notes);
-      after.replaceChildren(
-        fileLine(app, found.download).firstChild,
-        copyButton(app, () => found.text),
-      );
-      app.announce(`The card is written: ${found.download.name}.`);
-    } catch (error) {
-      wrong.set([error.message]);
-      text.hidden = true;
-      after.replaceChildren();
-      app.announce(`Error: ${error.message}`);
-    } finally {
-      go.disabled = false;
-    }
-  }
-
-  const go = button({ label: "Write the card", onClick: write });
-  app.state.subscribe("material", () => {
-    text.hidden = true;
-    after.replaceChildren();
+  const refused = signal(null);
+  const go = button({
+    label: "Write the card",
+    onClick: () => {
+      refused.value = refusedRatio();
+      if (!refused.value) cardJob.run();
+    },
   });
+  cardJob.done = ({ download }) => app.announce(`The card is written: ${download.name}.`);
+  effect(() => {
+    const program = viewed("program");
+    const own = ["json", "csv"].includes(program);
+    optional.system.hidden = !WITH_UNITS.includes(program);
+    optional.domain.hidden = program !== "abaqus";
+    for (const key of ["temperature", "law", "poisson", "density"]) optional[key].hidden = own;
+  });
+  effect(() => {
+    const found = cardJob.current;
+    const sentence = refusedRatio() ? refused.value : cardJob.error?.message;
+    wrong.set(sentence ? [sentence] : []);
+    go.disabled = Boolean(cardJob.progress);
+    text.hidden = !found;
+    text.textContent = found?.text ?? "";
+    notes.set(found?.notes ?? []);
+    after.replaceChildren(...(found ? [fileLine(app, found.download).firstChild, copyButton(app, () => found.text)] : []));
+  });
+  watch(
+    () => cardJob.error,
+    (error) => error && app.announce(`Error: ${error.message}`),
+  );
   return card(
     "Material card for finite elements",
-    h("div", { class: "form" }, programField, ...Object.values(optional)),
+    h("div", { class: "form" }, viewField(app, "program", "Program", select(PROGRAMS)), ...Object.values(optional)),
     h("div", { class: "row" }, go, after),
     wrong,
     notes,

@@ -1,6 +1,8 @@
 // The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
-import { isCurrent } from "../inputs.js";
+import { Job, newest, shows } from "../jobs.js";
+import { effect, signal, watch } from "../reactive.js";
+import { state } from "../state.js";
 import { cardCard, copyButton, fileLine } from "./export_card.js";
 
 /** Fill the step. */
@@ -22,21 +24,21 @@ function fetchFile(app, name) {
 }
 
 /** Take in data files, and show the study of a run file among them. */
-async function openFiles(app, files, wrong) {
+async function openFiles(app, files, failed) {
   const isRunFile = (file) => file.name.toLowerCase().endsWith(".toml");
-  wrong.set([]);
+  failed.value = null;
   try {
     await app.api.uploadFiles(files.filter((file) => !isRunFile(file)));
     const runFile = files.find(isRunFile);
     if (!runFile) throw new Error("No run file was given; its name ends with .toml.");
     const options = { text: await runFile.text() };
     const { study, missing } = await app.api.runJob("open-run-file", { options });
-    app.state.replace(study);
+    state.replace(study);
     app.announce(
       `${runFile.name} is opened.${missing.length ? ` Missing data files: ${missing.join(", ")}.` : ""}`,
     );
   } catch (error) {
-    wrong.set([error.message]);
+    failed.value = error.message;
     app.announce(`Error: ${error.message}`);
   }
 }
@@ -46,52 +48,56 @@ function runFileCard(app) {
   const text = h("pre", { tabindex: "0", role: "group", "aria-label": "Run file" });
   const about = h("p", { class: "help" });
   const wrong = note([], "error");
-  const show = (found) => {
-    if (!found) return;
-    text.replaceChildren(...coloured(found.text.trimEnd(), h));
-    const files = found.files?.length
-      ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which the zip contains`}.`
-      : "";
-    about.textContent = found.cases ? `It has ${found.cases} case${found.cases === 1 ? "" : "s"}.${files}` : "";
-    wrong.set(found.problems.map((one) => (one.field ? `${one.field}: ${one.message}` : one.message)));
-    take.disabled = found.problems.length > 0;
-  };
+  const failed = signal(null); // what went wrong with files or the archive
   const take = button({
     label: "Run file and data (zip)",
     symbol: "down",
     kind: "small",
     onClick: async () => {
+      failed.value = null;
       try {
-        const found = await app.api.runJob("export-run-file", { study: app.state.study, options: { pack: true } });
+        const found = await app.api.runJob("export-run-file", { study: state.study, options: { pack: true } });
         fetchFile(app, found.download.name);
         app.announce("The zip file is ready.");
       } catch (error) {
-        wrong.set([error.message]);
+        failed.value = error.message;
       }
     },
   });
-  app.state.onResult("run_file", show);
+  effect(() => {
+    const found = newest("export-run-file");
+    if (!found) return;
+    shows(text, found);
+    text.replaceChildren(...coloured(found.text.trimEnd(), h));
+    const files = found.files?.length
+      ? ` It reads ${found.files.length === 1 ? found.files[0] : `${found.files.length} data files, which the zip contains`}.`
+      : "";
+    about.textContent = found.cases ? `It has ${found.cases} case${found.cases === 1 ? "" : "s"}.${files}` : "";
+    const problems = found.problems.map((one) => (one.field ? `${one.field}: ${one.message}` : one.message));
+    wrong.set([...problems, ...(failed.value ? [failed.value] : [])]);
+    take.disabled = found.problems.length > 0;
+  });
   const bring = fileDrop({
     label: "Open a run file",
     help: "Drop it here with its data files, or choose them.",
-    onFiles: (files) => openFiles(app, files, wrong),
+    onFiles: (files) => openFiles(app, files, failed),
   });
   const anew = button({
     label: "Start over",
     kind: "small",
     onClick: () => {
-      app.state.replace(app.start.study);
+      state.replace(app.start.study);
       app.announce("The page shows the example study again; Undo restores yours.");
     },
   });
-  const made = card(
+  return card(
     "Run file",
     textField({ path: "title", label: "Title of the study and report" }),
     h(
       "div",
       { class: "row" },
       take,
-      copyButton(app, () => app.state.result("run_file")?.text ?? ""),
+      copyButton(app, () => newest("export-run-file")?.text ?? ""),
       anew,
     ),
     about,
@@ -100,8 +106,6 @@ function runFileCard(app) {
     h("p", { class: "help" }, "Run in its folder: ", h("code", {}, "viscofric run study.toml")),
     bring,
   );
-  show(app.state.result("run_file"));
-  return made;
 }
 
 /** A run file's lines, with headings, keys and remarks marked as such. */
@@ -114,10 +118,22 @@ function coloured(text, h) {
   });
 }
 
+// How many processes it takes is no input.
+const study = new Job("export-study", {
+  manual: true,
+  inputs: () => ({ study: state.study }),
+  asked: (_, asked) => ({ study: asked.study }),
+});
+const inWords = (seconds) => (seconds < 90 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`);
+
 function studyCard(app) {
   const { button, card, choiceField, h, keyNumbers, note, numberField, progressBar } = app.fields;
-  let running = null;
-  const bar = progressBar({ label: "Running the study", onCancel: () => running?.abort() });
+  const bar = progressBar(study, {
+    label: "Running the study",
+    ended: ({ cancelled, seconds }) =>
+      cancelled ? "Cancelled; solved contacts are kept for the next run." : `Done in ${inWords(seconds)}.`,
+  });
+  const outdated = note([]);
   const numbers = keyNumbers();
   const notes = note([]);
   const warnings = note([], "warning");
@@ -130,67 +146,43 @@ function studyCard(app) {
     value: "1",
     id: "export-workers",
   });
-  const clear = () => {
-    for (const one of [notes, warnings, failures]) one.set([]);
-    numbers.set([]);
-    files.replaceChildren();
-  };
-
-  async function runStudy() {
-    clear();
-    app.fields.clearError("study");
-    const began = performance.now();
-    running = new AbortController();
-    go.disabled = true;
-    bar.start("Starting");
-    try {
-      const found = await app.api.runJob(
-        "export-study",
-        { study: app.state.study, options: { workers: Number(workers.value) || 1 } },
-        { signal: running.signal, onProgress: ({ done, total, label }) => bar.set(done, total, label) },
-      );
-      show(found, (performance.now() - began) / 1e3);
-    } catch (error) {
-      if (error.name === "AbortError") bar.fail("Cancelled; solved contacts are kept for the next run.");
-      else {
-        bar.fail("");
-        app.fields.showError(error, "study");
-        failures.set([app.explain(error, "export")]);
-      }
-      app.announce(error.name === "AbortError" ? "The study is cancelled." : `Error: ${error.message}`);
-    } finally {
-      running = null;
-      go.disabled = false;
-    }
+  const go = button({ label: "Run the whole study", kind: "main", onClick: run });
+  function run() {
+    const options = { workers: Number(workers.value) || 1 };
+    study.run({ study: state.study, options });
   }
-
-  const changed = () => bar.finish("The study has changed; run it again.");
-
-  function show(found, seconds) {
-    if (!isCurrent(found)) return changed();
-    const said = `Done in ${seconds < 90 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`}.`;
-    bar.finish(said);
-    numbers.set([
-      { label: "cases", value: String(found.cases), remark: found.failed ? `${found.failed} failed` : "all solved" },
-      { label: "warnings", value: String(found.warnings.length), remark: found.warnings.length ? "listed below" : "" },
-    ]);
-    files.replaceChildren(...found.downloads.map((one) => fileLine(app, one)));
-    failures.set(found.failures);
-    warnings.set(found.warnings);
-    notes.set(found.notes);
-    app.state.setResult("export", found);
+  study.done = ({ cases, failed, downloads }) =>
     app.announce(
-      `The study is finished: ${found.cases} cases, ${found.failed} failed. ${found.downloads.length} files can be downloaded.`,
+      `The study is finished: ${cases} cases, ${failed} failed. ${downloads.length} files can be downloaded.`,
     );
-  }
-
-  const go = button({ label: "Run the whole study", kind: "main", onClick: runStudy });
-  app.state.subscribe("", () => {
-    if (files.children.length === 0) return;
-    clear();
-    changed();
-    app.state.setResult("export", undefined);
+  effect(() => {
+    const found = study.current; // files of another study are none of this one
+    go.disabled = Boolean(study.progress);
+    outdated.set(study.result && !found && !study.progress ? ["The study has changed; run it again."] : []);
+    numbers.set(
+      found
+        ? [
+            { label: "cases", value: String(found.cases), remark: found.failed ? `${found.failed} failed` : "all solved" },
+            {
+              label: "warnings",
+              value: String(found.warnings.length),
+              remark: found.warnings.length ? "listed below" : "",
+            },
+          ]
+        : [],
+    );
+    files.replaceChildren(...(found?.downloads ?? []).map((one) => fileLine(app, one)));
+    failures.set(study.error ? [app.explain(study.error, "export")] : (found?.failures ?? []));
+    warnings.set(found?.warnings ?? []);
+    notes.set(found?.notes ?? []);
   });
+  watch(
+    () => study.error ?? study.ended,
+    (end) => {
+      if (end?.cancelled) app.announce("The study is cancelled.");
+      else if (end?.message) app.announce(`Error: ${end.message}`);
+    },
+  );
   return card(
     "Results and report",
     h(
@@ -222,6 +214,7 @@ function studyCard(app) {
       h("div", { class: "field" }, h("label", { class: "field-label", for: "export-workers" }, "Processes"), workers),
     ),
     h("div", { class: "row" }, go, bar),
+    outdated,
     failures,
     numbers,
     files,

@@ -1,5 +1,7 @@
 // What the list of steps says of those that are loaded when they are first opened, and where they are then found.
 
+import { newest, result } from "../jobs.js";
+
 /** A step whose module is fetched when somebody looks at it; one that cannot be had says so, and leaves the others alone. */
 const later = (id, title, summary, module, show = "mount") => ({
   id,
@@ -25,36 +27,36 @@ function source(state) {
   return Array.isArray(value) && value.length > 1 ? `${value.length} files` : String(value);
 }
 
-function superposition(state) {
-  const result = state.result("rubber");
-  if (!result) return "";
-  if (!result.shift) return "no shift with temperature";
-  return result.check?.short ?? (result.shift.used === "assumed" ? "assumed law" : "from the material file");
+function superposition() {
+  const rubber = result("rubber");
+  if (!rubber) return "";
+  if (!rubber.shift) return "no shift with temperature";
+  return rubber.check?.short ?? (rubber.shift.used === "assumed" ? "assumed law" : "from the material file");
 }
 
-function modes(state) {
-  const spectrum = state.result("rubber")?.spectrum;
+function modes() {
+  const spectrum = result("rubber")?.spectrum;
   if (!spectrum) return "";
   return spectrum.modes ? `${spectrum.modes.retardation_time.length} modes` : "a table of moduli";
 }
 
-function motion(state) {
-  const result = state.result("motion");
-  if (!result) return "";
-  if (result.contacts) return `restitution ${result.contacts[0].restitution.toPrecision(2)}`;
-  return `${result.time.length} times${result.interrupted ? ", stopped" : ""}`;
+function motion() {
+  const solved = result("motion");
+  if (!solved) return "";
+  if (solved.contacts) return `restitution ${solved.contacts[0].restitution.toPrecision(2)}`;
+  return `${solved.time.length} times${solved.interrupted ? ", stopped" : ""}`;
 }
 
-function agreement(state) {
-  const result = state.result("measured");
-  if (!result?.curves) return result?.refusal ? "not separated" : "";
-  const rms = state.result("agreement")?.key?.[0]?.value;
-  return `${result.points} points${rms ? `, predicted to ${rms}` : ""}`;
+function agreement() {
+  const measured = result("measured");
+  if (!measured?.curves) return measured?.refusal ? "not separated" : "";
+  const rms = result("agreement")?.key?.[0]?.value;
+  return `${measured.points} points${rms ? `, predicted to ${rms}` : ""}`;
 }
 
-function results(state) {
-  const done = state.result("export");
-  const cases = state.result("run_file")?.cases;
+function results() {
+  const done = result("export-study");
+  const cases = newest("export-run-file")?.cases;
   if (done) return `${done.cases} cases, results ready`;
   return cases ? `run file: ${cases} case${cases === 1 ? "" : "s"}` : "";
 }

@@ -1,8 +1,11 @@
 // Measured friction beside the prediction for the page's rubber and ball, and what else follows from the test.
 
-import { shows } from "../inputs.js";
+import { shows } from "../jobs.js";
+import { effect } from "../reactive.js";
 import { checkFigure, coulombFigure, frictionFigure, zeroFigure } from "./measurement_figures.js";
-import { checkList, folded, repeated } from "./measurement_parts.js";
+import { alone, checkList, folded, ofMeasured, progressOf, shownMeasured } from "./measurement_parts.js";
+
+export const agreement = ofMeasured("agreement", () => (alone() ? null : {}), { remember: 4 });
 
 const SPEED = { label: "speed", kind: "speed", log: true };
 const OTHERS = [
@@ -34,19 +37,17 @@ const OTHERS = [
  *
  * @param {object} app
  * @param {{data: () => boolean, synthetic: () => boolean}} step
- * @param {{changed: () => void}} after another prediction
  */
-export function comparison(app, step, { changed }) {
-  const { state, fields, figures } = app;
+export function comparison(app, step) {
+  const { fields, figures } = app;
   const { h, note } = fields;
-  const job = repeated(app, "agreement", { label: "Predicting", done: show, failed: () => show(null) });
   const key = fields.keyNumbers();
   const verdict = note([]);
   const warnings = note([], "warning");
   const byTemperature = h("div", {});
   const checks = checkList(app);
   const checked = folded(app, "By temperature, and checks", byTemperature, checks);
-  const card = fields.card("Measured against predicted", job.bar, job.errors);
+  const card = fields.card("Measured against predicted", ...progressOf(app, agreement, "Predicting"));
   const figure = figures.figure(card, {
     id: "measured-friction",
     title: "Viscoelastic friction",
@@ -63,18 +64,19 @@ export function comparison(app, step, { changed }) {
     return { of, place, handle: figures.figure(place, { x: SPEED, height: 300, ...spec }) };
   });
 
-  function showMeasured(result) {
-    figure.update({ of: result, ...frictionFigure(result, null, step.data()) });
+  agreement.done = ({ sentences }) => sentences.length && app.announce(sentences[0]);
+  agreement.start();
+  effect(() => {
+    const result = shownMeasured();
     for (const { of, place, handle } of others) {
       const changes = of(result, step.data());
       place.hidden = changes.traces.length === 0;
       handle.update({ of: result, ...changes });
     }
-  }
-
-  function show(result) {
-    state.setResult("agreement", result);
-    const measured = state.result("measured");
+  });
+  effect(() => {
+    const measured = shownMeasured();
+    const result = agreement.error ? null : agreement.result;
     const synthetic = result ? step.synthetic() : step.data();
     figure.update({ of: result ?? measured, ...frictionFigure(measured, result, synthetic) });
     for (const one of [key, verdict, warnings, byTemperature, checks]) shows(one, result);
@@ -88,14 +90,7 @@ export function comparison(app, step, { changed }) {
     byTemperature.replaceChildren(
       ...(rows ? [fields.table(headings, rows, caption), h("p", { class: "help" }, remark)] : []),
     );
-    if (result?.sentences.length) app.announce(result.sentences[0]);
-    changed();
-  }
+  });
 
-  function clear() {
-    job.stop();
-    show(null);
-  }
-
-  return { card, rest, showMeasured, clear, run: () => job.run(state.study) };
+  return { card, rest };
 }

@@ -1,8 +1,11 @@
 // The rubber behind measured friction: what fixes its level, the computation, and its result.
 
-import { shows } from "../inputs.js";
+import { shows } from "../jobs.js";
+import { effect } from "../reactive.js";
+import { state } from "../state.js";
 import { fitFigure, modulusFigure } from "./measurement_inverse.js";
-import { optionChoice, optionField, repeated } from "./measurement_parts.js";
+import { master } from "./measurement_master.js";
+import { alone, ofMeasured, optionChoice, optionField, progressOf, shownMeasured } from "./measurement_parts.js";
 
 /** Fields of an anchor of each kind. */
 const ANCHOR_FIELDS = {
@@ -14,22 +17,22 @@ const ANCHOR_FIELDS = {
   half_width: ["size", "speed", "load", "temperature", "error"],
 };
 
+/** Shift factors of friction where they can be found, else of the page's material, until the user chooses. */
+const suggested = () => (master.current?.refusal && master.current.by_rubber ? "rubber" : "friction");
+
 /**
  * The card of the identification.
  *
  * @param {object} app
  * @param {{data: () => boolean, synthetic: () => boolean}} step
- * @param {{alone: () => boolean}} about whether no rubber is to be looked at
  */
-export function identification(app, step, { alone }) {
-  const { state, fields, figures } = app;
+export function identification(app, step) {
+  const { fields, figures } = app;
   const { h, button, note } = fields;
-  let byHand = false; // whether the user chose the shift factors
-  let awaited = null; // the newest friction master curve on its way
   const shift = optionChoice(app, {
     key: "identify.shift",
     label: "Shift factors",
-    onChange: () => (byHand = true),
+    otherwise: suggested,
     options: [
       ["friction", "found from friction"],
       ["rubber", "of the page's material"],
@@ -38,7 +41,6 @@ export function identification(app, step, { alone }) {
   const anchor = optionChoice(app, {
     key: "identify.anchor",
     label: "Anchor (fixes the magnitude of the modulus)",
-    onChange: () => choose(),
     help: "Friction determines the shape of E(ω) but hardly its magnitude.",
     options: [
       ["rubber", "|E| of the page's material at one frequency"],
@@ -63,8 +65,11 @@ export function identification(app, step, { alone }) {
     temperature: optionField(app, { key: "identify.temperature", label: "Anchor temperature", kind: "temperature" }),
     error: optionField(app, { key: "identify.error", label: "Relative standard error", placeholder: "0.01" }),
   };
-  const job = repeated(app, "identify", { label: "Identifying", done: show });
-  const go = button({ label: "Identify the material", kind: "main", onClick: () => job.run(state.study, options()) });
+  const identify = ofMeasured("identify", options, {
+    manual: true,
+    done: ({ sentences: [first] }) => app.announce(`The material is identified. ${first}`),
+  });
+  const go = button({ label: "Identify the material", kind: "main", onClick: () => identify.run() });
   const sentences = note([]);
   const family = h("div", {});
   const card_ = h("a", { class: "button small", hidden: true, download: "rubber_from_friction.json" }, "Material (JSON)");
@@ -74,8 +79,7 @@ export function identification(app, step, { alone }) {
     "Material identified from friction",
     h("div", { class: "form" }, shift, anchor, Object.values(boxes)),
     h("div", { class: "row" }, go),
-    job.bar,
-    job.errors,
+    ...progressOf(app, identify, "Identifying"),
   );
   const results = h("div", { class: "step-body", hidden: true });
   card.append(results);
@@ -96,13 +100,11 @@ export function identification(app, step, { alone }) {
     height: 380,
   });
 
-  function choose() {
-    const shown = ANCHOR_FIELDS[anchor.value()];
-    for (const [name, box] of Object.entries(boxes)) box.hidden = !shown.includes(name);
-    const isotherms = state.result("measured")?.curves ?? [];
-    const middle = isotherms[Math.floor(isotherms.length / 2)]?.temperature;
-    boxes.temperature.input.placeholder = middle ? app.units.show(middle, "temperature") : "30 °C";
-  }
+  const middle = () => {
+    const isotherms = shownMeasured()?.curves ?? [];
+    const kelvin = isotherms[Math.floor(isotherms.length / 2)]?.temperature;
+    return kelvin ? app.units.show(kelvin, "temperature") : "30 °C";
+  };
 
   /** The options of the job; the placeholders of frequency and temperature count where nothing was typed. */
   function options() {
@@ -111,18 +113,27 @@ export function identification(app, step, { alone }) {
     if (of === "nothing") return chosen;
     const typed = (name) => boxes[name].value() || undefined;
     const given = Object.fromEntries(ANCHOR_FIELDS[of].map((name) => [name, typed(name)]));
-    given.temperature ??= app.units.typed(boxes.temperature.input.placeholder, "temperature");
+    given.temperature ??= app.units.typed(middle(), "temperature");
     if (of === "rubber") given.frequency ??= "1 Hz";
     if (given.error !== undefined) given.error = Number(given.error);
     return { ...chosen, anchor: { of, ...given } };
   }
 
+  effect(() => {
+    for (const [name, box] of Object.entries(boxes)) box.hidden = !ANCHOR_FIELDS[anchor.value()].includes(name);
+    boxes.temperature.input.placeholder = middle();
+    go.disabled = !(master.current || master.error || master.ended); // which factors to use is not known before
+  });
+  effect(() => {
+    const found = identify.error ? null : identify.result;
+    results.hidden = !found;
+    if (found) show(found);
+  });
+
   function show(found) {
-    state.setResult("identified", found);
-    results.hidden = false;
     const made = alone() ? step.data() : step.synthetic();
     modulus.update({ of: found, ...modulusFigure(found, made) });
-    fit.update({ of: found, ...fitFigure(found, state.result("measured"), made) });
+    fit.update({ of: found, ...fitFigure(found, shownMeasured(), made) });
     for (const one of [sentences, family]) shows(one, found);
     const at =
       found.anchor &&
@@ -146,37 +157,16 @@ export function identification(app, step, { alone }) {
     );
     card_.href = app.api.downloadUrl(found.download);
     card_.hidden = use.hidden = false;
-    app.announce(`The material is identified. ${found.sentences[0]}`);
   }
 
   /** Make the identified rubber that of the page. */
   async function take() {
-    const found = state.result("identified");
-    const response = await fetch(app.api.downloadUrl(found.download));
-    const [name] = await app.api.uploadFiles([new File([await response.blob()], found.download)]);
+    const { download } = identify.result;
+    const response = await fetch(app.api.downloadUrl(download));
+    const [name] = await app.api.uploadFiles([new File([await response.blob()], download)]);
     state.set("material", { file: name });
     app.announce("The page now uses the identified material.");
   }
 
-  function clear() {
-    job.stop();
-    state.setResult("identified", null);
-    results.hidden = true;
-    choose();
-  }
-
-  /** Shift factors of friction where they can be found, else of the page's material, unless the user chose. */
-  async function suggest(coming) {
-    awaited = coming;
-    go.disabled = true; // which factors to use is not known before
-    const master = await coming;
-    if (awaited !== coming) return;
-    go.disabled = false;
-    if (byHand) return;
-    if (master?.refusal && master.by_rubber) shift.choose("rubber");
-    else if (master?.found) shift.choose("friction");
-  }
-
-  clear();
-  return { card, clear, suggest };
+  return card;
 }

@@ -1,50 +1,45 @@
-// Parts of the measurement step: one computation after another, and inputs that are no part of the study.
+// Parts of the measurement step: its jobs, and inputs that are no part of the study.
 
-/**
- * A job that is run again and again: the last one counts, the others are cancelled.
- *
- * @param {object} app
- * @param {string} kind of the job
- * @param {{label: string, done: (result: object) => void, failed: (message: string) => void}} about
- */
-export function repeated(app, kind, { label, done, failed }) {
-  let running = null;
-  const bar = app.fields.progressBar({ label, onCancel: () => running?.abort() });
+import { Job } from "../jobs.js";
+import { effect } from "../reactive.js";
+import { state } from "../state.js";
+
+/** What was read and separated; its result names the table of the study that it is of. */
+export const measured = new Job("measured", {
+  wait: 400,
+  asked: (result, asked) => ({ study: { ...asked.study, measurement: result.table } }),
+  inputs: () => (state.get("measurement") ? { study: state.study } : null),
+});
+
+/** What is shown of it: also that of earlier inputs, while it is read again. */
+export const shownMeasured = () => (measured.error ? null : measured.result);
+
+/** Whether friction is looked at alone, without the page's material. */
+export const alone = () => state.view("friction.beside", "rubber") === "nothing";
+
+/** A job of measured friction; `options` gives those of the page, or null where nothing is to be computed. */
+export const ofMeasured = (kind, options, about) =>
+  new Job(kind, {
+    wait: 400,
+    when: () => state.step === "measurement",
+    inputs: () => {
+      const given = !measured.error && measured.current?.curves ? options() : null;
+      return given && { study: state.study, options: given };
+    },
+    ...about,
+  });
+
+/** Progress and errors of a job. */
+export function progressOf(app, job, label) {
+  const bar = app.fields.progressBar(job, { label });
   const errors = app.fields.note([], "error");
   errors.setAttribute("aria-live", "assertive");
-
-  async function run(study, options = {}) {
-    running?.abort();
-    const own = new AbortController();
-    running = own;
-    errors.set([]);
-    app.fields.clearError(kind);
-    bar.start();
-    try {
-      const onProgress = (progress) => own === running && bar.set(progress.done, progress.total, progress.label);
-      const result = await app.api.runJob(kind, { study, options }, { onProgress, signal: own.signal });
-      if (own !== running) return;
-      bar.finish();
-      done(result);
-    } catch (error) {
-      if (own !== running) return;
-      bar.finish(error.name === "AbortError" ? "Cancelled." : "");
-      if (error.name === "AbortError") return;
-      app.fields.showError(error, kind);
-      const message = error.message.charAt(0).toUpperCase() + error.message.slice(1);
-      errors.set([app.explain({ ...error, message }, "measurement")]);
-      failed?.(error);
-    }
-  }
-
-  function stop() {
-    running?.abort();
-    running = null;
-    bar.finish();
-    errors.set([]);
-  }
-
-  return { run, stop, bar, errors };
+  effect(() => {
+    const { error } = job;
+    const message = error && error.message.charAt(0).toUpperCase() + error.message.slice(1);
+    errors.set(error ? [app.explain({ field: error.field, message }, "measurement")] : []);
+  });
+  return [bar, errors];
 }
 
 let made = 0;
@@ -61,9 +56,8 @@ export function optionField(app, { key, label, help, kind, placeholder }) {
     spellcheck: "false",
     "aria-describedby": help ? `${id}-help` : undefined,
   });
-  input.value = app.state.view(key, "");
-  const value = () => app.units.typed(input.value, kind);
-  input.addEventListener("change", () => app.state.setView(key, input.value.trim()));
+  effect(() => void (input.value = state.view(key, "")));
+  input.addEventListener("change", () => state.setView(key, input.value.trim()));
   const element = h(
     "div",
     { class: "field" },
@@ -71,11 +65,11 @@ export function optionField(app, { key, label, help, kind, placeholder }) {
     input,
     help ? h("p", { class: "help", id: `${id}-help` }, help) : null,
   );
-  return Object.assign(element, { value, input });
+  return Object.assign(element, { value: () => app.units.typed(state.view(key, ""), kind), input });
 }
 
-/** A choice that is no part of the study: chosen.value(), kept over reloads. */
-export function optionChoice(app, { key, label, help, options, onChange }) {
+/** A choice that is no part of the study: chosen.value(), kept over reloads; `otherwise` is that until the user chooses. */
+export function optionChoice(app, { key, label, help, options, otherwise = () => null }) {
   const { h } = app.fields;
   const id = `option-${(made += 1)}`;
   const select = h(
@@ -83,12 +77,10 @@ export function optionChoice(app, { key, label, help, options, onChange }) {
     { id },
     options.map(([value, text]) => h("option", { value }, text)),
   );
-  select.value = app.state.view(key, options[0][0]);
-  if (select.selectedIndex < 0) select.selectedIndex = 0;
-  select.addEventListener("change", () => {
-    app.state.setView(key, select.value);
-    onChange?.(select.value);
-  });
+  const known = options.map(([value]) => value);
+  const value = () => [state.view(key), otherwise()].find((one) => known.includes(one)) ?? known[0];
+  effect(() => void (select.value = value()));
+  select.addEventListener("change", () => state.setView(key, select.value));
   const element = h(
     "div",
     { class: "field" },
@@ -96,11 +88,7 @@ export function optionChoice(app, { key, label, help, options, onChange }) {
     select,
     help ? h("p", { class: "help" }, help) : null,
   );
-  return Object.assign(element, {
-    value: () => select.value,
-    choose: (value) => ((select.value = value), app.state.setView(key, value)),
-    select,
-  });
+  return Object.assign(element, { value });
 }
 
 /** Names and values as a list of definitions. */

@@ -1,8 +1,10 @@
 // Where measured friction comes from: files, what was recognised in them, and how they are separated.
 
 import { columnsForm } from "../columns_form.js";
-import { computedFrom, keyOf, shows } from "../inputs.js";
-import { checkList, definitions, folded, repeated } from "./measurement_parts.js";
+import { shows } from "../jobs.js";
+import { effect, signal } from "../reactive.js";
+import { state } from "../state.js";
+import { checkList, definitions, folded, measured, progressOf, shownMeasured } from "./measurement_parts.js";
 
 /** Whole numbers that people typed, parted by commas. */
 function wholeNumbers(text) {
@@ -66,20 +68,16 @@ function separationFields({ quantityField, textField, numberField, choiceField, 
   );
 }
 
-/**
- * The card of the measurement's files.
- *
- * @param {object} app
- * @param {{done: (result: object) => void, gone: () => void}} after the files were read, or there are none any more
- */
-export function source(app, { done, gone }) {
-  const { state, fields } = app;
+/** The card of the measurement's files. */
+export function source(app) {
+  const { fields } = app;
   const { h, button, note } = fields;
-  let current = null; // the table that the shown measurement is of
   let dropped = null; // names of the files that were brought last
+  const unread = signal(null); // why files could not be brought
   const facts = definitions(app);
   const checks = checkList(app);
   const refusal = note([], "error");
+  const problem = note([], "error");
   const notes = note([]);
   const steps = h("ul", { class: "help steps-of-test" });
   const badge = h("span", { class: "badge", hidden: true }, "synthetic data");
@@ -93,7 +91,6 @@ export function source(app, { done, gone }) {
     symbol: "close",
     onClick: () => state.set("measurement", undefined),
   });
-  const job = repeated(app, "measured", { label: "Reading and separating", done: show, failed: forget });
   const columns = columnsForm(app, {
     choose: (named) => {
       const { curves, ...before } = state.get("measurement") ?? {};
@@ -117,71 +114,50 @@ export function source(app, { done, gone }) {
     "Measured friction",
     drop,
     h("div", { class: "row" }, example, csv, remove),
-    ...[job.bar, job.errors, columns, refusal, badge, facts, checks, doubts, stepsOfTest, more],
+    ...progressOf(app, measured, "Reading and separating"),
+    ...[problem, columns, refusal, badge, facts, checks, doubts, stepsOfTest, more],
   );
 
   /** Read files that were just brought. */
   async function take(bring) {
+    unread.value = null;
     try {
-      const files = await bring();
-      dropped = files;
-      await job.run(state.study, { files });
+      dropped = await bring();
+      await measured.run({ study: state.study, options: { files: dropped } });
     } catch (error) {
-      job.errors.set([error.message]);
+      unread.value = error.message;
     }
   }
 
-  function show(result) {
-    const study = { ...state.study, measurement: result.table };
-    current = keyOf("measured", study);
+  measured.done = (result) => {
     dropped = null;
-    computedFrom(result, "measured", study);
-    state.setResult("measured", result);
     const origin = result.synthetic ? { data_origin: "synthetic" } : {};
     state.change({ measurement: result.table, ...origin });
-    columns.offer(null);
-    badge.hidden = !result.synthetic;
-    for (const one of [facts, checks, refusal, notes, steps]) shows(one, result);
-    facts.set([...result.recognised, ...(result.lines ?? [])]);
-    checks.set(result.checks ?? []);
-    refusal.set(result.refusal ? [`The friction cannot be separated: ${result.refusal}`] : []);
-    notes.set(result.notes);
-    doubts.hidden = result.notes.length === 0;
-    doubts.firstChild.textContent = `Notes on the data (${result.notes.length})`;
-    steps.replaceChildren(...result.steps.map((step) => h("li", {}, step.text)));
-    stepsOfTest.hidden = result.steps.length === 0;
-    more.hidden = !result.runs;
-    more.open ||= Boolean(result.refusal);
-    remove.hidden = false;
-    csv.hidden = !result.download;
-    if (result.download) csv.href = app.api.downloadUrl(result.download);
     const said = result.curves && `${result.points} points of friction at ${result.curves.length} temperatures.`;
-    app.announce(said ?? refusal.textContent);
-    done(result);
-  }
-
-  /** Nothing is known of the measurement; its settings can still be mended. */
-  function forget(error) {
-    current = null;
-    columns.offer(error?.values);
-    state.setResult("measured", null);
-    for (const one of [facts, checks, refusal, notes]) one.set([]);
-    for (const one of [badge, doubts, stepsOfTest, csv]) one.hidden = true;
-    gone();
-  }
-
-  /** Follow [measurement] of the study: read again where it is another, forget it where it is gone. */
-  function follow() {
+    app.announce(said ?? `The friction cannot be separated: ${result.refusal}`);
+    if (result.refusal) more.open = true;
+  };
+  measured.start();
+  effect(() => columns.offer(measured.error?.values));
+  effect(() => {
+    const result = shownMeasured();
     const table = state.get("measurement");
-    more.hidden &&= !table?.mtm;
+    problem.set(unread.value ? [unread.value] : []);
     remove.hidden = !table;
-    if (!table) {
-      job.stop();
-      more.hidden = true;
-      forget();
-    } else if (keyOf("measured", state.study) !== current) job.run(state.study);
-  }
+    more.hidden = result ? !result.runs : !table?.mtm;
+    for (const one of [facts, checks, refusal, notes, steps]) shows(one, result);
+    facts.set(result ? [...result.recognised, ...(result.lines ?? [])] : []);
+    checks.set(result?.checks ?? []);
+    refusal.set(result?.refusal ? [`The friction cannot be separated: ${result.refusal}`] : []);
+    notes.set(result?.notes ?? []);
+    doubts.hidden = !result?.notes.length;
+    doubts.firstChild.textContent = `Notes on the data (${result?.notes.length})`;
+    steps.replaceChildren(...(result?.steps ?? []).map((step) => h("li", {}, step.text)));
+    stepsOfTest.hidden = !result?.steps.length;
+    badge.hidden = !result?.synthetic;
+    csv.hidden = !result?.download;
+    if (result?.download) csv.href = app.api.downloadUrl(result.download);
+  });
 
-  more.hidden = true;
-  return { card, follow };
+  return card;
 }

@@ -1,7 +1,7 @@
 // Motion over time: a history edited as a table or a sketch, or an impact, and the solved contact.
 
 import { studyHistory } from "../motion_study.js";
-import { DEPENDS_ON, outdated, shows, studyOf } from "../inputs.js";
+import { Job, shows, studyOf } from "../jobs.js";
 import { motionFigures, numbersOf } from "../motion_figures.js";
 import {
   CONTROLS,
@@ -14,6 +14,8 @@ import {
   read,
   sketch,
 } from "../motion_history.js";
+import { effect, signal, watch } from "../reactive.js";
+import { state } from "../state.js";
 
 const BEFORE = ["untouched", "at rest", "sliding"].map((one) => [one, one]);
 const IMPACT = {
@@ -23,19 +25,41 @@ const IMPACT = {
   rebounds: ["Contacts to follow", 1],
 };
 
+const history = () => state.view("motion");
+const optionsOf = ({ rows, control, path, before }) => {
+  return { rows: rows.map(([time, value, along]) => ({ time, value, along })), control, path, before };
+};
+const motion = new Job("motion", {
+  manual: true,
+  interrupts: true,
+  remember: 4,
+  inputs: () => {
+    const asked = history();
+    if (!asked) return null;
+    const given = asked.preset === "impact" ? { impact: asked.impact } : optionsOf(asked);
+    return { study: state.study, options: { temperature: asked.temperature, ...given } };
+  },
+});
+
 export function mount(section, app) {
-  const { state, fields, units, figures, api } = app;
+  const { fields, units, figures } = app;
   const { h, card, button } = fields;
-  let [result, running] = [null, null];
-  let history = state.view("motion", null);
+  const refused = signal(null); // what is wrong with something that was typed
 
   const failed = fields.note([], "error");
   const warnings = fields.note([], "warning");
   const notes = fields.note([]);
   const numbers = fields.keyNumbers([]);
   const pictures = motionFigures(app);
-  const bar = fields.progressBar({ label: "Solving", onCancel: stop });
-  const solveButton = button({ label: "Solve", kind: "main", onClick: solve });
+  const reached = ({ time }) => units.show(time.at(-1) - time[0], "time");
+  const bar = fields.progressBar(motion, {
+    label: "Solving",
+    ended: ({ cancelled }) => {
+      if (cancelled) return "Cancelled.";
+      return motion.result.interrupted ? `Stopped; the results end after ${reached(motion.result)}.` : "";
+    },
+  });
+  const solveButton = button({ label: "Solve", kind: "main", onClick: () => motion.run() });
   const save = button({
     label: "Save the history",
     kind: "small",
@@ -47,7 +71,7 @@ export function mount(section, app) {
       change({ rows });
       table.focus(place);
     },
-    refuse: (sentence) => failed.set([sentence]),
+    refuse: (sentence) => (refused.value = sentence),
   });
   const picture = sketch({ onChange: (rows) => change({ rows }) });
 
@@ -67,11 +91,11 @@ export function mount(section, app) {
   };
   const preset = select(Object.entries(PRESETS), (value) => begin(value));
   const control = select([], (value) =>
-    change({ control: value, path: "speed", rows: presetRows(history.preset, state.study, value) }),
+    change({ control: value, path: "speed", rows: presetRows(history().preset, state.study, value) }),
   );
   const path = select(
     Object.entries(PATHS).map(([value, [text]]) => [value, text]),
-    (value) => change({ path: value, rows: converted(history.rows, value) }),
+    (value) => change({ path: value, rows: converted(history().rows, value) }),
   );
   const before = select(BEFORE, (value) => change({ before: value }));
   /** A text field for one number; other input gives an error message. */
@@ -80,7 +104,7 @@ export function mount(section, app) {
     element.addEventListener("change", () => {
       const value = element.value.trim() ? read(element.value, kind) : null;
       if (Number.isFinite(value) || !element.value.trim()) onRead(value);
-      else failed.set([`${label}: enter a number.`]);
+      else refused.value = `${label}: enter a number.`;
     });
     return element;
   };
@@ -89,7 +113,7 @@ export function mount(section, app) {
     name,
     labelled(
       label,
-      box(label, "plain", (value) => value !== null && change({ impact: { ...history.impact, [name]: value } })),
+      box(label, "plain", (value) => value !== null && change({ impact: { ...history().impact, [name]: value } })),
     ),
   ]);
   const forms = h(
@@ -105,7 +129,7 @@ export function mount(section, app) {
     "div",
     { class: "stack" },
     save,
-    studyHistory(app, { rows: () => optionsOf(history), take: (found) => change(found) }),
+    studyHistory(app, { rows: () => optionsOf(history()), take: (found) => change(found) }),
   );
   const help = (words) => h("p", { class: "help" }, words);
   const jumps = help("Drag a point, or change its numbers in the table. Two points at the same time are a jump.");
@@ -137,25 +161,18 @@ export function mount(section, app) {
       path: "speed",
       before: "untouched",
       rows: presetRows(name, state.study),
-      impact: history?.impact ?? values,
+      impact: history()?.impact ?? values,
     };
     change(begun, keep);
   }
 
   /** Change the history, as a step of undo unless it follows from the study. */
   function change(values, keep = state.edit) {
-    keep("motion", { temperature: null, ...history, ...values });
-    if (keep !== state.edit) changed();
+    refused.value = null;
+    keep("motion", { temperature: null, ...history(), ...values });
   }
 
-  function changed() {
-    history = state.view("motion");
-    outdated(result);
-    failed.set([]);
-    show();
-  }
-
-  function show(wrong = null) {
+  function show(history, wrong) {
     const columns = [["Time", "time"], CONTROLS[history.contact][history.control], PATHS[history.path]];
     control.replaceChildren(
       ...Object.entries(CONTROLS[history.contact]).map(([value, [text]]) => h("option", { value }, text)),
@@ -175,79 +192,33 @@ export function mount(section, app) {
 
   function csv() {
     const unit = { load: "N", line_load: "N/m", length: "m", pressure: "Pa", speed: "m/s" };
-    const kinds = [CONTROLS[history.contact][history.control][1], PATHS[history.path][1]];
-    const head = ["time (s)", `${history.control} (${unit[kinds[0]]})`, `${history.path} (${unit[kinds[1]]})`];
-    return [head, ...history.rows].map((row) => row.join(",")).join("\n") + "\n";
+    const { contact, control, path, rows } = history();
+    const kinds = [CONTROLS[contact][control][1], PATHS[path][1]];
+    const head = ["time (s)", `${control} (${unit[kinds[0]]})`, `${path} (${unit[kinds[1]]})`];
+    return [head, ...rows].map((row) => row.join(",")).join("\n") + "\n";
   }
 
-  const optionsOf = ({ rows, control, path, before }) => {
-    return { rows: rows.map(([time, value, along]) => ({ time, value, along })), control, path, before };
-  };
-
-  /** Interrupt the job, which then sends its results so far; cancel it if it does not start or stop. */
-  function stop() {
-    const { abort, number } = running ?? {};
-    if (number) {
-      running.number = null;
-      api.stopJob(number).catch(() => abort.abort());
-    } else abort?.abort();
-  }
-
-  async function solve() {
-    running?.abort.abort();
-    const mine = { abort: new AbortController(), number: null };
-    running = mine;
-    const asked = history;
-    const { temperature } = asked;
-    const options = { temperature, ...(asked.preset === "impact" ? { impact: asked.impact } : optionsOf(asked)) };
-    bar.start("Solving");
-    failed.set([]);
-    fields.clearError("motion");
-    const heard = {
-      signal: mine.abort.signal,
-      onStart: (number) => (mine.number = number),
-      onProgress: ({ done, total, label }) => running === mine && bar.set(done, total, label),
-    };
-    try {
-      const found = await api.runJob("motion", { study: state.study, options }, heard);
-      if (running !== mine) return;
-      result = found;
-      if (history !== asked) outdated(result);
-      const reached = units.show(found.time.at(-1) - found.time[0], "time");
-      bar.finish(found.interrupted ? `Stopped; the results end after ${reached}.` : "");
-      app.announce(found.interrupted ? `Stopped after ${reached}.` : "The contact over time is solved.");
-      draw();
-      state.setResult("motion", result);
-    } catch (error) {
-      if (running !== mine) return;
-      bar.finish(error.name === "AbortError" ? "Cancelled." : "");
-      if (error.name !== "AbortError") {
-        fields.showError(error, "motion");
-        failed.set([app.explain(error, "motion")]);
-        if (error.values?.index !== undefined) show(error.values.index);
-      }
-    }
-    running = null;
-  }
-
-  function draw() {
-    if (!result) return;
-    about.hidden = false;
-    for (const one of [numbers, warnings, notes]) shows(one, result);
-    warnings.set(result.warnings);
-    notes.set(result.notes);
-    numbers.set(numbersOf(result, units));
-    pictures.show(result, app.isSynthetic(studyOf(result)));
-  }
-
-  if (!history || history.contact !== contactOf(state.study)) begin("hold", state.setView);
-  else show();
-  state.subscribe("view.motion", changed);
-  state.subscribe(DEPENDS_ON.motion, () =>
-    history.contact === contactOf(state.study) ? show() : begin(history.preset, state.setView),
+  motion.done = (found) =>
+    app.announce(found.interrupted ? `Stopped after ${reached(found)}.` : "The contact over time is solved.");
+  if (history()?.contact !== contactOf(state.study)) begin("hold", state.setView);
+  watch(
+    () => contactOf(state.study),
+    () => begin(history().preset, state.setView),
   );
-  units.subscribe(() => {
-    show();
-    draw();
+  motion.start();
+  effect(() => show(history(), motion.error?.values?.index ?? null));
+  effect(() => {
+    const sentence = refused.value ?? (motion.error && app.explain(motion.error, "motion"));
+    failed.set(sentence ? [sentence] : []);
+  });
+  effect(() => {
+    const found = motion.result;
+    about.hidden = !found;
+    if (!found) return;
+    for (const one of [numbers, warnings, notes]) shows(one, found);
+    warnings.set(found.warnings);
+    notes.set(found.notes);
+    numbers.set(numbersOf(found, units));
+    pictures.show(found, app.isSynthetic(studyOf(found)));
   });
 }

@@ -1,0 +1,43 @@
+// What follows the state: signals, effects, and views of Preact written as htm templates.
+//
+// html`<p class="help">${text}</p>`     elements of Preact
+// view((properties) => html`…`)         a component that is drawn again when a signal that it read has changed
+// watch(read, act)                      act(value) each time that what `read` gives is another; not at first
+
+import htm from "../vendor/htm.js";
+import { Component, h } from "../vendor/preact.js";
+import { computed, effect, untracked } from "../vendor/signals-core.js";
+
+export { Component, render } from "../vendor/preact.js";
+export { batch, computed, effect, signal, untracked } from "../vendor/signals-core.js";
+
+export const html = htm.bind(h);
+
+export const view = (draw) =>
+  class View extends Component {
+    render(properties) {
+      this.stop?.();
+      let drawn;
+      let first = true;
+      this.stop = effect(() => {
+        if (first) drawn = draw(properties);
+        else this.setState({});
+        first = false;
+      });
+      return drawn;
+    }
+
+    componentWillUnmount() {
+      this.stop?.();
+    }
+  };
+
+export function watch(read, act) {
+  const seen = computed(read);
+  let first = true;
+  return effect(() => {
+    const { value } = seen;
+    if (!first) untracked(() => void act(value));
+    first = false;
+  });
+}

@@ -1,0 +1,146 @@
+"""Every input of the page with another value for it, and what its figures show at any time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from web.contact_studies import ROUGH
+
+if TYPE_CHECKING:
+    from web.browser_tab import Tab
+
+STATE = "page.state.state"
+#: A study of sweeps with a measurement, so that every step has figures; small enough to be there at once.
+STUDY: dict[str, Any] = {
+    "title": "A ball on a synthetic rubber",
+    "data_origin": "synthetic",
+    "material": {"dma": "dma.csv", "reference_temperature": "30 degC", "deformation": "tension"},
+    "indenter": {"shape": "ball", "radius": "9.525 mm"},
+    "conditions": {"load": "25 N", "speed": ["10 mm/s", "100 mm/s"], "temperature": ["30 degC", "60 degC"]},
+    "solver": {"accuracy": 0.1, "cases": "each", "master_curve_points": 2},
+    "uncertainty": {"draws": 0},
+    "outputs": {"fields": "none"},
+    "measurement": {"mtm": "mtm.csv"},
+}
+#: Another value of each field of the page.
+INPUTS: dict[str, Any] = {
+    "title": "another title",
+    "material.name": "mine",
+    "material.reference_temperature": "60 degC",
+    "material.poisson_ratio": 0.49,
+    "material.deformation": "compression",
+    "material.shift": "wlf",
+    "material.vertical_shift": "free",
+    "material.spectrum": "regularised",
+    "material.tau_ratio": 5,
+    "uncertainty.draws": 20,
+    "indenter.radius": "5 mm",
+    "indenter.modulus": "1 GPa",
+    "conditions.load": "10 N",
+    "conditions.speed": ["10 mm/s", "200 mm/s"],
+    "conditions.temperature": ["30 degC", "90 degC"],
+    "solver.accuracy": 0.05,
+    "outputs.fields": "few",
+    "interface": {"law": "constant", "stress": "0.1 MPa"},
+    "heating.counterface": "steel",
+    "measurement.zero": "0.05 N",
+    "measurement.zero_error": "0.01 N",
+    "measurement.coulomb": 0.05,
+    "measurement.coulomb_error": 0.01,
+    "measurement.except_steps": [1],
+    "measurement.outliers": "leave out",
+    "measurement.speed_tolerance": 0.1,
+    "measurement.temperature_tolerance": "2 delta_degC",
+}
+#: Fields that belong to other files, shapes or histories than those of STUDY: with it, they are wrong or mean nothing.
+OTHERS: dict[str, Any] = {
+    "material.modulus_unit": "MPa",
+    "material.temperature": "30 degC",
+    "material.assumed_shift": "universal",
+    "material.sheet": "1",
+    "material.modes": 5,
+    "material.strain": 0.01,
+    "material.measured_at": 0.001,
+    "indenter.radius_x": "5 mm",
+    "indenter.radius_y": "5 mm",
+    "indenter.angle": "10 deg",
+    "surface.modulus": "1 GPa",
+    "surface.poisson_ratio": 0.4,
+    "indenter.poisson_ratio": 0.4,
+    "layer.thickness": "4 mm",
+    "layer.base": "sliding",
+    "conditions.pressure": "0.3 MPa",
+    "conditions.direction": "30 deg",
+    **{f"surface.{key}": value for key, value in ROUGH["surface"].items()},
+    "surface.hurst": 0.7,
+    "surface.file": "heights.txt",
+    "surface.unit": "um",
+    "measurement.sheet": "1",
+    "interface.law": "best",
+    "interface.stress": "0.2 MPa",
+    "interface.peak": "0.2 MPa",
+    "interface.exponent": 0.2,
+    "interface.width": 3,
+    "interface.activation_volume": "30 nm**3",
+    "interface.speed": "2 mm/s",
+    "interface.slip": "3 mm/s",
+    "heating.rubber": "unfilled rubber",
+    "heating.coulomb": 0.1,
+    "heating.slip": "1 mm/s",
+    "heating.average": "loss",
+    "history.load_time": "1 s",
+    "history.dwell": "1 s",
+    "history.slide": "1 mm",
+    "history.strokes": 2,
+    "history.file": "history.csv",
+    "history.points": 50,
+}
+STEPS = ("sweeps", "shift", "spectrum", "contact", "motion", "measurement")
+#: Of each figure on the page, seen or not: its key, and whether it is grey.
+SHOWN = """[...document.querySelectorAll('.figure[data-inputs]')].map((one) =>
+  [one.id, one.dataset.inputs, one.classList.contains('stale')])"""
+#: Of each figure that is seen: whether it is grey, the inputs that it is of, and what is drawn.
+SEEN = """Object.fromEntries([...document.querySelectorAll('.step:not([hidden]) .figure')]
+  .filter((one) => one.offsetParent)
+  .map((one) => [one.id, {
+    stale: Boolean(one.closest('.stale')),
+    inputs: one.dataset.inputs,
+    words: one.querySelector('figcaption').textContent,
+    drawn: (one.querySelector('.plot').data ?? []).map((trace) =>
+      [trace.name, ...['x', 'y', 'z'].map((axis) => JSON.stringify(Array.from(trace[axis] ?? [])))])}]))"""
+#: The page computes nothing more.
+AT_REST = """[...document.querySelectorAll('.progress')].every((one) => one.hidden || one.classList.contains('done'))
+  && !page.jobs.busy()"""
+
+
+#: Figures that follow a slider: while the next one is on its way, the one before is not grey.
+FOLLOWING = ("pressure-map", "pressure-profile", "surface-profile", "modulus", "loss-tangent")
+
+
+def wrong_figures(tab: Tab) -> list[Any]:
+    """Return figures of other inputs than those of now that are not grey, and figures that are grey for nothing."""
+    return tab.value(
+        f"""(({{ keys, following }}) => {SHOWN}.filter(([id, key, grey]) => grey === keys.includes(key)
+          && !(page.jobs.busy() && !grey && following.includes(id))))(
+            {{ keys: Object.values(page.jobs.keys()), following: given[0].map((one) => `figure-${{one}}`) }})""",
+        FOLLOWING,
+    )
+
+
+def at_rest(tab: Tab, seconds: float = 60.0) -> dict[str, Any]:
+    """Wait until the page computes and draws nothing more; return the figures that are seen."""
+    before: dict[str, Any] = {}
+    for _ in range(int(seconds / 0.3)):
+        tab.page.wait_for_timeout(300)
+        rests = tab.value(AT_REST)  # asked first: what is seen comes after
+        now = tab.value(SEEN)
+        if rests and now == before:
+            return now
+        before = now
+    raise AssertionError(f"the page did not come to rest: {before}")
+
+
+def example(tab: Tab, study: dict[str, Any]) -> None:
+    """Have a study with the example's files on the page."""
+    tab.value("await (await import('/static/js/api.js')).useExample()")
+    tab.value(f"{STATE}.replace(given[0])", study)

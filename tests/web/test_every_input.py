@@ -1,0 +1,98 @@
+"""Every input × every step that is hidden while it changes × every figure; and walks through the page at random."""
+
+from __future__ import annotations
+
+import random
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from web.browser_tab import tab as opened_tab
+from web.every_input import INPUTS, OTHERS, STATE, STEPS, STUDY, at_rest, example, wrong_figures
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+    from web.browser_tab import Tab
+    from web.served_page import Server
+
+pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+
+
+def change(tab: Tab, path: str, value: Any) -> None:
+    """Change an input while all figures are hidden, and see that those of other inputs are grey at once."""
+    tab.step("export")
+    tab.value(f"{STATE}.set(given[0], given[1])", path, value)
+    assert wrong_figures(tab) == [], path
+
+
+def test_no_field_of_the_page_is_left_out(tab: Tab) -> None:
+    for step in STEPS:
+        tab.step(step)
+        tab.page.wait_for_selector(f"#step-{step} .card")
+    assert set(tab.value("page.fields.paths()")) - set(INPUTS) - set(OTHERS) == set()
+
+
+@pytest.mark.parametrize("hidden", STEPS)
+def test_no_figure_of_other_inputs_is_left(browser: Browser, server: Server, hidden: str) -> None:
+    with opened_tab(browser, server, "#export") as tab:
+        example(tab, STUDY)
+        tab.step(hidden)
+        if hidden == "motion":
+            tab.page.get_by_role("button", name="Solve", exact=True).click()
+        before = at_rest(tab)
+        assert any(one["inputs"] for one in before.values())
+        assert not any(one["stale"] for one in before.values())
+        for path, value in INPUTS.items():
+            change(tab, path, value)
+            tab.step(hidden)
+            now = at_rest(tab)
+            assert wrong_figures(tab) == [], path
+            # what the user has solved by hand waits, in grey, for the user
+            assert hidden == "motion" or not any(one["stale"] for one in now.values()), path
+            tab.value(f"{STATE}.undo()")
+            assert at_rest(tab) == before, path
+        for path, value in OTHERS.items():
+            change(tab, path, value)
+            tab.value(f"{STATE}.undo()")
+            assert wrong_figures(tab) == [], path
+        tab.step(hidden)
+        assert at_rest(tab) == before
+
+
+#: Solved in a moment, so that walks meet results as well as what is on its way.
+LIGHT = {**STUDY, "material": {"catalogue": "synthetic fluoroelastomer"}}
+
+
+def walk(tab: Tab, seed: int, length: int = 12) -> None:
+    """Go through the page at random; no figure is ever other than it says."""
+    chance = random.Random(seed)
+    tab.value(f"{STATE}.replace(given[0])", LIGHT)
+    for _ in range(length):
+        path, value = chance.choice([*INPUTS.items(), *OTHERS.items()])
+        ways = {
+            f"{STATE}.set(given[0], given[1])": 5,
+            f"{STATE}.undo()": 2,
+            f"{STATE}.redo()": 1,
+            "history.back()": 1,
+            f"document.querySelector('#steps a[href=\"#{chance.choice(STEPS)}\"]').click()": 3,
+            f"page.units.choose('{chance.choice(['SI', 'engineering', 'imperial'])}')": 1,
+            f"page.figures.chooseTheme('{chance.choice(['light', 'dark'])}')": 1,
+            f"{STATE}.setView('contact.position', {{ speed: {chance.uniform(0.01, 0.1)}, temperature: 310 }})": 2,
+        }
+        (way,) = chance.choices(list(ways), list(ways.values()))
+        tab.value(f"({way}, null)", path, value)
+        assert wrong_figures(tab) == [], (seed, way, path)
+        tab.page.wait_for_timeout(chance.choice([0, 50, 400]))
+        assert wrong_figures(tab) == [], (seed, way, path)
+
+
+@pytest.mark.parametrize("first", range(0, 100, 10))
+def test_walks_at_random_leave_no_figure_of_other_inputs(browser: Browser, server: Server, first: int) -> None:
+    with opened_tab(browser, server, "#export") as tab:
+        example(tab, LIGHT)
+        for seed in range(first, first + 10):
+            walk(tab, seed)
+        tab.value(f"{STATE}.replace(given[0])", LIGHT)
+        at_rest(tab)
+        assert wrong_figures(tab) == []
