@@ -8,7 +8,7 @@
 //   of: the result of a job that is drawn: the figure is grey while the inputs are others (jobs.js),
 //   marks: [{x | y, label}] (lines across the figure), height, empty: "text without data", synthetic: true,
 //   layout: {…plotly}, onClick: (point) => … })
-// handle.update({traces: …})    changes parts of the spec and draws again
+// handle.update({traces: …})    changes parts of the spec, or all of it with {} as second argument, and draws again
 // handle.element, handle.plot (plotly's div), handle.remove()
 //
 // All numbers are SI.  An axis is {label, kind, log, range: [from, to], equal}.  map(container, {…, x, y, axes: {x, y, z}, z: [[…]],
@@ -197,8 +197,8 @@ export function figure(container, first) {
     get spec() {
       return spec;
     },
-    update(changes) {
-      spec = { ...spec, ...changes };
+    update(changes, before = spec) {
+      spec = { ...before, ...changes };
       shows(element, spec.of);
       request();
       return handle;

@@ -5,11 +5,12 @@ import * as figures from "./figures.js";
 import * as fields from "./fields.js";
 import { headerTools } from "./header.js";
 import { Job } from "./jobs.js";
-import { effect } from "./reactive.js";
+import { effect, html } from "./reactive.js";
 import { state } from "./state.js";
 import contact from "./steps/contact.js";
 import * as lazy from "./steps/lazy.js";
 import * as units from "./units.js";
+import { Button } from "./views.js";
 
 const { h } = fields;
 const STEPS = [lazy.sweeps, lazy.shift, lazy.spectrum, contact, lazy.moving, lazy.measurement, lazy.exported];
@@ -50,9 +51,9 @@ function stepOf(path) {
 /** An error for a note of a step: its sentence, and a way to the step where it can be mended. */
 function explain(error, here) {
   const step = error.field ? stepOf(error.field) : here;
-  if (step === here || !steps.has(step)) return [error.message];
-  const { title } = steps.get(step);
-  return [`${error.message} `, fields.button({ label: `Go to ${title}`, kind: "small", onClick: () => goTo(step) })];
+  if (step === here || !steps.has(step)) return error.message;
+  const go = html`<${Button} kind="small" onClick=${() => goTo(step)}>Go to ${steps.get(step).title}<//>`;
+  return html`${error.message} ${go}`;
 }
 
 /** The same for the contact's step, which does not repeat the sentence at the field. */

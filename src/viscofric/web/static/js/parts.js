@@ -1,6 +1,6 @@
 // Parts of the page: elements, buttons, cards, notes, progress bars, key numbers, tables, places to drop files.
 
-import { effect } from "./reactive.js";
+import { effect, html, render } from "./reactive.js";
 import * as units from "./units.js";
 
 let made = 0;
@@ -31,7 +31,7 @@ export function icon(name) {
   return svg;
 }
 
-const ICONS = {
+export const ICONS = {
   undo: "M7.5 4 3.5 8l4 4M4 8h8a4.5 4.5 0 0 1 0 9H9",
   redo: "m12.5 4 4 4-4 4M16 8H8a4.5 4.5 0 0 0 0 9h3",
   theme: "M10 2.5a7.5 7.5 0 1 0 0 15zM10 2.5a7.5 7.5 0 0 1 0 15",
@@ -90,13 +90,16 @@ export function fileDrop({ label, help, accept, multiple = true, onFiles }) {
 
 /**
  * Sentences about the data: note(["…"], "warning"); kinds are "note", "warning", "error". note.set(list) changes them.
- * A sentence may come with elements, ["…", button].
+ * A sentence may be a template with elements.
  */
 export function note(list = [], kind = "note") {
   const element = h("ul", { class: `notes ${kind}` });
   element.set = (sentences, other = kind) => {
     element.className = `notes ${other}`;
-    element.replaceChildren(...listed(sentences).map((sentence) => h("li", {}, sentence)));
+    render(
+      listed(sentences).map((sentence) => html`<li>${sentence}</li>`),
+      element,
+    );
     element.hidden = element.children.length === 0;
   };
   element.set(list);

@@ -1,8 +1,9 @@
 // Parts of the measurement step: its jobs, and inputs that are no part of the study.
 
 import { Job } from "../jobs.js";
-import { effect } from "../reactive.js";
+import { html, view } from "../reactive.js";
 import { state } from "../state.js";
+import { Notes, Progress, shown } from "../views.js";
 
 /** What was read and separated; its result names the table of the study that it is of. */
 export const measured = new Job("measured", {
@@ -30,95 +31,58 @@ export const ofMeasured = (kind, options, about) =>
   });
 
 /** Progress and errors of a job. */
-export function progressOf(app, job, label) {
-  const bar = app.fields.progressBar(job, { label });
-  const errors = app.fields.note([], "error");
-  errors.setAttribute("aria-live", "assertive");
-  effect(() => {
-    const { error } = job;
-    const message = error && error.message.charAt(0).toUpperCase() + error.message.slice(1);
-    errors.set(error ? [app.explain({ field: error.field, message }, "measurement")] : []);
-  });
-  return [bar, errors];
-}
+export const Run = view(({ app, job, label }) => {
+  const { error } = job;
+  const message = error && error.message.charAt(0).toUpperCase() + error.message.slice(1);
+  const list = error ? [app.explain({ field: error.field, message }, "measurement")] : [];
+  return html`<${Progress} job=${job} label=${label} /><${Notes} kind="error" aria-live="assertive" list=${list} />`;
+});
 
-let made = 0;
+const idOf = (name) => `option-${name.replace(".", "-")}`;
+const Labelled = ({ name, label, help, hidden, children }) =>
+  html`<div class="field" hidden=${hidden}>
+    <label for=${idOf(name)} class="field-label">${label}</label>
+    ${children}
+    ${help && html`<p class="help" id="${idOf(name)}-help">${help}</p>`}
+  </div>`;
 
-/** A text box for a choice that is no part of the study; it is kept over reloads. A bare number gets the user's unit. */
-export function optionField(app, { key, label, help, kind, placeholder }) {
-  const { h } = app.fields;
-  const id = `option-${(made += 1)}`;
-  const input = h("input", {
-    type: "text",
-    id,
-    placeholder,
-    autocomplete: "off",
-    spellcheck: "false",
-    "aria-describedby": help ? `${id}-help` : undefined,
-  });
-  effect(() => void (input.value = state.view(key, "")));
-  input.addEventListener("change", () => state.setView(key, input.value.trim()));
-  const element = h(
-    "div",
-    { class: "field" },
-    h("label", { for: id, class: "field-label" }, label),
-    input,
-    help ? h("p", { class: "help", id: `${id}-help` }, help) : null,
-  );
-  return Object.assign(element, { value: () => app.units.typed(state.view(key, ""), kind), input });
-}
+/** A text box for a choice that is no part of the study; it is kept over reloads. */
+export const Box = view(({ name, placeholder, ...about }) => {
+  const { activeElement: active } = document;
+  const kept = state.view(name, "");
+  return html`<${Labelled} name=${name} ...${about}>
+    <input type="text" id=${idOf(name)} placeholder=${placeholder} autocomplete="off" spellcheck="false"
+      value=${active?.id === idOf(name) ? active.value : kept}
+      onChange=${(event) => state.setView(name, event.target.value.trim())} />
+  <//>`;
+});
 
-/** A choice that is no part of the study: chosen.value(), kept over reloads; `otherwise` is that until the user chooses. */
-export function optionChoice(app, { key, label, help, options, otherwise = () => null }) {
-  const { h } = app.fields;
-  const id = `option-${(made += 1)}`;
-  const select = h(
-    "select",
-    { id },
-    options.map(([value, text]) => h("option", { value }, text)),
-  );
+/** A choice that is no part of the study, kept over reloads; `otherwise` is that until the user chooses. */
+export function choice(name, options, otherwise = () => null) {
   const known = options.map(([value]) => value);
-  const value = () => [state.view(key), otherwise()].find((one) => known.includes(one)) ?? known[0];
-  effect(() => void (select.value = value()));
-  select.addEventListener("change", () => state.setView(key, select.value));
-  const element = h(
-    "div",
-    { class: "field" },
-    h("label", { for: id, class: "field-label" }, label),
-    select,
-    help ? h("p", { class: "help" }, help) : null,
-  );
-  return Object.assign(element, { value });
+  return { name, options, value: () => [state.view(name), otherwise()].find((one) => known.includes(one)) ?? known[0] };
 }
+
+export const Choice = view(({ of: { name, options, value }, ...about }) => {
+  const take = (event) => state.setView(name, event.target.value);
+  const now = value();
+  return html`<${Labelled} name=${name} ...${about}>
+    <select id=${idOf(name)} value=${now} onChange=${take}>
+      ${options.map(([one, text]) => html`<option value=${one} selected=${one === now}>${text}</option>`)}
+    </select>
+  <//>`;
+});
 
 /** Names and values as a list of definitions. */
-export function definitions(app) {
-  const { h } = app.fields;
-  const element = h("dl", { class: "facts" });
-  element.set = (pairs = []) => {
-    element.replaceChildren(...pairs.flatMap(({ name, value }) => [h("dt", {}, name), h("dd", {}, value)]));
-    element.hidden = pairs.length === 0;
-  };
-  element.set();
-  return element;
-}
+export const Facts = view(
+  ({ of, list = [] }) =>
+    list.length > 0 &&
+    html`<dl ...${shown(of, "facts")}>${list.map(({ name, value }) => html`<dt>${name}</dt><dd>${value}</dd>`)}</dl>`,
+);
 
 /** What was checked, each with its verdict. */
-export function checkList(app) {
-  const { h } = app.fields;
-  const element = h("ul", { class: "checks" });
-  element.set = (checks = []) => {
-    const one = ({ name, verdict, words }) =>
-      h("li", { class: verdict.replaceAll(" ", "-") }, h("strong", {}, `${name}: ${verdict}. `), words);
-    element.replaceChildren(...checks.map(one));
-    element.hidden = checks.length === 0;
-  };
-  element.set();
-  return element;
-}
-
-/** Something that is folded until it is opened. */
-export function folded(app, title, ...children) {
-  const { h } = app.fields;
-  return h("details", {}, h("summary", {}, title), h("div", { class: "step-body" }, children));
-}
+export const Checks = view(({ of, list = [] }) => {
+  const one = ({ name, verdict, words }) =>
+    html`<li class=${verdict.replaceAll(" ", "-")}><strong>${name}: ${verdict}. </strong>${words}</li>`;
+  return list.length > 0 && html`<ul ...${shown(of, "checks")}>${list.map(one)}</ul>`;
+});

@@ -1,10 +1,10 @@
 // Where measured friction comes from: files, what was recognised in them, and how they are separated.
 
 import { columnsForm } from "../columns_form.js";
-import { shows } from "../jobs.js";
-import { effect, signal } from "../reactive.js";
+import { effect, html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
-import { checkList, definitions, folded, measured, progressOf, shownMeasured } from "./measurement_parts.js";
+import { Button, Card, Dom, Folded, Notes, shown } from "../views.js";
+import { Checks, Facts, Run, measured, shownMeasured } from "./measurement_parts.js";
 
 /** Whole numbers that people typed, parted by commas. */
 function wholeNumbers(text) {
@@ -68,29 +68,21 @@ function separationFields({ quantityField, textField, numberField, choiceField, 
   );
 }
 
-/** The card of the measurement's files. */
-export function source(app) {
-  const { fields } = app;
-  const { h, button, note } = fields;
-  let dropped = null; // names of the files that were brought last
-  const unread = signal(null); // why files could not be brought
-  const facts = definitions(app);
-  const checks = checkList(app);
-  const refusal = note([], "error");
-  const problem = note([], "error");
-  const notes = note([]);
-  const steps = h("ul", { class: "help steps-of-test" });
-  const badge = h("span", { class: "badge", hidden: true }, "synthetic data");
-  const stepsOfTest = folded(app, "Steps of the test", steps);
-  const doubts = folded(app, "Notes on the data", notes);
-  const more = folded(app, "More: zero, Coulomb friction, steps, outliers", separationFields(fields));
-  const csv = h("a", { class: "button small", hidden: true, download: "friction_curves.csv" }, "Friction curves (CSV)");
-  const remove = button({
-    label: "Remove the measurement",
-    kind: "quiet small",
-    symbol: "close",
-    onClick: () => state.set("measurement", undefined),
-  });
+let dropped = null; // names of the files that were brought last
+const unread = signal(null); // why files could not be brought
+
+/** Read files that are brought. */
+async function take(bring) {
+  unread.value = null;
+  try {
+    dropped = await bring();
+    await measured.run({ study: state.study, options: { files: dropped } });
+  } catch (error) {
+    unread.value = error.message;
+  }
+}
+
+function columnsOf(app) {
   const columns = columnsForm(app, {
     choose: (named) => {
       const { curves, ...before } = state.get("measurement") ?? {};
@@ -99,65 +91,53 @@ export function source(app) {
     },
     chosen: () => state.get("measurement.columns"),
   });
-  const drop = fields.fileDrop({
+  effect(() => columns.offer(measured.error?.values));
+  return columns;
+}
+
+/** The view of the measurement's files, with its fields. */
+export function source(app) {
+  const drop = app.fields.fileDrop({
     label: "Drop the files of a traction test",
     accept: ".txt,.csv,.tsv,.dat,.xlsx,.xls,.mtmd,.etmd",
     help: "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.",
     onFiles: (files) => take(() => app.api.uploadFiles(files)),
   });
-  const example = button({
-    label: "Use the synthetic example",
-    kind: "small",
-    onClick: () => take(() => app.api.useExample().then(() => ["mtm.csv"])),
-  });
-  const card = fields.card(
-    "Measured friction",
-    drop,
-    h("div", { class: "row" }, example, csv, remove),
-    ...progressOf(app, measured, "Reading and separating"),
-    ...[problem, columns, refusal, badge, facts, checks, doubts, stepsOfTest, more],
-  );
-
-  /** Read files that were just brought. */
-  async function take(bring) {
-    unread.value = null;
-    try {
-      dropped = await bring();
-      await measured.run({ study: state.study, options: { files: dropped } });
-    } catch (error) {
-      unread.value = error.message;
-    }
-  }
-
+  const columns = columnsOf(app);
+  const form = separationFields(app.fields);
+  const example = () => take(() => app.api.useExample().then(() => ["mtm.csv"]));
+  const refusalOf = (result) => result?.refusal && `The friction cannot be separated: ${result.refusal}`;
   measured.done = (result) => {
     dropped = null;
     const origin = result.synthetic ? { data_origin: "synthetic" } : {};
     state.change({ measurement: result.table, ...origin });
     const said = result.curves && `${result.points} points of friction at ${result.curves.length} temperatures.`;
-    app.announce(said ?? `The friction cannot be separated: ${result.refusal}`);
-    if (result.refusal) more.open = true;
+    app.announce(said ?? refusalOf(result));
   };
-  measured.start();
-  effect(() => columns.offer(measured.error?.values));
-  effect(() => {
-    const result = shownMeasured();
+  return view(() => {
+    const of = shownMeasured();
     const table = state.get("measurement");
-    problem.set(unread.value ? [unread.value] : []);
-    remove.hidden = !table;
-    more.hidden = result ? !result.runs : !table?.mtm;
-    for (const one of [facts, checks, refusal, notes, steps]) shows(one, result);
-    facts.set(result ? [...result.recognised, ...(result.lines ?? [])] : []);
-    checks.set(result?.checks ?? []);
-    refusal.set(result?.refusal ? [`The friction cannot be separated: ${result.refusal}`] : []);
-    notes.set(result?.notes ?? []);
-    doubts.hidden = !result?.notes.length;
-    doubts.firstChild.textContent = `Notes on the data (${result?.notes.length})`;
-    steps.replaceChildren(...(result?.steps ?? []).map((step) => h("li", {}, step.text)));
-    stepsOfTest.hidden = !result?.steps.length;
-    badge.hidden = !result?.synthetic;
-    csv.hidden = !result?.download;
-    if (result?.download) csv.href = app.api.downloadUrl(result.download);
+    const { notes = [], steps = [], download } = of ?? {};
+    const about = "More: zero, Coulomb friction, steps, outliers";
+    return html`<${Card} title="Measured friction">
+      <${Dom} of=${drop} />
+      <div class="row">
+        <${Button} kind="small" onClick=${example}>Use the synthetic example<//>
+        ${download && html`<a class="button small" download="friction_curves.csv" href=${app.api.downloadUrl(download)}>Friction curves (CSV)</a>`}
+        ${table && html`<${Button} kind="quiet small" symbol="close" onClick=${() => state.set("measurement", undefined)}>Remove the measurement<//>`}
+      </div>
+      <${Run} app=${app} job=${measured} label="Reading and separating" />
+      <${Notes} kind="error" list=${[unread.value]} />
+      <${Dom} of=${columns} />
+      <${Notes} of=${of} kind="error" list=${[refusalOf(of)]} />
+      ${of?.synthetic && html`<span class="badge">synthetic data</span>`}
+      <${Facts} of=${of} list=${of ? [...of.recognised, ...(of.lines ?? [])] : []} />
+      <${Checks} of=${of} list=${of?.checks} />
+      <${Folded} title="Notes on the data (${notes.length})" hidden=${notes.length === 0}><${Notes} of=${of} list=${notes} /><//>
+      <${Folded} title="Steps of the test" hidden=${steps.length === 0}>
+        <ul ...${shown(of, "help steps-of-test")}>${steps.map(({ text }) => html`<li>${text}</li>`)}</ul>
+      <//>
+      <${Folded} title=${about} open=${of?.refusal ? true : undefined} hidden=${of ? !of.runs : !table?.mtm}><${Dom} of=${form} /><//>
+    <//>`;
   });
-
-  return card;
 }

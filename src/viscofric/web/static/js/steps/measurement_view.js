@@ -1,11 +1,11 @@
 // The measurement step put together.
 
-import { effect } from "../reactive.js";
+import { html, render } from "../reactive.js";
 import { state } from "../state.js";
-import { comparison } from "./measurement_comparison.js";
-import { identification } from "./measurement_identify.js";
-import { masterCurve } from "./measurement_master.js";
-import { shownMeasured } from "./measurement_parts.js";
+import { Comparison, Others, agreement } from "./measurement_comparison.js";
+import { Identification } from "./measurement_identify.js";
+import { MasterCurve, master } from "./measurement_master.js";
+import { measured, shownMeasured } from "./measurement_parts.js";
 import { source } from "./measurement_source.js";
 
 /** What the parts of the step share: whether the measurement is made up, and whether it or the rubber is. */
@@ -21,22 +21,19 @@ function origins(app) {
 
 /** Put the step into its section. */
 export function mount(section, app) {
-  const { h } = app.fields;
   const step = origins(app);
-  const measured = source(app);
-  const compared = comparison(app, step);
-  const after = [compared.rest, masterCurve(app, step), identification(app, step)];
-  section.append(
-    h(
-      "p",
-      {},
-      "Traction test: separation of Coulomb and viscoelastic friction, comparison with the prediction, ",
-      "friction master curve, and material identified from friction.",
-    ),
-    h("div", { class: "columns" }, h("div", {}, measured), h("div", {}, compared.card)),
-    ...after,
-  );
-  effect(() => {
-    for (const one of after) one.hidden = !shownMeasured()?.curves;
-  });
+  const Source = source(app);
+  agreement.done = ({ sentences }) => sentences.length && app.announce(sentences[0]);
+  for (const job of [measured, agreement, master]) job.start();
+  const parts = html`
+    <p>
+      Traction test: separation of Coulomb and viscoelastic friction, comparison with the prediction, friction master
+      curve, and material identified from friction.
+    </p>
+    <div class="columns"><div><${Source} /></div><div><${Comparison} app=${app} step=${step} /></div></div>
+    <${Others} step=${step} />
+    <${MasterCurve} app=${app} step=${step} />
+    <${Identification} app=${app} step=${step} />
+  `;
+  render(parts, section);
 }

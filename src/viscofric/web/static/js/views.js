@@ -1,0 +1,99 @@
+// Parts of the page as views of Preact: what shows a result is grey with a word while its inputs are others than those of now.
+//
+// Every part that shows something takes `of`, the result of a job that it is of.
+// <${Figure} of=${result} id="…" title="…" … />     a figure; its properties are those of figures.js
+// <${Dom} of=${element} />                          an element that something else has made
+
+import { figure } from "./figures.js";
+import { inputsOf, isStale } from "./jobs.js";
+import { ICONS } from "./parts.js";
+import { Component, html, view } from "./reactive.js";
+import * as units from "./units.js";
+
+/** Properties of an element that shows a result: its classes and the key of the result's inputs. */
+export const shown = (result, classes = "") => ({
+  class: `${classes} ${isStale(result) ? "stale" : ""}`.trim(),
+  "data-inputs": inputsOf(result),
+});
+
+export const Icon = ({ name }) =>
+  html`<svg class="icon" aria-hidden="true" viewBox="0 0 20 20"><path d=${ICONS[name]} /></svg>`;
+
+/** A button; `kind` is "main", "quiet", "small" or nothing. */
+export const Button = ({ kind = "", symbol, children, ...rest }) =>
+  html`<button type="button" class="button ${kind}" ...${rest}>${symbol && html`<${Icon} name=${symbol} />`}${children}</button>`;
+
+/** A card with a heading, for figures and forms that belong together. */
+export const Card = ({ title, children, ...rest }) =>
+  html`<section class="card" ...${rest}><h2>${title}</h2>${children}</section>`;
+
+/** Something that is folded until it is opened. */
+export const Folded = ({ title, children, ...rest }) =>
+  html`<details ...${rest}><summary>${title}</summary><div class="step-body">${children}</div></details>`;
+
+/** Sentences about the data; kinds are "note", "warning", "error". */
+export const Notes = view(({ of, list = [], kind = "note", ...rest }) => {
+  const sentences = list.filter(Boolean).map((sentence) => html`<li>${sentence}</li>`);
+  return html`<ul ...${shown(of, `notes ${kind}`)} hidden=${sentences.length === 0} ...${rest}>${sentences}</ul>`;
+});
+
+/** The main numbers of a result: [{label, value, remark}]. */
+export const Numbers = view(({ of, list }) => {
+  const one = ({ label, value, remark }) =>
+    html`<div><dt>${label}</dt><dd class="value">${value}</dd>${remark && html`<dd class="remark">${remark}</dd>`}</div>`;
+  return list.length > 0 && html`<dl ...${shown(of, "key-numbers")}>${list.map(one)}</dl>`;
+});
+
+/** A table of numbers. */
+export const Table = view(({ of, head, rows, caption }) => {
+  const cell = (value) => html`<td>${typeof value === "number" ? units.plainNumber(value, 5) : (value ?? "–")}</td>`;
+  return html`<div ...${shown(of, "scroll")} tabindex="0" role="group" aria-label=${caption}>
+    <table>
+      <caption>${caption}</caption>
+      <thead><tr>${head.map((text) => html`<th scope="col">${text}</th>`)}</tr></thead>
+      <tbody>${rows.map((row) => html`<tr>${row.map(cell)}</tr>`)}</tbody>
+    </table>
+  </div>`;
+});
+
+/** Progress of a job with a button that cancels it; `ended({seconds, cancelled})` words its end. */
+export const Progress = view(({ job, label, ended = ({ cancelled }) => (cancelled ? "Cancelled." : "") }) => {
+  const { done, total, label: words } = job.progress ?? {};
+  const counted = total > 1 ? `${Math.round(done)} of ${total}` : "";
+  const text = job.progress
+    ? [counted, words].filter(Boolean).join(" · ") || `${label} …`
+    : job.ended
+      ? ended(job.ended)
+      : "";
+  return html`<div class="progress ${job.progress ? "" : "done"}" hidden=${text === ""}>
+    ${job.progress && html`<progress max="1" ...${total > 0 ? { value: done / total } : {}} aria-label=${label} />`}
+    <span class="progress-text">${text}</span>
+    ${job.progress && html`<${Button} kind="quiet small" onClick=${() => job.cancel()}>Cancel<//>`}
+  </div>`;
+});
+
+/** An element in the place of a view. */
+export class Dom extends Component {
+  shouldComponentUpdate() {
+    return false;
+  }
+  render({ of }) {
+    return html`<div class="placed" ref=${(place) => place?.append(of)} />`;
+  }
+}
+
+export class Figure extends Component {
+  shouldComponentUpdate(next) {
+    this.handle.update(next, { traces: [] });
+    return false;
+  }
+  componentDidMount() {
+    this.handle = figure(this.place, this.props).update(this.props);
+  }
+  componentWillUnmount() {
+    this.handle.remove();
+  }
+  render() {
+    return html`<div class="placed" ref=${(place) => (this.place = place)} />`;
+  }
+}
