@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from web.served_page import Server
 
 pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+_MORE = [pytest.param(first, marks=pytest.mark.exhaustive) for first in range(10, 100, 10)]
 
 
 def change(tab: Tab, path: str, value: Any) -> None:
@@ -68,26 +69,34 @@ def walk(tab: Tab, seed: int, length: int = 12) -> None:
     """Go through the page at random; no figure is ever other than it says."""
     chance = random.Random(seed)
     tab.value(f"{STATE}.replace(given[0])", LIGHT)
+    seen = [tab.value(f"{STATE}.step")]  # steps, to the one that Back leaves
     for _ in range(length):
         path, value = chance.choice([*INPUTS.items(), *OTHERS.items()])
+        step = chance.choice([one for one in STEPS if one != seen[-1]])
+        to_step = f"document.querySelector('#steps a[href=\"#{step}\"]').click()"
         ways = {
             f"{STATE}.set(given[0], given[1])": 5,
             f"{STATE}.undo()": 2,
             f"{STATE}.redo()": 1,
-            "history.back()": 1,
-            f"document.querySelector('#steps a[href=\"#{chance.choice(STEPS)}\"]').click()": 3,
+            "history.back()": 1 if len(seen) > 1 else 0,
+            to_step: 3,
             f"page.units.choose('{chance.choice(['SI', 'engineering', 'imperial'])}')": 1,
             f"page.figures.chooseTheme('{chance.choice(['light', 'dark'])}')": 1,
             f"{STATE}.setView('contact.position', {{ speed: {chance.uniform(0.01, 0.1)}, temperature: 310 }})": 2,
         }
         (way,) = chance.choices(list(ways), list(ways.values()))
         tab.value(f"({way}, null)", path, value)
+        if way == to_step:
+            seen.append(step)
+        elif way == "history.back()":
+            seen.pop()
+            tab.until(f"{STATE}.step === '{seen[-1]}'")
         assert wrong_figures(tab) == [], (seed, way, path)
         tab.page.wait_for_timeout(chance.choice([0, 50, 400]))
         assert wrong_figures(tab) == [], (seed, way, path)
 
 
-@pytest.mark.parametrize("first", range(0, 100, 10))
+@pytest.mark.parametrize("first", [0, *_MORE])
 def test_walks_at_random_leave_no_figure_of_other_inputs(browser: Browser, server: Server, first: int) -> None:
     with opened_tab(browser, server, "#export") as tab:
         example(tab, LIGHT)
