@@ -69,12 +69,13 @@ export function keyOf(name, { study, options = {} }) {
 }
 
 const jobs = signal(new Map());
+const whole = computed(() => keyOf("the whole study", { study: state.study }));
 const origins = new WeakMap(); // result -> {job, key, about, study}
 
 export class Job {
   #known = new Map(); // key -> result
   #found = signal(null); // {key, result, complete}
-  #failure = signal(null); // {key, error}
+  #failure = signal(null); // {key, error, whole}
   #ended = signal(null); // {key, seconds | cancelled}
   #running = null; // {key, abort, number}
   #timer = null;
@@ -105,7 +106,11 @@ export class Job {
     return Boolean(this.#ofNow(this.#found, "complete"));
   }
   get error() {
-    return this.#ofNow(this.#failure, "error");
+    return this.#failure.value?.whole === whole.value ? this.#ofNow(this.#failure, "error") : null;
+  }
+  /** Whether it failed with another study, although its inputs are the same: what was wrong may be mended. */
+  get mayWork() {
+    return this.#failure.value !== null && this.#failure.value.whole !== whole.value;
   }
   get ended() {
     return this.#ended.value?.key === this.key.value ? this.#ended.value : null;
@@ -120,6 +125,7 @@ export class Job {
     effect(() => {
       const key = this.key.value;
       const seen = this.when();
+      void this.mayWork;
       untracked(() => this.#follow(key, seen));
     });
     return this;
@@ -177,7 +183,7 @@ export class Job {
       batch(() => {
         this.moving.value = null;
         if (error.name === "AbortError") this.#ended.value = { key: mine.key, cancelled: true };
-        else this.#failure.value = { key: mine.key, error };
+        else this.#failure.value = { key: mine.key, error, whole: whole.peek() };
       });
       if (!(error instanceof JobError) && error.name !== "AbortError") console.error(error);
     }
@@ -200,7 +206,7 @@ export class Job {
   }
 
   refuse(asked, error) {
-    this.#failure.value = { key: untracked(() => keyOf(this.name, asked)), error };
+    this.#failure.value = { key: untracked(() => keyOf(this.name, asked)), error, whole: whole.peek() };
   }
 
   /** Stop on the user's wish; a job that `interrupt`s sends what it has found so far, if it has begun and answers. */

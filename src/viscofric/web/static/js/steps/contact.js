@@ -188,6 +188,7 @@ function mount(section, app) {
   let about = null;
   effect(() => {
     clearTimeout(timer);
+    void contact.mayWork;
     if (!contact.key.value) return;
     const waits = about !== null && about !== contact.about.value;
     about = contact.about.value;
