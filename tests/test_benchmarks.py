@@ -31,6 +31,12 @@ def contact_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     yield from _importable("contact", monkeypatch)
 
 
+@pytest.fixture
+def motion_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let the benchmark of contacts over time be imported."""
+    yield from _importable("motion", monkeypatch)
+
+
 def _importable(folder: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Put a folder on the path, and forget its files afterwards: their names are common ones."""
     before = set(sys.modules)
@@ -157,6 +163,22 @@ def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys
     (row,) = read(tmp_path / "rough.json")["rows"]
     assert row["number"] == "friction"
     assert 0.0 < row["apart"] < 0.01 * row["size"]  # nearly in full contact
+
+
+@pytest.mark.usefixtures("motion_path")
+def test_benchmark_of_errors_over_time_goes_on_with_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import stated_errors
+
+    wanted = ["--kinds", "ball", "--accuracy", "2e-2", "3e-2", "--lines", str(tmp_path / "errors.jsonl")]
+    stated_errors.main(["--count", "1", *wanted])
+    first = (tmp_path / "errors.jsonl").read_text(encoding="utf-8")
+    stated_errors.main(["--count", "2", *wanted])
+    second = (tmp_path / "errors.jsonl").read_text(encoding="utf-8")
+    assert second.startswith(first)
+    assert [json.loads(line)["case"].split(":")[0] for line in second.splitlines()] == ["0", "1"]
+    assert "solved: 2, not solved: 0" in capsys.readouterr().out
+    stated_errors.main(["--count", "2", "--seconds", "0", "--kinds", "ball"])
+    assert "given up after 0 CPU s" in capsys.readouterr().out
 
 
 @pytest.mark.slow

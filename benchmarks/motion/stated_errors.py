@@ -1,7 +1,7 @@
 """Whether the errors that contacts over time state hold: random histories against solutions ten times as accurate.
 
 Usage: python benchmarks/motion/stated_errors.py [--count 120] [--first 0] [--accuracy 3e-3 3e-2]
-       [--kinds ball cone ...] [--json FILE]
+       [--kinds ball cone ... | cells] [--seconds 300] [--lines FILE]
 
 Ball and cone pressed on (springs), a cylinder, a profile, a ball, a cylinder on a layer and an ellipsoid (cells),
 ridges and a rough surface (waves) in turn.  1 to 20 modes over up to six decades, E_inf/E0 from 2 to 1e3, the longest
@@ -13,14 +13,19 @@ Each is compared, at all its times, with the same problem at a tenth of the accu
 quarter (they are solved to 2e-2 or worse).  An error counts as holding where
 the difference is no more than it and the error that the finer solution states for itself; `strict` leaves the latter
 out.  `worst` is the largest ratio of the difference, less the finer solution's error, to the stated error.
+
+With `--lines` each problem is written to a file (JSON lines) as soon as it is solved; those in it are not solved again,
+and the tables are of all problems of these kinds in it.  A problem is given up after `--seconds` of CPU time.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import os
 import sys
+import time
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -51,6 +56,7 @@ KINDS = (
 POINT_CONTACTS = ("ball", "cone", "ball that slides", "ellipsoid")
 PRESSED = ("ball", "cone", "ellipsoid")
 PERIODIC = ("ridges", "rough")
+ON_CELLS = ("cylinder", "ball that slides", "profile", "cylinder on a layer", "ellipsoid")
 COSTLY, LEAST_COSTLY, FINER_COSTLY = ("ball that slides", "ellipsoid"), 2e-2, 0.25
 FINER = 0.1
 LEAST = 1e-9  # of rounding and of the contact conditions, relative to the largest value
@@ -171,12 +177,22 @@ def draw(number: int, accuracy: tuple[float, float] = (3e-3, 3e-2), kinds: tuple
     return Case(name, kind, material, body, history, settings)
 
 
-def solve_both(case: Case) -> tuple[vf.TransientSolution, vf.TransientSolution]:
+class _TooLongError(Exception):
+    """A problem has taken more CPU time than allowed."""
+
+
+def solve_both(case: Case, seconds: float = math.inf) -> tuple[vf.TransientSolution, vf.TransientSolution]:
     """Solve a case as it stands, and much more finely at the same times."""
-    coarse = vf.solve_transient(case.material, case.body, case.history, **case.settings)
+    begun = time.process_time()
+
+    def check(reached: float, end: float) -> None:
+        if time.process_time() - begun > seconds:
+            raise _TooLongError
+
+    coarse = vf.solve_transient(case.material, case.body, case.history, **case.settings, progress=check)
     part = FINER_COSTLY if case.kind in COSTLY else FINER
     finer = dict(case.settings, accuracy=part * case.settings["accuracy"], times=coarse.time)
-    return coarse, vf.solve_transient(case.material, case.body, case.history, **finer)
+    return coarse, vf.solve_transient(case.material, case.body, case.history, **finer, progress=check)
 
 
 def compare(case: Case, coarse: vf.TransientSolution, fine: vf.TransientSolution) -> list[dict[str, Any]]:
@@ -219,42 +235,73 @@ def summary(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return result
 
 
+def measured(case: Case, seconds: float = math.inf) -> dict[str, Any]:
+    """Return the errors of a case, or why it has none."""
+    begun = time.process_time()
+    found: dict[str, Any] = {"case": case.name, "kind": case.kind, "accuracy": case.settings["accuracy"], "rows": []}
+    try:
+        coarse, fine = solve_both(case, seconds)
+    except vf.ConvergenceError as failure:
+        return {**found, "unsolved": f"{case.name}: {failure}", "seconds": time.process_time() - begun}
+    except _TooLongError:
+        return {**found, "unsolved": f"{case.name}: given up after {seconds:g} CPU s", "seconds": seconds}
+    found |= {"rows": compare(case, coarse, fine), "imbalance": coarse.energy_imbalance}
+    return {**found, "seconds": time.process_time() - begun}
+
+
+def too_small(rows: list[dict[str, Any]]) -> list[str]:
+    """Return a line for each quantity of a problem that has a stated error too small."""
+    lines = []
+    for row in rows:
+        ratio = np.divide(np.subtract(row["apart"], row["left"]), np.maximum(row["stated"], 1e-300))
+        at = int(np.argmax(ratio))
+        if ratio[at] > 1.0:
+            lines.append(
+                f"{row['case']}: {row['number']} off by {ratio[at]:.2f} times the stated "
+                f"{row['stated'][at]:.2e} at {row['time'][at]:.3g} s, size {row['size']:.2e}"
+            )
+    return lines
+
+
 def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=120)
     parser.add_argument("--first", type=int, default=0, help="number of the first random history")
     parser.add_argument("--accuracy", type=float, nargs=2, default=(3e-3, 3e-2), help="least and largest")
-    parser.add_argument("--kinds", nargs="+", default=KINDS, choices=KINDS)
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--kinds", nargs="+", default=KINDS, choices=(*KINDS, "cells"), help="cells: all on cells")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="CPU time after which a problem is given up")
+    parser.add_argument("--lines", type=Path, help="file of the problems solved, to be continued")
     options = parser.parse_args(arguments)
-    rows: list[dict[str, Any]] = []
-    unsolved: list[str] = []
-    imbalances: list[float] = []
+    kinds = ON_CELLS if "cells" in options.kinds else tuple(options.kinds)
+    found = []
+    if options.lines is not None and options.lines.exists():
+        found = [json.loads(line) for line in options.lines.read_text(encoding="utf-8").splitlines()]
+    done = {one["case"] for one in found}
     for number in range(options.first, options.first + options.count):
-        case = draw(number, tuple(options.accuracy), tuple(options.kinds))
-        try:
-            coarse, fine = solve_both(case)
-        except vf.ConvergenceError as failure:
-            unsolved.append(f"{case.name}: {failure}")
+        case = draw(number, tuple(options.accuracy), kinds)
+        if case.name in done:
             continue
-        imbalances.append(coarse.energy_imbalance / case.settings["accuracy"])
-        for row in compare(case, coarse, fine):
-            ratio = np.divide(np.subtract(row["apart"], row["left"]), np.maximum(row["stated"], 1e-300))
-            if ratio.max() > 1.0:
-                at = int(np.argmax(ratio))
-                print(
-                    f"{row['case']}: {row['number']} off by {ratio[at]:.2f} times the stated "
-                    f"{row['stated'][at]:.2e} at {row['time'][at]:.3g} s, size {row['size']:.2e}", flush=True,
-                )  # fmt: skip
-            rows.append(row)
-    for title, kinds in [*((kind, (kind,)) for kind in options.kinds), ("all", tuple(options.kinds))]:
-        those = [row for row in rows if row["case"].split(": ")[1].split(",")[0] in kinds]
-        if those:
-            measuring.print_table(title, summary(those), COLUMNS)
+        found.append(measured(case, options.seconds))
+        for line in too_small(found[-1]["rows"]):
+            print(line, flush=True)
+        if options.lines is not None:
+            with options.lines.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(found[-1], ensure_ascii=False) + "\n")
+    print_tables([one for one in found if one["kind"] in kinds], kinds)
+
+
+def print_tables(found: list[dict[str, Any]], kinds: tuple[str, ...]) -> None:
+    """Print the shares of errors that hold, imbalances of energy, and what was not solved."""
+    for title, some in [*((kind, (kind,)) for kind in kinds), ("all", kinds)]:
+        rows = [row for one in found if one["kind"] in some for row in one["rows"]]
+        if rows:
+            measuring.print_table(title, summary(rows), COLUMNS)
+    imbalances = [one["imbalance"] / one["accuracy"] for one in found if "imbalance" in one]
     if imbalances:
         print(f"\nimbalance of energy over the accuracy: {np.median(imbalances):.2g}, at most {max(imbalances):.2g}")
-    print(f"no accuracy reached: {len(unsolved)}", *unsolved, sep="\n")
-    measuring.write_json(options.json, {"summary": summary(rows), "rows": rows, "unsolved": unsolved})
+    unsolved = [one["unsolved"] for one in found if "unsolved" in one]
+    print(f"solved: {len(found) - len(unsolved)}, not solved: {len(unsolved)}", *unsolved, sep="\n")
+    print(f"CPU s: {sum(one['seconds'] for one in found):.0f}")
 
 
 if __name__ == "__main__":
