@@ -46,6 +46,9 @@ class Unsteady:
     def pressure(self, state):
         return Field({"x": np.zeros(1)}, np.zeros(1))
 
+    def early(self, since):
+        return 1.0
+
     def ticks(self, start, end):
         return self.marked
 

@@ -127,17 +127,25 @@ def faded(spread: Difference, pair: Pair[State]) -> Difference:
 
 
 def moment_of(
-    pair: Pair[State], instant: Instant, held: Field | None, spread: Difference, floor: Errors, *, extrapolate: bool
+    pair: Pair[State],
+    instant: Instant,
+    held: Field | None,
+    spread: Difference,
+    floor: Errors,
+    *,
+    early: float,
+    extrapolate: bool,
 ) -> Moment[State]:
     """Return what the chains say of one time: the energies extrapolated, and the rest too on request.
 
-    Errors are those of steps, by the spread, what the mover leaves out, and the floor.
+    Errors are those of steps, by the spread, what the mover leaves out, `early` times that, and the floor.
     """
     coarse, fine = pair
+    left_out = tuple(early * one for one in fine.seen.left_out)
     off = difference(pair)
     steps = [_OF_STEPS * one for one in spread]
     each = steps[0], steps[1], math.hypot(*steps[2:4]), max(steps[4:])
-    errors = Errors(*(sum(parts) for parts in zip(each, fine.seen.left_out, floor, strict=True)))
+    errors = Errors(*(sum(parts) for parts in zip(each, left_out, floor, strict=True)))
     # Sums over all steps are smooth enough to be extrapolated.
     stored, dissipated, work, rubbed = (
         two + (two - one) / 3.0
@@ -148,7 +156,7 @@ def moment_of(
             (coarse.rubbed, fine.rubbed),
         )
     )
-    seen = fine.seen._replace(stored=stored, dissipated=dissipated)
+    seen = fine.seen._replace(stored=stored, dissipated=dissipated, left_out=left_out)  # type: ignore[arg-type]
     if extrapolate:
         x, y = seen.friction_force
         force = x + off.along / 3.0, y + off.across / 3.0

@@ -342,7 +342,10 @@ class _March(Generic[State]):
         load, depth, friction, energy = (self.mover.tolerance * one for one in self._scales)
         given = instant.depth is None and instant.gap is None
         floor = Errors(0.0 if given else load, depth if given else 0.0, friction, energy)
-        self.moments += times * [moment_of(pair, instant, held, self._spread, floor, extrapolate=self.extrapolate)]
+        early = self.mover.early(self.schedule.since_jump(instant))
+        self.moments += times * [
+            moment_of(pair, instant, held, self._spread, floor, early=early, extrapolate=self.extrapolate)
+        ]
 
 
 def _growth(ratio: float) -> float:

@@ -177,6 +177,16 @@ class Modes:
         """Return the largest difference from other modes, relative to theirs, as in `for_history`."""
         return _Response.of(every, shortest_time, whole_duration).error(self)
 
+    def growth_of_error(self, every: Modes, since: float) -> float:
+        """Return how many times as large the error of merging is at a time after a jump, s of the clock, as stated.
+
+        Before the shortest time of `for_history`, it is that of the creep compliance at this time.
+        """
+        if since <= 0.0 or self.error <= 0.0:
+            return 1.0
+        off = abs(float(self.creep_compliance(since) / every.creep_compliance(since)) - 1.0)
+        return max(1.0, off / self.error)
+
     def __len__(self) -> int:
         return len(self.C)
 

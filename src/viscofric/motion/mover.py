@@ -136,6 +136,10 @@ class Mover(Protocol[State]):
         """Return the pressure of a state."""
         ...
 
+    def early(self, since: float) -> float:
+        """Return how many times as large `Observation.left_out` is so soon after a jump, s of the clock."""
+        ...
+
     def ticks(self, start: Instant, end: Instant) -> Array | None:
         """Return the times after the start at which steps may end, up to the end; None if any."""
         ...

@@ -205,6 +205,10 @@ class NormalMotion:
         force = isotonic_regression(state.force, weights=weights, increasing=False).x
         return Field({"r": r}, transform @ np.diff(force, append=0.0))
 
+    def early(self, since: float) -> float:
+        """Return one: what springs leave out does not depend on time."""
+        return 1.0
+
     def ticks(self, start: Instant, end: Instant) -> Array | None:
         """Any step may end anywhere."""
         return None

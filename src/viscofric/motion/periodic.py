@@ -99,6 +99,7 @@ class PeriodicMover:
             self._rigid = self.grid.rigid_factor * (problem.counterface / self.compliance_unit)
         self.height = (surface.z.max() - surface.z) / self.depth_unit
         self.mean_height = float(self.height.mean())
+        self._steepness = np.hypot(*(surface.slope(axis) for axis in ((1.0, 0.0), (0.0, 1.0)))) / surface.z.size
         self.precision = np.complex64 if problem.accuracy >= _SINGLE else np.complex128
         self.share = _SHARES[min(surface.shape) > 1]
         self._tightness = _TIGHTNESS * self.share * problem.accuracy
@@ -200,8 +201,10 @@ class PeriodicMover:
         loaded = np.count_nonzero(state.pressure > 0.0)
         load, depth = self.pressure_unit * float(state.pressure.mean()), self.depth_unit * abs(state.depth)
         free, part = self.schedule.control == "pressure", self.modes.error
-        friction, lost = work * math.hypot(*state.friction), work * state.dissipated
-        left_out = (0.0 if free else part * load, part * depth if free else 0.0, part * friction, part * lost)
+        # Errors of the displacement need not cancel over a contact as those of an elastic one do.
+        friction = self.pressure_unit * float(np.vdot(state.pressure, self._steepness))
+        energy = work * (state.stored + state.dissipated)
+        left_out = (0.0 if free else part * load, part * depth if free else 0.0, part * friction, part * energy)
         return Observation(
             load=load,
             depth=self.depth_unit * state.depth,
@@ -216,6 +219,10 @@ class PeriodicMover:
     def pressure(self, state: PeriodicState) -> Field:
         """Return the pressure of a state, Pa, on the surface's own points."""
         return Field({"x": self.surface.x, "y": self.surface.y}, self.pressure_unit * state.pressure)
+
+    def early(self, since: float) -> float:
+        """Return how many times as large the error of merged modes is so soon after a jump, s of the clock."""
+        return self.merged.growth_of_error(Modes.of(self.schedule.spectrum), since)
 
     def ticks(self, start: Instant, end: Instant) -> None:
         """Return None: a step may end at any time."""

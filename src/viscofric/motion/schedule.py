@@ -148,6 +148,14 @@ class Schedule:
         share = (time - start) / (end - start)
         return np.asarray((1.0 - share) * self._speed[place] + share * self._speed[place + 1])
 
+    def since_jump(self, instant: Instant) -> float:
+        """Return the time since the last jump, or the first contact with an untouched body, s of the clock; or inf."""
+        jumps = self.kinks[[self.jumps_at(float(time)) for time in self.kinks]]
+        if self.before == "untouched":
+            jumps = np.append(self.start, jumps)
+        before = jumps[jumps <= instant.time]
+        return instant.clock - self.at(float(before[-1])).clock if len(before) else math.inf
+
     def starts_at(self, time: float) -> bool:
         """Return whether a motion starts, stops or turns at a time: the velocity changes by a quarter or more."""
         before, after = (self.velocity(time, after=one) for one in (False, True))

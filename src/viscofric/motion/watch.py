@@ -113,6 +113,10 @@ class Watch:
         """Return the pressure of the state."""
         return self.mover.pressure(state.state)
 
+    def early(self, since: float) -> float:
+        """Return that of the mover."""
+        return self.mover.early(since)
+
     def ticks(self, start: Instant, end: Instant) -> Array | None:
         """Return the mover's ticks."""
         return self.mover.ticks(start, end)

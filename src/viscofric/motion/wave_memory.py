@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 # Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
 # that part of it in which a point is passed from which on the passage is the shortest time.
-MERGING, _SHORTEST, _QUICK = 0.2, 1e-5, 1e-2
+MERGING, _SHORTEST, _QUICK = 0.1, 1e-5, 1e-2
 # Duration of histories that may follow, over that of the first one.
 _LONGER = 2.0
 # Values processed at once: those of all modes stay in the processor's cache.

@@ -24,7 +24,7 @@ from viscofric.motion.free.past import NO_PAST, parted
 from viscofric.motion.free.resting import rested, untouched
 from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
-from viscofric.motion.memory import recovery_at_depth
+from viscofric.motion.memory import Modes, recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
 
 if TYPE_CHECKING:
@@ -175,24 +175,35 @@ class FreeMover(Cells):
         force = scale.force * scale.slope
         along, across = state.force
         area, extents = self._footprint(state, window)
-        work = scale.force * scale.depth
+        work, stored = scale.force * scale.depth, self._stored(state)
         free = setting.schedule.control == "load"
         left_out = (
             0.0 if free else scale.force * load,
             scale.depth * abs(state.depth) if free else 0.0,
-            force * math.hypot(along, across),
-            work * state.dissipated,
+            force * self._sheared(state, window),
+            work * (stored + state.dissipated),
         )
         return Observation(
             load=scale.force * load,
             depth=scale.depth * (state.depth - self.datum),
             friction_force=setting.unturned(force * along, force * across),
             area=area,
-            stored=work * self._stored(state),
+            stored=work * stored,
             dissipated=work * state.dissipated,
             extents=extents,
             left_out=tuple(setting.body.merged * one for one in left_out),  # type: ignore[arg-type]
         )
+
+    def _sheared(self, state: FreeState, window: Grid) -> float:
+        """Return ∫ p |∇h| dA, the friction of a displacement that does not cancel over the contact; zero at rest."""
+        if self.setting.path_length == 0.0:
+            return 0.0
+        i, j = np.nonzero(state.pressure)
+        x, y = window.x[i] - state.place.x, window.y[j] - state.place.y
+        steep = self.setting.shape.slope(x, y)
+        if not self.setting.is_line:
+            steep = np.hypot(steep, self.setting.shape.slope_across(x, y))
+        return window.cell_area * float(state.pressure[i, j] @ np.abs(steep))
 
     def _stored(self, state: FreeState) -> float:
         body, products = self.setting.body, state.products
@@ -207,6 +218,10 @@ class FreeMover(Cells):
         if window.shape[1] == 1:
             return Field(axes, values[:, 0])
         return Field({**axes, "y": scale.length * (window.y - state.place.y)}, values)
+
+    def early(self, since: float) -> float:
+        """Return how many times as large the error of merged modes is so soon after a jump, s of the clock."""
+        return self.setting.modes.growth_of_error(Modes.of(self.setting.schedule.spectrum), since)
 
     def ticks(self, start: Instant, end: Instant) -> Array:
         """Return times at which steps may end: the indenter is a whole number of cells away."""

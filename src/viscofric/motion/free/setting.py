@@ -47,6 +47,8 @@ _OF_SPEED = 5
 _AT_REST, _REST_CELL, _FIRST_AT_REST = 48, 0.04, 1e-3
 # Second tick after a jump, in the time in which the response to it changes.
 _FIRST_TICK = 0.2
+# First tick after a start, in the time in which a cell is passed: least and largest; ratio of the times of the next.
+_LEAST_OF_START, _MOST_OF_START, _NEXT_OF_START = 0.005, 0.05, 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +56,7 @@ class Setting:
     """A contact and its history."""
 
     schedule: Schedule
+    modes: Modes
     body: Body
     indenter: Indenter
     scale: Scale
@@ -102,7 +105,7 @@ class Setting:
         toward = toward if toward != (0.0, 0.0) else (1.0, 0.0)
         scaled = None if layer is None else ScaledLayer.of(layer, scale.length, poisson_ratio)
         body = Body.of(modes, plane_strain, counterface)
-        return cls(schedule, body, indenter, scale, ScaledIndenter(indenter, scale, toward), toward, scaled)
+        return cls(schedule, modes, body, indenter, scale, ScaledIndenter(indenter, scale, toward), toward, scaled)
 
     @property
     def geometry(self) -> Geometry:
@@ -179,6 +182,11 @@ class Setting:
     def shortest_time(self, spacing: float, times: Sequence[float] | None) -> float:
         """Return the least time, s of the clock, in which the pressure at a point changes noticeably on a grid."""
         least = self.schedule.duration
+        if times is None:  # all steps, the first ones after a jump too
+            for time in self.schedule.kinks[:-1]:
+                now = self.schedule.at(float(time))
+                if self._begins_with_jump(now):
+                    least = min(least, _FIRST_TICK * self.body.quickest)
         stops = np.unique(np.concatenate([self.schedule.kinks, np.asarray(times or [], dtype=float)]))
         for start, end in itertools.pairwise(stops):
             first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
@@ -234,6 +242,7 @@ class Setting:
         found.append(self._of_control(start, end))
         if self._begins_with_jump(start):
             found.append(self._after_jump(start, end))
+        found.append(self._after_start(start, end, float(np.interp(cell, length, times, right=end.time)) - start.time))
         every = np.unique(np.concatenate([*found, [end.time]]))
         kept = every[(every > start.time) & (every <= end.time)]
         # no two of them closer than a thousandth of a cell's time, or of the time since the start
@@ -272,6 +281,21 @@ class Setting:
         kept = after[(after > start.time) & (after <= end.time)]
         apart = np.concatenate([np.diff(kept) > 1e-9 * duration, [True]])
         return self._split(np.concatenate([[start.time], kept[apart]]))[1:]
+
+    def _after_start(self, start: Instant, end: Instant, passing: float) -> Array:
+        """Return times before the first cell is passed: friction changes over paths much shorter than a cell.
+
+        `passing` is the time in which the part begins to pass a cell.
+        """
+        schedule, kinks = self.schedule, self.schedule.kinks
+        begun = float(kinks[np.searchsorted(kinks, start.time, side="right") - 1])
+        if begun > schedule.start and not schedule.starts_at(begun):
+            return np.zeros(0)
+        longest = min(passing, end.time - begun)
+        response = _FIRST_TICK * self.body.quickest / (end.clock - start.clock) * (end.time - start.time)
+        first = min(max(response / longest, _LEAST_OF_START), _MOST_OF_START)
+        count = math.ceil(-math.log(first) / math.log(_NEXT_OF_START))
+        return np.asarray(begun + longest * _NEXT_OF_START ** -np.arange(float(count)))
 
     def _begins_with_jump(self, start: Instant) -> bool:
         if start.time == self.schedule.start and self.schedule.before == "untouched":

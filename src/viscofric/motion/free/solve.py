@@ -181,9 +181,7 @@ def _march(
     largest: Scales | None,
     steps: float,
 ) -> _Level:
-    setting = _setting(problem, grid.spacing, times)
-    if largest is not None:
-        setting = replace(setting, known=largest)
+    setting = _setting(problem, grid.spacing, times, largest)
     mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy * _smallness(setting))
     track = follow(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
     if progress is not None:
@@ -199,14 +197,16 @@ def _smallness(setting: Setting) -> float:
     return min(1.0, max(_SMALLEST, setting.known.friction / typical)) if typical > 0.0 else 1.0
 
 
-def _setting(problem: Problem, spacing: float, times: Sequence[float] | None) -> Setting:
-    """Return the setting with the modes that matter on a grid."""
+def _setting(problem: Problem, spacing: float, times: Sequence[float] | None, largest: Scales | None = None) -> Setting:
+    """Return the setting with the modes that matter on a grid, the more of them the smaller a known friction is."""
     every = Modes.of(problem.schedule.spectrum)
     ratio, indenter = problem.material.poisson_ratio, problem.indenter
     setting = Setting.of(problem.schedule, every, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
-    shortest = setting.shortest_time(spacing, times)
-    modes = Modes.for_history(problem.schedule.spectrum, shortest, setting.longest_time, _MERGED * problem.accuracy)
-    return Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
+    setting = replace(setting, known=largest)
+    shortest, error = setting.shortest_time(spacing, times), _MERGED * problem.accuracy * _smallness(setting)
+    modes = Modes.for_history(problem.schedule.spectrum, shortest, setting.longest_time, error)
+    found = Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
+    return replace(found, known=largest)
 
 
 def _around(level: _Level, spacing: float) -> Grid:
@@ -226,17 +226,21 @@ def _fitted(setting: Setting, spacing: float) -> float:
 
 
 def _largest(level: _Level) -> Scales:
-    """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope."""
+    """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope.
+
+    A contact that does not move has hardly any friction to be compared with.
+    """
     seen = [one.seen for one in level.track.moments]
     load = max((one.load for one in seen), default=0.0)
     setting = level.mover.setting
     # In plane strain only a change of the depth is known, which may be none.
     least_depth = 0.0 if setting.is_levelled else _LEAST_DEPTH * setting.scale.depth
+    least_friction = _LEAST_FRICTION if setting.path_length > 0.0 else _TYPICAL_FRICTION
     return Scales(
         load=load,
         depth=max(least_depth, max((abs(one.depth) for one in seen), default=0.0)),
         friction=max(
-            _LEAST_FRICTION * load * setting.scale.slope,
+            least_friction * load * setting.scale.slope,
             max((math.hypot(*one.friction_force) for one in seen), default=0.0),
         ),
         energy=max((max(abs(one.stored), one.dissipated) for one in seen), default=0.0),
@@ -256,13 +260,9 @@ def _compared(level: _Level, coarser: _Level) -> list[Moment[Any]]:
     friction = _MARGIN * np.hypot(along, across)
     found = []
     for place, one in enumerate(fine):
-        steps = one.errors
-        errors = Errors(
-            load=_STEPS_LEFT * steps.load + float(load[place]),
-            depth=_STEPS_LEFT * steps.depth + float(depth[place]),
-            friction=_STEPS_LEFT * steps.friction + float(friction[place]),
-            energy=_STEPS_LEFT * steps.energy + float(energy[place]),
-        )
+        of_cells = load[place], depth[place], friction[place], energy[place]
+        parts = zip(one.errors, one.seen.left_out, of_cells, strict=True)
+        errors = Errors(*(_STEPS_LEFT * (steps - rest) + rest + float(cells) for steps, rest, cells in parts))
         found.append(replace(one, errors=errors, work=one.work + float(left[place, 5])))
     return found
 

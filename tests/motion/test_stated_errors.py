@@ -1,0 +1,89 @@
+"""Errors stated for contacts over time: of merged modes, soon after a jump and a start, and the balance of energy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import viscofric as vf
+from viscofric.motion.march import march
+from viscofric.motion.memory import Modes
+from viscofric.motion.periodic import PeriodicMover
+from viscofric.motion.solve import checked_problem
+
+RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+CYLINDER = vf.Cylinder("10 mm")
+SPACING = 1e-5
+
+
+def ridges(points: int = 64) -> vf.PeriodicSurface:
+    x = 2.0 * np.pi * np.arange(points) / points
+    return vf.PeriodicSurface(2e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), SPACING)
+
+
+def of_many_modes(seed: int, ratio: float, fastest: float) -> vf.Material:
+    chance = np.random.default_rng(seed)
+    tau = np.sort(10.0 ** chance.uniform(fastest, -0.5, 19))
+    share = chance.exponential(size=19)
+    return vf.Material(vf.RetardationSpectrum(1e6, 1e6 * ratio, (1e-6 - 1e-6 / ratio) * share / share.sum(), tau))
+
+
+def with_and_without_merging(material, history, accuracy, times):
+    problem = checked_problem(material, ridges(), history, accuracy, None, None, 0.3)
+    every = Modes.of(problem.schedule.spectrum)
+    movers = PeriodicMover(problem), PeriodicMover(problem, every)
+    assert len(movers[0].modes) < len(every)
+    tracks = [march(one, problem.schedule, accuracy=accuracy, times=times) for one in movers]
+    return zip(*(track.moments for track in tracks), strict=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_stated_friction_includes_that_of_merged_modes_where_it_is_small_against_the_slopes(seed):
+    """A slow motion, of small loss: the part of the friction that cancels is far larger than what remains."""
+    speed = 64 * SPACING / 8.0
+    history = vf.History([0.0, 0.6, 0.6, 1.0], pressure=5e3, speed=[speed, speed, -speed, -speed], before="at rest")
+    for one, two in with_and_without_merging(of_many_modes(seed, 4.0, -5.5), history, 2e-2, [0.1, 0.6, 0.7, 1.0]):
+        assert abs(one.seen.friction_force[0] - two.seen.friction_force[0]) < one.errors.friction
+
+
+@pytest.mark.slow
+def test_stated_errors_soon_after_a_jump_include_those_of_modes_merged_for_later_times():
+    """A hundred times earlier than the shortest time that the modes are merged for, and later."""
+    history = vf.History([0.0, 1.0], pressure=5e3)
+    times = [1e-7, 1e-6, 1e-3, 1.0]
+    off = []
+    for one, two in with_and_without_merging(of_many_modes(1, 100.0, -8.0), history, 2e-2, times):
+        off.append(abs(one.seen.depth - two.seen.depth) / two.seen.depth)
+        assert abs(one.seen.depth - two.seen.depth) < one.errors.depth
+    assert off[0] > 0.02  # more than the accuracy: there is an error to be stated
+
+
+@pytest.mark.parametrize("relaxations", [1.0, 10.0])
+def test_friction_of_a_start_within_one_cell_relaxes(relaxations):
+    """F = F∞ (1 − e^(−t E∞/(τE0))) over paths far shorter than the contact, the first time within a hundredth cell."""
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="10 ms")
+    first = relaxations * 1e-4
+    history = vf.History([0.0, 0.3], load=10.0, speed=1e-4, before="at rest")
+    run = vf.solve_transient(rubber, CYLINDER, history, times=[first, 0.3], accuracy=1e-2)
+    expected = run.friction_force[1] * -np.expm1(-relaxations)
+    assert abs(run.friction_force[0] - expected) < run.errors.friction_force.sum() < 0.02 * run.friction_force[1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("indenter", "history"),
+    [
+        (vf.Ball("10 mm"), vf.History([0.0, 0.05, 0.1], load=[0.0, 1.0, 0.0])),
+        (vf.Cone(0.1), vf.History([0.0, 0.01, 0.01, 0.1], indentation=[1e-4, 1e-4, 5e-5, 8e-5])),
+        (ridges(), vf.History([0.0, 0.1], pressure=5e3, speed=64e-5 / 0.05)),
+        (ridges(), vf.History([0.0, 0.1, 0.1, 0.2], pressure=5e3, speed=[5e-3, 5e-3, -5e-3, -5e-3], before="sliding")),
+        (CYLINDER, vf.History([0.0, 0.01], load=500.0, speed=0.2, before="at rest")),
+        (CYLINDER, vf.History([0.0, 0.02], load=[100.0, 500.0], speed=0.1)),
+    ],
+    ids=["ball", "cone", "ridges", "ridges there and back", "cylinder", "cylinder under a growing load"],
+)
+def test_energy_is_balanced_at_the_default_accuracy(indenter, history):
+    run = vf.solve_transient(RUBBER, indenter, history, times=np.linspace(0.2, 1.0, 5) * history.time[-1])
+    assert run.dissipated[-1] > 0.0
+    assert run.energy_imbalance < 1e-4
