@@ -96,6 +96,7 @@ def test_reciprocation_is_reached_by_waiting_too() -> None:
     assert cycle.run.work[-1] == pytest.approx(cycle.energy_per_cycle, rel=1e-3)
     assert cycle.mean_friction_coefficient == pytest.approx(cycle.energy_per_cycle / (2.0 * there * pressure), rel=1e-3)
     assert cycle.to_dataset().attrs["periods"] == cycle.periods
+    assert cycle.to_dataset().attrs["mean_friction_coefficient_error"] == cycle.mean_friction_coefficient_error
 
 
 @pytest.mark.apart
@@ -183,3 +184,44 @@ def test_what_does_not_repeat_itself_is_refused() -> None:
         vf.solve_cycle(SLS, BALL, vf.History([0.0, 1.0], load=[1.0, 2.0]))
     with refused("not-repeating", ConvergenceError):
         vf.solve_cycle(SLS, BALL, vf.History([0.0, 1e-3], load=1.0), most_periods=1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("control", ["load", "indentation"])
+def test_stated_errors_cover_those_of_random_oscillations(control: str) -> None:
+    """At a tenth of the accuracy; all of 48 in benchmarks/motion/stated_cycles.py hold, to 0.7 of the errors."""
+    chance = np.random.default_rng(5)
+    for amplitude in (0.01, 0.8):
+        weight, ratio = chance.random(3), chance.uniform(3.0, 300.0)
+        rubber = vf.Material(
+            vf.RetardationSpectrum(
+                1e6, 1e6 * ratio, 1e-6 * (1.0 - 1.0 / ratio) * weight / weight.sum(), 10.0 ** chance.uniform(-5, -1, 3)
+            )
+        )
+        phase, values = sine(16, 1.0, amplitude)
+        period = vf.History(phase / 100.0, **{control: (0.1 if control == "load" else 1e-4) * values})
+        rough, fine = (vf.solve_cycle(rubber, BALL, period, accuracy=one) for one in (1e-2, 1e-3))
+        for name in ("energy_per_cycle", "storage_stiffness", "loss_stiffness", "loss_tangent"):
+            error = getattr(rough, f"{name}_error") + getattr(fine, f"{name}_error")
+            assert abs(getattr(rough, name) - getattr(fine, name)) <= error, name
+        assert fine.storage_stiffness_error < 4e-3 * fine.storage_stiffness
+        assert fine.loss_stiffness_error < 4e-3 * fine.storage_stiffness
+
+
+@pytest.mark.parametrize(
+    ("control", "mean", "amplitude", "warmth"),
+    [("indentation", 1e-4, 2e-6, "0 degC"), ("load", 1.0, 0.3, "0 degC"), ("load", 1.0, 0.3, "10 degC")],
+)
+def test_broad_spectra_repeat_themselves_after_a_few_periods(control, mean, amplitude, warmth) -> None:
+    """The edge is lost in every period; retardation times are from nanoseconds to years."""
+    phase, values = sine(24, mean, amplitude)
+    period = vf.History(phase / 628.0, **{control: values}, temperature=warmth, before="at rest")
+    cycle = vf.solve_cycle(vf.synthetic_fluoroelastomer(), BALL, period, accuracy=1e-2)
+    assert cycle.periods <= 6
+    assert cycle.run.energy_imbalance < 1e-3
+    # The work over a period is that of the first harmonics: of a given depth ∮F dδ = π K'' |δ₁|².
+    moved = (
+        amplitude if control == "indentation" else amplitude / abs(cycle.storage_stiffness + 1j * cycle.loss_stiffness)
+    )
+    work = np.pi * cycle.loss_stiffness * moved**2
+    assert cycle.energy_per_cycle == pytest.approx(work, abs=cycle.energy_per_cycle_error, rel=1e-2)

@@ -269,7 +269,8 @@ def test_the_periodic_state_of_a_table_is_solved(tmp_path: Path) -> None:
         vf.synthetic_fluoroelastomer(), vf.Ball("10 mm"), history, times=data["time"].values, accuracy=0.1
     )
     assert float(data["loss_stiffness"]) == pytest.approx(cycle.loss_stiffness, rel=1e-6)
-    assert data["loss_stiffness"].attrs["units"] == "N/m"
+    assert data["loss_stiffness"].attrs["units"] == data["loss_stiffness_error"].attrs["units"] == "N/m"
+    assert float(data["loss_tangent_error"]) == pytest.approx(cycle.loss_tangent_error, rel=1e-2)
     assert data["load_over_time"].values == pytest.approx(cycle.run.load, rel=1e-6)
     assert "periodic state" in captions(results.tree)["contacts_over_time"]
 

@@ -18,6 +18,7 @@ import numpy as np
 from viscofric.arguments import insist_on_function, whole_number
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.motion.chains import Link, Pair, Reached
+from viscofric.motion.cycle_numbers import Found, Period
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.march import march
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
@@ -109,8 +110,10 @@ def solve_cycle(
     >>> phase = np.linspace(0.0, 2.0 * np.pi, 49)
     >>> period = vf.History(time=phase / 100.0, indentation=1e-4 + 3e-6 * np.sin(phase))
     >>> cycle = vf.solve_cycle(rubber, vf.Ball("10 mm"), period)
-    >>> print(f"{cycle.storage_stiffness:.3g} N/m, loss tangent {cycle.loss_tangent:.3g}")
-    2.92e+03 N/m, loss tangent 0.81
+    >>> print(f"{cycle.storage_stiffness:.0f} ± {cycle.storage_stiffness_error:.0f} N/m")
+    2904 ± 1 N/m
+    >>> print(f"loss tangent {cycle.loss_tangent:.4f} ± {cycle.loss_tangent_error:.4f}")
+    loss tangent 0.8152 ± 0.0005
     """
     if progress is not None:
         insist_on_function(progress, "progress")
@@ -129,9 +132,10 @@ def solve_cycle(
         repeating = cast("RepeatingMover[Any]", mover)
         track = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked)
     assert search.whole is not None
+    assert search.found is not None
     run = assemble(track, problem, one_period, method, notes=notes)
     whole = run if asked is None else assemble(search.whole, problem, one_period, method, notes=notes)
-    return replace(CycleSolution.of(whole, problem.schedule.control, search.periods, search.change), run=run)
+    return replace(CycleSolution.of(whole, search.found, problem.schedule.control, search.periods), run=run)
 
 
 @dataclass(eq=False)
@@ -144,6 +148,7 @@ class _Search:
     periods: int = 0
     change: float = np.inf
     whole: Track[Any] | None = None  # every step of the period in the periodic state
+    found: Found | None = None
 
     def follow(
         self,
@@ -162,6 +167,7 @@ class _Search:
         if schedule.before == "untouched":
             state = mover.step(state, schedule.at(schedule.start, after=False), first)
         mixing, plain = _Anderson(self.damping), False
+        period: Period | None = None
         for _ in range(self.most_periods):
             memory = mover.memory_of(state)
             # The instantaneous pressure that belongs to this memory.
@@ -172,20 +178,21 @@ class _Search:
             track = march(mover, schedule, accuracy=accuracy, fields=False, begin=begin, extrapolate=extrapolate)
             if track.interrupted:
                 raise KeyboardInterrupt
-            state = track.reached.pair.fine.state
+            state, before, period = track.reached.pair.fine.state, period, Period.of(track)
             reached = mover.memory_of(state)
             if reached.shape != memory.shape:  # more cells have been in contact
                 memory, mixing = mover.memory_of(begun), _Anderson(self.damping)
             change = mover.recovered(reached - memory, state, first, last)
             size = float(np.linalg.norm(reached))
-            self.change = float(np.linalg.norm(change)) / size if size > 0.0 else 0.0
+            changed, self.change = self.change, float(np.linalg.norm(change)) / size if size > 0.0 else 0.0
             self.periods += 1
             if self.progress is not None:
                 self.progress(self.periods, self.change)
             if self.change > _CLOSE * accuracy:
                 plain, state = False, mover.with_memory(state, mixing.next(memory, change))
-            elif plain:
-                self.whole = track
+            elif plain and before is not None:
+                coarser = None if self.found is None else self.found.last
+                self.whole, self.found = track, Found(period, before, coarser, self.change, changed, accuracy)
                 if times is None:
                     return track
                 return march(mover, schedule, accuracy=accuracy, times=times, begin=begin, extrapolate=extrapolate)

@@ -107,16 +107,16 @@ def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
     """
     force, energy = _FORCES[cycle.run.geometry]
     stiffness = {"N": "N/m", "N/m": "Pa", "Pa": "Pa/m"}[force]
-    error = float(cycle.run.errors.energy[-1])
-    lines = [("energy per cycle", prefixed(cycle.energy_per_cycle, error, energy))]
-    if cycle.storage_stiffness is not None and cycle.loss_stiffness is not None:
+    lines = [("energy per cycle", prefixed(cycle.energy_per_cycle, cycle.energy_per_cycle_error, energy))]
+    if cycle.storage_stiffness is not None and cycle.loss_stiffness is not None and cycle.loss_tangent is not None:
         lines += [
-            ("storage stiffness", prefixed(cycle.storage_stiffness, None, stiffness)),
-            ("loss stiffness", prefixed(cycle.loss_stiffness, None, stiffness)),
-            ("loss tangent", significant(cycle.loss_stiffness / cycle.storage_stiffness, 4)),
+            ("storage stiffness", prefixed(cycle.storage_stiffness, cycle.storage_stiffness_error, stiffness)),
+            ("loss stiffness", prefixed(cycle.loss_stiffness, cycle.loss_stiffness_error, stiffness)),
+            ("loss tangent", with_error(cycle.loss_tangent, cycle.loss_tangent_error or 0.0)),
         ]
     if cycle.mean_friction_coefficient is not None:
-        lines.append(("mean friction coefficient", significant(cycle.mean_friction_coefficient, 4)))
+        mean = with_error(cycle.mean_friction_coefficient, cycle.mean_friction_coefficient_error or 0.0)
+        lines.append(("mean friction coefficient", mean))
         lines.append(("largest friction", _largest(cycle.run)))
     return [
         *lines,

@@ -23,6 +23,7 @@ _OF_CYCLE = {
     "energy_per_cycle": "energy dissipated in a cycle",
     "storage_stiffness": "storage stiffness",
     "loss_stiffness": "loss stiffness",
+    "loss_tangent": "loss over storage stiffness",
     "mean_friction_coefficient": "work of friction over that of a friction force as large as the load",
     "periods": "periods computed to find the periodic state",
     "change": "distance from the periodic state",
@@ -99,8 +100,9 @@ def _of_cycle(data: xarray.Dataset) -> dict[str, Column]:
     """Return the numbers of a cycle, which are attributes of its data set."""
     units = {"energy_per_cycle": str(data["dissipated"].attrs["units"])}
     units |= dict.fromkeys(("storage_stiffness", "loss_stiffness"), _STIFFNESS[str(data["load"].attrs["units"])])
-    return {
-        name: Column([float(data.attrs[name])], units.get(name, "1"), words)
-        for name, words in _OF_CYCLE.items()
-        if name in data.attrs
-    }
+    found = {}
+    for name, words in _OF_CYCLE.items():
+        for key, meaning in ((name, words), (f"{name}_error", f"estimated error of the {words}")):
+            if key in data.attrs:
+                found[key] = Column([float(data.attrs[key])], units.get(name, "1"), meaning)
+    return found

@@ -1,0 +1,130 @@
+"""Numbers of a period in its periodic state, with their errors: by both chains, fewer points, and one period less.
+
+Load and depth are taken as linear within steps, so that harmonics of both chains have errors of second order and are
+extrapolated as energies are.  Of a small oscillation, the stiffness by every other spring differs by half the distance
+of the springs over the radius, which the error by all springs does not exceed.  Cells are compared with the coarser
+grid.  Numbers of the period before had an error that is to that of the last one as their distances from the periodic
+state.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from viscofric.motion.chains import Link, Track
+    from viscofric.motion.solution import TransientSolution
+    from viscofric.motion.watch import Watched
+
+# Error of the steps over the difference of the chains; of the cells over that of the grids, whose cells are shorter by
+# 1.5, with a margin; of merged modes and the contact conditions over the accuracy.
+_OF_STEPS, _OF_CELLS, _OF_REST = 0.4, 1.2, 0.05
+
+
+class Estimate(NamedTuple):
+    """A number and its estimated error."""
+
+    value: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Period:
+    """One marched period: its numbers, extrapolated, and what they lose by steps and points.
+
+    Attributes
+    ----------
+    stiffness : complex
+        Ratio of the first harmonics of load and depth; nan without an oscillation.
+    stiffness_steps : float
+    stiffness_points : complex
+        By half of the springs less that by all.
+    rubbed, rubbed_steps : float
+        Work of friction.
+    dissipated : float
+    """
+
+    stiffness: complex
+    stiffness_steps: float
+    stiffness_points: complex
+    rubbed: float
+    rubbed_steps: float
+    dissipated: float
+
+    @classmethod
+    def of(cls, track: Track[Watched]) -> Period:
+        """Return the numbers of a marched period."""
+        coarse, fine = track.reached.pair
+        one, two = _stiffness(coarse), _stiffness(fine)
+        lost = [link.seen.dissipated for link in (coarse, fine)]
+        return cls(
+            stiffness=two[0] + (two[0] - one[0]) / 3.0,
+            stiffness_steps=_OF_STEPS * abs(two[0] - one[0]),
+            stiffness_points=two[1] - two[0],
+            rubbed=fine.rubbed + (fine.rubbed - coarse.rubbed) / 3.0,
+            rubbed_steps=_OF_STEPS * abs(fine.rubbed - coarse.rubbed),
+            dissipated=lost[1] + (lost[1] - lost[0]) / 3.0,
+        )
+
+
+def _stiffness(link: Link[Any]) -> tuple[complex, complex]:
+    """Return the stiffness, and that by half of the points."""
+    load, coarser, depth = link.state.harmonics
+    if depth == 0.0:
+        return complex(np.nan), complex(np.nan)
+    return complex(load / depth), complex(coarser / depth)
+
+
+@dataclass(frozen=True)
+class Found:
+    """The last two periods on the finest grid, the last one on the grid before, and the distances that are left."""
+
+    last: Period
+    before: Period
+    coarser: Period | None
+    change: float
+    change_before: float
+    accuracy: float
+
+    @property
+    def _relative(self) -> float:
+        return self.change + _OF_REST * self.accuracy
+
+    @property
+    def _repeated(self) -> float:
+        """Error by the distance that is left, over the change from the period before to the last one."""
+        return min(1.0, 2.0 * self.change / self.change_before) if self.change_before > 0.0 else 1.0
+
+    def energy(self, run: TransientSolution) -> Estimate:
+        """Return the energy dissipated in the period."""
+        energy = float(run.dissipated[-1] - run.dissipated[0])
+        repeated = self._repeated * abs(self.last.dissipated - self.before.dissipated)
+        return Estimate(energy, float(run.errors.energy[-1]) + repeated + self._relative * energy)
+
+    def stiffness(self) -> tuple[Estimate, Estimate, Estimate]:
+        """Return storage and loss stiffness and the loss tangent."""
+        found, points = self.last.stiffness, self.last.stiffness_points
+        off = self.last.stiffness_steps + self._repeated * abs(found - self.before.stiffness)
+        if self.coarser is not None:
+            off += _OF_CELLS * abs(found - self.coarser.stiffness)
+        tangent, fewer = found.imag / found.real, (found + points).imag / (found + points).real
+        return (
+            Estimate(found.real, off + abs(points.real) + self._relative * abs(found.real)),
+            Estimate(found.imag, off + abs(points.imag) + self._relative * abs(found.imag)),
+            Estimate(tangent, off * abs(found) / found.real**2 + abs(fewer - tangent) + self._relative * abs(tangent)),
+        )
+
+    def friction(self, run: TransientSolution) -> Estimate:
+        """Return ∮ F_t·ds over ∮ F_N |ds|."""
+        path = np.hypot(*np.diff(run.position, axis=0).T)
+        largest = float((0.5 * (run.load[1:] + run.load[:-1])) @ path)
+        if largest == 0.0:
+            return Estimate(0.0, 0.0)
+        off = self.last.rubbed_steps + self._repeated * abs(self.last.rubbed - self.before.rubbed)
+        if self.coarser is not None:
+            off += _OF_CELLS * abs(self.last.rubbed - self.coarser.rubbed)
+        off = max(off, float(run.errors.energy[-1])) + self._relative * abs(self.last.rubbed)
+        return Estimate(self.last.rubbed / largest, off / largest)
