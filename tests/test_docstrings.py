@@ -80,6 +80,7 @@ RETURNED = {
     "TransientHeating",
     "ContactSolution",
     "HeatedFrictionCurves",
+    "HeatedPerssonTheory",
     "HeatedRoughFriction",
     "ContactStatistics",
     "Diagnostics",

@@ -169,6 +169,7 @@ if TYPE_CHECKING:
     from viscofric.roughness.patches import ContactStatistics as ContactStatistics
     from viscofric.roughness.patches import contact_statistics as contact_statistics
     from viscofric.roughness.patches import pressure_distribution as pressure_distribution
+    from viscofric.roughness.persson import HeatedPerssonTheory as HeatedPerssonTheory
     from viscofric.roughness.persson import PerssonTheory as PerssonTheory
     from viscofric.roughness.persson import persson_theory as persson_theory
     from viscofric.roughness.reading import read_topography as read_topography
@@ -264,6 +265,7 @@ _HOME = {
     "TransientHeating": "viscofric.heat.result",
     "HeatedFrictionCurves": "viscofric.friction.heating",
     "HeatedRoughFriction": "viscofric.roughness.rough_friction",
+    "HeatedPerssonTheory": "viscofric.roughness.persson",
     "MovingHeatSource": "viscofric.heat.sources",
     "surface_temperature": "viscofric.heat.maps",
     "track_temperature": "viscofric.heat.track",

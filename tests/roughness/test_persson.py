@@ -164,7 +164,7 @@ def test_short_contacts_keep_the_heat_where_it_was_made():
     """Without conduction T_q = t0 ∫ f q/(q + q') dq'."""
     insulator = vf.ThermalProperties(1e-9, 1000.0, 2000.0, "insulator")
     area, dissipated = np.linspace(1.0, 0.1, 301), 1e3 * np.exp(-(np.log(SCALES / 3e4) ** 2))
-    found = Flash(insulator, 0.3).rise(SCALES, LOG_WEIGHTS, 0.5, area, dissipated)
+    found = Flash(insulator, 0.3).rise(SCALES, LOG_WEIGHTS, 0.5, area, dissipated)[:-1]
     q_m = np.interp(-0.3, -area, SCALES)
     source = 0.5 / 2e6 * SCALES * dissipated * area / 0.3
     kernel = SCALES[:, None] / (SCALES[:, None] + SCALES)
@@ -213,6 +213,31 @@ def test_heating_without_coulomb_heat_is_the_theory_of_the_rubber_alone():
     assert rubbed.flash_temperature[0, 0] > plain.flash_temperature[0, 0]
     with refused("not-with-heating"):
         vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=heating, thermal=THERMAL)
+
+
+def test_the_theory_has_a_cold_and_a_hot_state_on_the_glassy_side_of_its_peak():
+    """As the speed rises friction stays cold, as it falls hot: the hysteresis of a ramp, with the isothermal beside."""
+    glassy = vf.Material.standard_linear_solid("1 MPa", "1 GPa", "1 s")
+    rubber = vf.Material(glassy.spectrum, shift=vf.WLF(C1=15.0, C2=60.0, reference="0 degC"))
+    road = vf.PowerSpectrum.self_affine(0.8, longest="10 mm", shortest="30 um", rms_slope=0.5)
+    heating = vf.Heating(rubber=THERMAL, counterface=THERMAL)
+    asked = {"speeds": [0.1, 4.0, 10.0], "pressure": "0.5 MPa", "temperatures": "0 degC", "accuracy": 1e-3}
+    cold, hot = (
+        vf.persson_theory(rubber, road, **asked, heating=replace(heating, branch=one)) for one in ("cold", "hot")
+    )
+    assert isinstance(cold, vf.HeatedPerssonTheory)
+    assert isinstance(hot, vf.HeatedPerssonTheory)
+    assert (cold.hot_rise > cold.cold_rise + 1.0).tolist() == [[False, True, True]]
+    assert np.all(cold.hot_viscoelastic[0, 1:] > 2.0 * cold.cold_viscoelastic[0, 1:])
+    assert cold.friction_coefficient == pytest.approx(cold.cold_viscoelastic)
+    assert hot.friction_coefficient == pytest.approx(cold.hot_viscoelastic, rel=1e-3)
+    assert hot.temperature_rise == pytest.approx(hot.loss_rise)
+    assert np.all(hot.face_rise >= hot.temperature_rise)
+    alone = vf.persson_theory(rubber, road, **asked)
+    assert cold.isothermal == pytest.approx(alone.friction_coefficient, rel=1e-12)
+    assert cold.to_dataset().hot_rise.dims == ("temperature", "speed")
+    with refused("not-with-heating"):
+        vf.persson_theory(rubber, road, **asked, heating=replace(heating, nominal_radius="5 mm"))
 
 
 def test_a_rubber_that_hardly_warms_rubs_as_one_of_one_temperature_with_its_vertical_shift():

@@ -41,7 +41,11 @@ if TYPE_CHECKING:
     from viscofric.thermal import ThermalProperties
 
 
-_MOST_ITERATIONS = 200
+_MOST_ITERATIONS = 500
+#: Part of the way to the rise produced by which a hot start comes down, and what the way is then over the rise.
+_DOWN, _NEAR = 0.15, 0.2
+#: Shortest and longest step of the relaxation, in changes.
+_STEPS = 0.02, 4.0
 #: Temperatures are settled when they change by less than this, K, plus the same share of the largest rise.
 _SETTLED = 1e-5
 _PER_DECADE = 12  # wave numbers k of the temperature field
@@ -55,6 +59,7 @@ class Flash:
     macroasperity_area: float  # P(q_m)
     heating: Heating | None = None  # with Coulomb heat
     pressure: float = 0.0  # nominal, Pa
+    start: float = 0.0  # rise at all scales from which the settled one is looked for, K
 
     def settled(
         self, q: Array, log_weights: Array, speed: float, heated: Callable[[Array], tuple[Array, Array]]
@@ -65,19 +70,23 @@ class Flash:
         and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, at a rise of temperature.  Raises ConvergenceError if the iteration does
         not converge.
         """
-        rise = np.zeros(len(q))
-        step, before = 1.0, math.inf
+        rise = np.full(len(q), self.start)
+        step, before, descending = 1.0, np.zeros(len(q)), self.start > 0.0
         for _ in range(_MOST_ITERATIONS):
             area, dissipated = heated(rise)
-            change = self.rise(q, log_weights, speed, area, dissipated) - rise
+            change = self.rise(q, log_weights, speed, area, dissipated)[:-1] - rise
             largest = float(np.abs(change).max())
             if largest <= _SETTLED * (1.0 + float(rise.max())):
                 return area, dissipated, rise
-            # Warmer rubber dissipates less, or more: the answer is approached from both sides, ever more cautiously.
-            if largest > 0.7 * before:
-                step = max(0.6 * step, 0.02)
-            before = largest
-            rise = rise + step * change
+            # From a hot start down in small steps, so as not to pass a hot state, until one may be near.
+            descending = descending and largest > _NEAR * float(rise.max())
+            difference = change - before
+            if descending:
+                step = _DOWN
+            elif before.any():  # Aitken's relaxation: warmer rubber dissipates less, or more
+                step = float(np.clip(-step * (before @ difference) / (difference @ difference), *_STEPS))
+            before = change
+            rise = np.maximum(rise + step * change, 0.0)
         raise ConvergenceError(
             f"the flash temperature at {speed:g} m/s did not settle after {_MOST_ITERATIONS} iterations; it still "
             f"changes by {largest:.2g} K.",
@@ -85,7 +94,7 @@ class Flash:
         )
 
     def rise(self, q: Array, log_weights: Array, speed: float, area: Array, dissipated: Array) -> Array:
-        """Return the rise of temperature at each scale, K, from given areas and dissipation."""
+        """Return the rise at each scale and then of the surface (n + 1,), K, from given areas and dissipation."""
         # ln P against ln q falls steadily; beyond the last scale there is no wave.
         below = np.flatnonzero(area <= self.macroasperity_area)
         place = int(below[0]) if below.size else len(q) - 1
@@ -113,7 +122,8 @@ class Flash:
             log_weights * q * source
         ) + 2.0 * flux
         met = 4.0 * np.square(q)[:, None] / (k_square + 4.0 * np.square(q)[:, None])
-        return np.asarray(met @ (weights * given))
+        left = weights * given
+        return np.append(met @ left, left.sum())
 
     def _flux(self, speed: float, radius: float) -> float:
         """Return the Coulomb heat that the rubber takes up per nominal area, W/m²; macroasperities have a radius, m."""

@@ -26,8 +26,8 @@ References
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -35,9 +35,10 @@ from viscofric.arguments import insist_on
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
+from viscofric.heat.result import HeatColumns
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.flash import Flash
-from viscofric.roughness.persson_integrals import Case, Scales, Theory
+from viscofric.roughness.persson_integrals import Case, Theory
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantities, Quantity, positive, share, to_si, to_si_array
@@ -46,9 +47,14 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.roughness.persson_integrals import Found
 
 
 _CLOSEST, _LOOSEST = 1e-8, 0.1
+#: Rises from which hot states are looked for, K: the first at which α is known.
+_HOT = (300.0, 200.0, 150.0, 100.0, 70.0, 50.0, 30.0, 20.0, 10.0, 5.0)
+#: Two states are one where their rises differ by less than this, K, plus the same share of it.
+_SAME = 1e-2
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,6 +122,36 @@ class PerssonTheory:
         )
 
 
+@dataclass(frozen=True, eq=False)
+class HeatedPerssonTheory(HeatColumns, PerssonTheory):
+    """Results of Persson's theory with the heat of friction.
+
+    Attributes of `PerssonTheory`, and:
+
+    Attributes
+    ----------
+    isothermal : (m, n) array
+        Friction coefficient without heating.
+    temperature_rise, loss_weighted_rise : (m, n) array
+        Mean of the rise over all scales, weighted with what each loses, K.
+    coulomb_rise, loss_rise : (m, n) array
+        Its parts due to Coulomb friction and to the loss, K.
+    track_rise : (m, n) array
+        Zero.
+    face_rise : (m, n) array
+        Rise of the surface of the macroasperity contacts, K.
+    cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : (m, n) array
+        Friction and rise of the states reached from a cold and from a hot start, equal where there is one only.
+    """
+
+    def __post_init__(self) -> None:
+        self.keep_heat(self.friction_coefficient.shape)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return everything as `PerssonTheory` does, with the columns of the heat."""
+        return super().to_dataset().assign(self.heat_variables("temperature", "speed"))
+
+
 def persson_theory(
     material: Material,
     spectrum: PowerSpectrum,
@@ -148,8 +184,9 @@ def persson_theory(
     thermal : ThermalProperties, optional
         Those of the rubber, with which flash temperatures count (`viscofric.roughness.flash`); isothermal without.
     heating : Heating, optional
-        In place of `thermal`: flash temperatures with the Coulomb heat that rubber and counterface share.  From a cold
-        start; `average` and `branch` have no meaning here, and there is no track.
+        In place of `thermal`: flash temperatures with the Coulomb heat that rubber and counterface share, and the
+        isothermal friction beside.  `average` has no meaning here: every scale has its temperature; there is neither
+        track nor nominal contact.
     macroasperity_area : float
         Contact area fraction that shows at the scale of the macroasperities, at which hot spots begin; between 0 and 1.
     accuracy : float
@@ -158,6 +195,7 @@ def persson_theory(
     Returns
     -------
     PerssonTheory
+        With heating `HeatedPerssonTheory`.
 
     Raises
     ------
@@ -199,19 +237,32 @@ def persson_theory(
     flash = _flash(thermal, heating, spots, nominal)
     if flash is not None and (material.shift is None or temperatures is None):
         raise InputError("A flash temperature needs a material with a shift, and temperatures.", code="no-shift")
-    solver = Theory(material, spectrum, nominal, sharing, flash)
     cases = [Case(kelvin, float(speed)) for kelvin in kelvins for speed in velocities]
-    found, error = solver.converged(cases, wanted)
+
+    def solved(flash: Flash | None) -> tuple[Found, float]:
+        return Theory(material, spectrum, nominal, sharing, flash).converged(cases, wanted)
+
+    found, error = solved(flash)
     shape = len(kelvins), len(velocities)
+    kind: Any = PerssonTheory
+    columns: dict[str, Array] = {}
+    if heating is not None:
+        assert flash is not None
+        kind = HeatedPerssonTheory
+        hot, hot_error = solved(replace(flash, start=_hottest(material, max(one or 0.0 for one in kelvins))))
+        isothermal, isothermal_error = solved(None)
+        error = max(error, hot_error, isothermal_error)
+        columns = {name: one.reshape(shape) for name, one in _columns(isothermal, found, hot, heating.branch).items()}
+        found = hot if heating.branch == "hot" else found
 
-    def by_case(rows: list[Array]) -> Array:
-        return np.array(rows).reshape(*shape, -1)
+    def by_case(name: str) -> Array:
+        return np.array([getattr(one, name) for one in found.cases]).reshape(*shape, -1)
 
-    area, friction, rise = (by_case([getattr(one, name) for one in found.cases]) for name in Scales._fields)
-    return PerssonTheory(
+    area, friction, rise = by_case("area"), by_case("friction"), by_case("rise")
+    result: PerssonTheory = kind(
         temperature=np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins]),
         speed=velocities,
-        pressure=solver.pressure,
+        pressure=nominal,
         friction_coefficient=friction[..., -1],
         contact_area_fraction=area[..., -1],
         flash_temperature=rise.max(axis=-1),
@@ -220,15 +271,56 @@ def persson_theory(
         friction_by_scale=friction,
         temperature_rise_by_scale=rise,
         error=error,
+        **columns,
     )
+    return result
+
+
+def _columns(isothermal: Found, cold: Found, hot: Found, branch: str) -> dict[str, Array]:
+    """Return the columns of `HeatColumns`, (n,) each; hot states that differ from cold ones by rounding are these."""
+    ends = []
+    for one, other in zip(cold.cases, hot.cases, strict=True):
+        same = abs(other.mean_rise - one.mean_rise) <= _SAME * (1.0 + one.mean_rise)
+        ends.append((one, one if same else other))
+    chosen = [pair[branch == "hot"] for pair in ends]
+    mean = np.array([one.mean_rise for one in chosen])
+    by_coulomb = np.array([one.coulomb_rise for one in chosen])
+    columns = {
+        "isothermal": np.array([float(one.friction[-1]) for one in isothermal.cases]),
+        "temperature_rise": mean,
+        "coulomb_rise": by_coulomb,
+        "loss_rise": mean - by_coulomb,
+        "track_rise": np.zeros(len(mean)),
+        "face_rise": np.array([one.face_rise for one in chosen]),
+        "loss_weighted_rise": mean,
+    }
+    for name, states in (("cold", [one for one, _ in ends]), ("hot", [one for _, one in ends])):
+        columns[f"{name}_viscoelastic"] = np.array([float(one.friction[-1]) for one in states])
+        columns[f"{name}_rise"] = np.array([one.mean_rise for one in states])
+    return columns
+
+
+def _hottest(material: Material, kelvin: float) -> float:
+    """Return a rise of temperature, K, at which α is known, from which a hot state is looked for."""
+    assert material.shift is not None
+    for rise in _HOT:
+        try:
+            material.shift.log10(kelvin + rise)
+        except InputError:
+            continue
+        return rise
+    return 0.0
 
 
 def _flash(thermal: ThermalProperties | None, heating: Heating | None, area: float, pressure: float) -> Flash | None:
     """Return the parameters of hot spots of a contact area fraction; None where nothing is heated."""
     if heating is not None:
         insist_on(heating, "heating", Heating)
-        if thermal is not None or heating.passes > 0:
-            raise InputError("heating: not with thermal or a track; leave out one of them.", code="not-with-heating")
+        if thermal is not None or heating.passes > 0 or heating.nominal_radius is not None:
+            raise InputError(
+                "heating: not with thermal, a track or a nominal_radius; leave out one of them.",
+                code="not-with-heating",
+            )
         return Flash(heating.rubber, area, heating, pressure)
     if thermal is None:
         return None

@@ -37,11 +37,17 @@ class Case(NamedTuple):
 
 
 class Scales(NamedTuple):
-    """P(q), the friction of all waves up to q, and the rise of temperature, K, at each scale."""
+    """P(q), the friction of all waves up to q, and the rise of temperature, K, at each scale; and mean rises, K.
+
+    Weighted with the loss, by all heat and by the Coulomb heat alone; of the surface.
+    """
 
     area: Array
     friction: Array
     rise: Array
+    mean_rise: float = 0.0
+    coulomb_rise: float = 0.0
+    face_rise: float = 0.0
 
 
 class Found(NamedTuple):
@@ -105,8 +111,14 @@ class Theory:
                 return self._isothermal(case, grid, rise)
 
             area, dissipated, rise = self.flash.settled(grid.q, grid.log_weights, case.speed, heated)
-        friction = grid.cumulative(0.5 * grid.q * area * dissipated / self.pressure)
-        return Scales(area[::2], friction, rise[::2])
+        lost = 0.5 * grid.q * area * dissipated / self.pressure
+        friction = grid.cumulative(lost)
+        if self.flash is None or case.speed == 0.0 or friction[-1] <= 0.0:
+            return Scales(area[::2], friction, rise[::2])
+        state = grid.q, grid.log_weights, case.speed, area
+        by_coulomb, by_all = (self.flash.rise(*state, heat) for heat in (0.0 * dissipated, dissipated))
+        mean, coulomb = (float(grid.cumulative(lost * one)[-1] / friction[-1]) for one in (rise, by_coulomb[:-1]))
+        return Scales(area[::2], friction, rise[::2], mean, coulomb, float(by_all[-1]))
 
     def _isothermal(self, case: Case, grid: _Grid, rise: Array) -> tuple[Array, Array]:
         """Return P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²) at given temperatures, at the ends and middles of a grid."""
