@@ -3,10 +3,10 @@
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Figure, Notes, Table } from "../views.js";
+import { Box, Button, Card, Choice, Figure, Notes, Table, choice } from "../views.js";
 import { fitFigure, modulusFigure } from "./measurement_inverse.js";
 import { master } from "./measurement_master.js";
-import { Box, Choice, Run, alone, choice, ofMeasured, shownMeasured } from "./measurement_parts.js";
+import { Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
 
 /** Fields of an anchor of each kind. */
 const ANCHOR_FIELDS = {

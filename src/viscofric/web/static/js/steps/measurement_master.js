@@ -1,10 +1,10 @@
 // Friction of all temperatures on one curve, by the rubber's shift factors and by those found from friction itself.
 
 import { html, view } from "../reactive.js";
-import { Card, Figure, Notes } from "../views.js";
+import { Card, Choice, Figure, Notes, choice } from "../views.js";
 import { agreement } from "./measurement_comparison.js";
 import { factorsFigure, masterFigure } from "./measurement_inverse.js";
-import { Choice, Facts, Run, alone, choice, ofMeasured, shownMeasured } from "./measurement_parts.js";
+import { Facts, Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
 
 const LAWS = [
   ["best", "the best law"],
