@@ -164,8 +164,19 @@ def test_a_rough_surface_slides_under_a_pressure_and_goes_on_from_its_state(tmp_
     assert refusal(*words[:-2], "--load", "1 N").status == 2
     assert refusal(*words[:-2], *BALL).status == 2
     assert refusal("transient", *PRESS, "--prepare", "window").status == 2
-    assert refusal("transient", *PRESS, "--layer", "1 mm", "--save-state", "a.npz").status == 2
     assert refusal("transient", *RUBBER, *surface, "--load", "1 N", "--dwell", "1 s")[:2] == (1, "wrong-control")
+
+
+@pytest.mark.slow
+def test_a_contact_on_cells_goes_on_from_its_state(tmp_path: Path) -> None:
+    words = ("transient", *RUBBER, "--cylinder", "10 mm", "--load", "1 kN/m", "--speed", "50 mm/s", "--accuracy", 0.05)
+    record(*words, "--slide", "0.5 mm", "--save-state", tmp_path / "begun.npz")
+    again = record(*words, "--slide", "1 mm", "--times", "20 ms", "--resume", tmp_path / "begun.npz")["results"]
+    history = vf.History([0.0, 0.02], load=1e3, speed=0.05)
+    run = vf.solve_transient(SOLID, vf.Cylinder("10 mm"), history, times=[0.02], accuracy=0.05)
+    assert (0.01, again["time"][-1]) == (pytest.approx(again["time"][-2]), 0.02)
+    away = abs(again["friction_force"][-1] - run.friction_force[-1])
+    assert away <= again["friction_force_error"][-1] + run.errors.friction_force[-1]
 
 
 def test_a_repeated_history_has_its_periodic_state(tmp_path: Path) -> None:

@@ -75,9 +75,7 @@ Examples:
 )
 @click.option("--cycle", is_flag=True, help="Solve the periodic state of the history as one repeated period.")
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
-@click.option(
-    "--save-state", "state", type=FILE, help="Write the last state (.npz) for --resume; not for contacts on cells."
-)
+@click.option("--save-state", "state", type=FILE, help="Write the last state (.npz) for --resume.")
 @click.option("--json", "as_json", is_flag=True, help="Print inputs and results over time as JSON, in SI units.")
 @click.option("-o", "--out", type=OUT, help="Write the results over time (.csv or .nc); `-` prints the table.")
 @click.option("--picture", type=FILE, help="Draw forces, indentation, contact and pressures (PNG, SVG or PDF).")
@@ -95,11 +93,7 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """
     drawings = {name: parameters.pop(name) for name in ("picture", "pressures", "animation")}
     _check_targets(parameters, out, drawings)
-    if parameters["cycle"] and parameters["heating"] is not None:
-        raise click.UsageError("--cycle and --heating are both given; a periodic state is isothermal.")
-    for name, typed in (("resume", "--resume"), ("state", "--save-state")):
-        if parameters["cycle"] and parameters[name] is not None:
-            raise click.UsageError(f"--cycle and {typed} are both given; a periodic state has no end to go on from.")
+    _check_pairs(parameters)
     with reported_errors():
         from viscofric.motion.cycle_solution import CycleSolution
 
@@ -127,7 +121,6 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
         said = [] if out in (None, DASH) else [f"data     {out}"]
         said += _draw(name, rubber, run, parameters["times"] is not None, **drawings)
         if parameters["state"] is not None:
-            run.save_state(parameters["state"])
             said.append(f"state    {parameters['state']}")
         for written in said:
             click.echo(written, err=as_json or out == DASH)
@@ -137,6 +130,17 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
         word, status = ("Terminated", TERMINATED) if Terminated.received else ("Interrupted", INTERRUPTED)
         click.echo(f"{word} after {run.time[-1]:.4g} s of the history; the results end there.", err=True)
         click.get_current_context().exit(status)
+
+
+def _check_pairs(parameters: dict[str, Any]) -> None:
+    """Refuse options that exclude each other."""
+    if parameters["cycle"] and parameters["heating"] is not None:
+        raise click.UsageError("--cycle and --heating are both given; a periodic state is isothermal.")
+    reasons = {"cycle": "a periodic state has no end", "heating": "a heated contact has no state"}
+    for one, reason in reasons.items():
+        for name, typed in (("resume", "--resume"), ("state", "--save-state")):
+            if parameters[one] and parameters[name] is not None:
+                raise click.UsageError(f"--{one} and {typed} are both given; {reason} to go on from.")
 
 
 def _solved(
@@ -153,7 +157,7 @@ def _solved(
     """Solve the history, or its periodic state."""
     from viscofric.cli.progress import time_bar
     from viscofric.motion.cycle import solve_cycle
-    from viscofric.motion.solve import checked_problem, needs_grid, solve_transient
+    from viscofric.motion.solve import solve_transient
 
     contact = {"accuracy": parameters["accuracy"], "layer": layer, **elastic_settings(parameters)}
     pictures = film or (drawn and parameters["cycle"])  # of a cycle, only the pressures asked for are kept
@@ -162,13 +166,14 @@ def _solved(
         shown = "{:.0f} periods, {:.2g} away from the periodic state"
         with time_bar("Periodic state", quiet=quiet, shown=shown) as bar:
             return solve_cycle(material, body, history, times=times, progress=bar, **contact)
-    if parameters["state"] is not None and needs_grid(checked_problem(material, body, history, **contact), history):
-        raise click.UsageError("--save-state is for rough surfaces, and bodies of revolution in normal motion.")
     with time_bar("Contact over time", quiet=quiet) as bar:
-        return solve_transient(
+        run = solve_transient(
             material, body, history, times=times, progress=bar, resume=parameters["resume"],
             heating=chosen_heating(parameters), **contact,
         )  # fmt: skip
+    if parameters["state"] is not None:
+        run.save_state(parameters["state"])
+    return run
 
 
 def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[str, Path | None]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from viscofric.motion.mover import Field, Observation, Scales, State
@@ -76,9 +76,11 @@ class Reached(Generic[State]):
     spread : Difference
         Difference of the chains that errors are estimated from: the present one, or a part of an earlier larger one.
     pace, share : float
-        Next step, s (zero: as after a jump), and the share of the accuracy that a step may add.
+        Next step, s, or a number of ticks (zero: as after a jump), and the share of the accuracy that a step may add.
     stored : float or None
         Energy in the material before the first start, J; None: what it is now.
+    limited : bool
+        Whether a step from tick to tick was longer than the accuracy asks for.
     """
 
     pair: Pair[State]
@@ -90,6 +92,7 @@ class Reached(Generic[State]):
     pace: float = 0.0
     share: float | None = None
     stored: float | None = None
+    limited: bool = False
 
 
 def difference(pair: Pair[State]) -> Difference:
@@ -188,3 +191,13 @@ class Track(Generic[State]):
     interrupted: bool
     reached: Reached[State]
     stored: float = 0.0
+
+    def joined(self, later: Track[State]) -> Track[State]:
+        """Return what this march and a later one that continues it have found."""
+        return replace(
+            later,
+            moments=[*self.moments, *later.moments],
+            steps=self.steps + later.steps,
+            rejected=self.rejected + later.rejected,
+            stored=self.stored,
+        )

@@ -126,7 +126,7 @@ def solve_cycle(
     if mover is None:
         from viscofric.motion.free.solve import solve_free
 
-        track, doubts = solve_free(problem, asked, None, search.follow)
+        track, doubts, _ = solve_free(problem, asked, None, search.follow)
         notes = (*notes, *doubts)
     else:
         repeating = cast("RepeatingMover[Any]", mover)

@@ -34,6 +34,7 @@ from viscofric.motion.chains import (
     over_scales,
 )
 from viscofric.motion.mover import SHARE, Mover, Scales, State
+from viscofric.motion.steps import even_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -46,9 +47,9 @@ _MOST_MARCHES = 6
 _SHRINK, _GROW, _SAFETY = 0.1, 3.0, 0.85
 #: First step of an interval, as a part of it; after a jump, in the time in which the response changes.
 _FIRST, _FIRST_AFTER_JUMP = 1.0 / 32.0, 0.2
-#: Least step, as a part of the time, of which rounding is a hundredth; most of them whose difference is too large, one
-#: for each jump of the response within an interval.
-_LEAST, _MOST_LEAST = 1e-14, 10
+#: Least step, as a part of an interval, and of the time, of which rounding is a hundredth.  Most least steps in an
+#: interval with too large a difference: contact conditions are met to a tolerance, so that a few may be by chance.
+_LEAST, _INSTANT, _MOST_LEAST = 1e-10, 1e-14, 100
 
 
 class _TooLargeError(Exception):
@@ -133,7 +134,8 @@ class _March(Generic[State]):
         except KeyboardInterrupt:
             interrupted = True
         told = self.moments[-1].instant.time if self.moments else self._at.told
-        reached = replace(self._at, told=told, scales=self._scales, spread=self._spread, pace=self._pace)
+        found = {"scales": self._scales, "spread": self._spread, "pace": self._pace, "limited": self._limited}
+        reached = replace(self._at, told=told, **found)  # type: ignore[arg-type]
         return Track(self.moments, self.taken, self.rejected, interrupted, reached, self._stored)
 
     def _begun(self) -> Reached[State]:
@@ -152,7 +154,7 @@ class _March(Generic[State]):
         self._scales = self.mover.scales
         if begin.scales is not None:
             self._scales = Scales(*map(max, zip(begin.scales, self._scales, strict=True)))
-        self._pace, self._spread = begin.pace, begin.spread
+        self._pace, self._spread, self._limited = begin.pace, begin.spread, begin.limited
         self._stored = begin.pair.fine.seen.stored if begin.stored is None else begin.stored
         time = self.schedule.start if begin.time is None else begin.time
         return replace(begin, time=time, share=self.share, stored=self._stored)
@@ -167,9 +169,10 @@ class _March(Generic[State]):
         for start, end in itertools.pairwise(schedule.kinks.tolist()):
             if end <= first:
                 continue
-            for left, right in self._parts(max(start, first), end):
-                self._interval(self._at.pair, left, right)
-                if right < end:
+            for left, right in self._parts(start, end):
+                if right > first:
+                    self._interval(self._at.pair, left, right)
+                if first < right < end:
                     self._record(self._at.pair, schedule.at(right), asked=self.times is not None)
             self._stop_at_kink(end)
 
@@ -224,25 +227,26 @@ class _March(Generic[State]):
         return self._seen(Pair(*links))
 
     def _interval(self, pair: Pair[State], start: float, end: float) -> None:
-        """March through a part without kinks."""
-        pair = self._settled(pair, self.schedule.at(start))
+        """March through a part without kinks, from its start or from where an earlier march has come to."""
+        begun = max(start, float(self._at.time))  # type: ignore[arg-type]
+        pair = self._settled(pair, self.schedule.at(begun))
+        least = _INSTANT * max(abs(start), abs(end))
         ticks = self.mover.ticks(self.schedule.at(start), self.schedule.at(end, after=False))
         if ticks is None:
-            self._freely(pair, start, end)
+            self._freely(pair, begun, end, least)
         else:
-            self._by_ticks(pair, start, np.asarray(ticks))
+            edges = even_steps(np.append(start, ticks))
+            self._by_ticks(pair, even_steps(np.append(begun, edges[edges > begun + least])))
 
-    def _freely(self, pair: Pair[State], start: float, end: float) -> None:
-        least, failed = _LEAST * max(abs(start), abs(end)), 0
-        time, step = start, self._pace or max(least, self._first_step(start, end))
+    def _freely(self, pair: Pair[State], start: float, end: float, least: float) -> None:
+        time, step, failed = start, self._pace or max(least, self._first_step(start, end)), 0
         while time < end:
-            # avoid a tiny last step
             left, proposed = end - time, step
-            step = left if step >= left else min(step, 0.5 * left)
+            step = left if step >= left else min(step, 0.5 * left)  # no tiny last step
             reached = end if step == left else time + step
             tried = self._try(pair, [time, 0.5 * (time + reached), reached])
             ratio = self._ratio(pair, tried)
-            if ratio > 1.0 and step > least:
+            if ratio > 1.0 and step > max(least, _LEAST * (end - start)):
                 self.rejected += 1
                 step *= _growth(ratio)
                 continue
@@ -266,23 +270,20 @@ class _March(Generic[State]):
         clock = self.schedule.at(start + step).clock - self.schedule.at(start).clock
         return min(step, step / clock * _FIRST_AFTER_JUMP * self.mover.quickest)
 
-    def _by_ticks(self, pair: Pair[State], start: float, ticks: Array) -> None:
-        """March by whole ticks: two or more for the coarse chain, half as many for the fine one."""
-        edges = np.concatenate([[start], ticks])
-        place, count = 0, 2
-        while place < len(ticks):
-            count = min(count, len(ticks) - place)
-            count -= count % 2 if count > 1 else 0
-            middle = [float(edges[place + count // 2])] if count > 1 else []
-            tried = self._try(pair, [float(edges[place]), *middle, float(edges[place + count])])
+    def _by_ticks(self, pair: Pair[State], edges: Array) -> None:
+        """March by whole ticks, an even number of them for the coarse chain, half as many for the fine one."""
+        place, last, count = 0, len(edges) - 1, int(self._pace) or 2
+        while place < last:
+            count = min(count, last - place)
+            tried = self._try(pair, edges[[place, place + count // 2, place + count]].tolist())
             ratio = self._ratio(pair, tried)
-            if ratio > 1.0 and count > 2:
+            taken, count = count, max(2, 2 * int(0.5 * count * _growth(ratio)))
+            if ratio > 1.0 and taken > 2:
                 self.rejected += 1
             else:
                 self._limited |= ratio > 1.0
-                place += count
-                pair = self._take(tried, float(edges[place]), float(ticks[-1]), 0.0)
-            count = max(2, 2 * int(0.5 * count * _growth(ratio)))
+                place += taken
+                pair = self._take(tried, float(edges[place]), float(edges[-1]), count if place < last else 0.0)
 
     def _try(self, pair: Pair[State], times: list[float]) -> Pair[State]:
         """Step from the first time to the last: the coarse chain at once, the fine one by those in between too."""

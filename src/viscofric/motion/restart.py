@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.motion.chains import Pair, Reached, Track
+from viscofric.motion.chains import Pair
 from viscofric.motion.memory import Modes
 from viscofric.motion.normal import NormalMotion, SpringState
 from viscofric.motion.springs import both_sides, profile
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from viscofric.arrays import Array
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.motion.chains import Reached, Track
+    from viscofric.motion.free.stored import Level
     from viscofric.motion.history import History
     from viscofric.motion.mover import Mover
     from viscofric.motion.problem import Problem
@@ -27,6 +30,21 @@ _ROUNDING, _FITTED = 1e-9, 1e-6
 _NUMBERS = ("instantaneous", "at_once", "error")
 
 
+class Begun(NamedTuple):
+    """A march that may be continued.
+
+    Attributes
+    ----------
+    track : Track
+        All that it has found, with the states that it has reached.
+    basis : mapping
+        Places of the springs, modes of the waves, or units, modes and grid of the cells.
+    """
+
+    track: Track[Any]
+    basis: Mapping[str, Array]
+
+
 @dataclass(frozen=True, eq=False)
 class Restart:
     """A run from which another one goes on.
@@ -34,21 +52,18 @@ class Restart:
     Attributes
     ----------
     method : str
-        "springs" or "waves".
+        "springs", "waves" or "grid".
     history : History
-    track : Track
-        All that it has found, with the states that it has reached.
+    marches : tuple of Begun
+        One; on cells those of the last two grids, the finer one last.
     same : mapping
         Numbers of the material and the contact, by name, that must be the same.
-    basis : mapping
-        Places of the springs, or modes of the waves.
     """
 
     method: str
     history: History
-    track: Track[Any]
+    marches: tuple[Begun, ...]
     same: Mapping[str, Array]
-    basis: Mapping[str, Array]
 
     @classmethod
     def of(cls, problem: Problem, history: History, method: str, mover: Mover[Any], track: Track[Any]) -> Restart:
@@ -59,11 +74,32 @@ class Restart:
             modes: Modes = mover.merged  # type: ignore[attr-defined]
             basis = {"C": modes.C, "tau": modes.tau}
             basis |= {one: np.array(getattr(modes, one)) for one in _NUMBERS}
-        return cls(method, history, track, _same(problem, basis), basis)
+        return cls(method, history, (Begun(track, basis),), _same(problem, basis))
+
+    @classmethod
+    def on_cells(cls, problem: Problem, history: History, levels: Sequence[Level], *, all_steps: bool) -> Restart:
+        """Return what marches on grids leave, which have returned all steps or certain times."""
+        marches = tuple(Begun(one.track, one.basis | {"all_steps": np.array(all_steps)}) for one in levels)
+        return cls("grid", history, marches, _same(problem, marches[0].basis))
+
+    @property
+    def track(self) -> Track[Any]:
+        """The only march, or that on the finest grid."""
+        return self.marches[-1].track
+
+    @property
+    def basis(self) -> Mapping[str, Array]:
+        """What it is made on."""
+        return self.marches[-1].basis
+
+    @property
+    def reached(self) -> Reached[Any]:
+        """The farthest state of all marches."""
+        return max((one.track.reached for one in self.marches), key=lambda one: (one.time is not None, one.time))
 
     def insist_on_same(self, problem: Problem) -> None:
         """Raise `InputError` where the contact or the past differs from that of the run."""
-        for name, value in _same(problem, self.basis).items():
+        for name, value in _same(problem, self.marches[0].basis).items():
             old = self.same[name]
             near = _FITTED if name == "material" else _ROUNDING
             if old.shape != value.shape or not np.allclose(old, value, rtol=near, atol=0.0):
@@ -73,7 +109,7 @@ class Restart:
                     code="not-the-same",
                 )
         now, then = problem.schedule, self.history.schedule(problem.material, problem.kind)
-        reached = self.track.reached
+        reached = self.reached
         end = then.start if reached.time is None else reached.time
         if now.control != then.control or now.before != then.before or now.start != then.start or now.end < end:
             raise _other_past(now.start)
@@ -101,33 +137,63 @@ class Restart:
         links = [link._replace(state=_padded(link.state, kept, mover)) for link in reached.pair]
         return _seen(mover, replace(reached, pair=Pair(*links)))
 
-    def joined(self, track: Track[Any]) -> Track[Any]:
-        """Return all that both runs have found."""
-        first = self.track
-        return Track(
-            [*first.moments, *track.moments],
-            first.steps + track.steps,
-            first.rejected + track.rejected,
-            track.interrupted,
-            track.reached,
-            first.stored,
-        )
+    def levels(self, problem: Problem, times: Sequence[float] | None) -> tuple[Problem, list[Level]]:
+        """Return the problem of the longer history with the kinks of the run, and its marches on grids."""
+        from viscofric.motion.free.setting import Setting, with_fewer_kinks
+        from viscofric.motion.free.stored import level_of
+
+        self._insist_on_times(times)
+        spectrum, ratio, end = problem.schedule.spectrum, problem.material.poisson_ratio, float(self.reached.time)  # type: ignore[arg-type]
+        now = with_fewer_kinks(problem.schedule)
+        then = with_fewer_kinks(self.history.schedule(problem.material, problem.kind)).kinks
+        kinks = np.concatenate([then[then < end], now.kinks[now.kinks >= end]])
+        problem = replace(problem, schedule=replace(now, kinks=kinks))
+        every, indenter = Modes.of(spectrum), problem.indenter
+        setting = Setting.of(problem.schedule, every, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
+        levels = []
+        for track, basis in self.marches:
+            level = level_of(problem, setting, basis, track)
+            mover, held = level.mover, level.mover.setting.modes
+            setting = setting.in_units_of(mover.setting)
+            here = setting.shortest_time(mover.grid.spacing, times), setting.longest_time
+            held = replace(held, error=_merged(held, problem, *here))
+            mover.setting = mover.setting.with_modes(held, problem)
+            levels.append(replace(level, track=replace(track, reached=_seen(mover, track.reached)[1])))
+        return problem, levels
+
+    def _insist_on_times(self, times: Sequence[float] | None) -> None:
+        """Refuse other times than those of the run where only its coarser grid has come to."""
+        (coarse, basis), fine = self.marches[0], self.track.reached
+        between = [one for one in times or () if fine.told < one <= (coarse.reached.time or 0.0)]
+        known = {one.instant.time for one in coarse.moments}
+        if coarse is not self.track and not basis["all_steps"] and (times is None or {*between} - known):
+            raise InputError(
+                "times: differ from those of the run, whose coarser grid has passed them; ask for the same.",
+                code="other-times",
+            )
 
     def _waves(self, problem: Problem) -> Mover[Any]:
         from viscofric.motion.periodic import PeriodicMover
-        from viscofric.motion.wave_memory import MERGING, resolved_times
+        from viscofric.motion.wave_memory import resolved_times
 
         one = self.basis
         # Runs stored by older versions have no error.
         held = Modes(C=one["C"], tau=one["tau"], **{name: float(one.get(name, 0.0)) for name in _NUMBERS})
-        off = held.difference(Modes.of(problem.schedule.spectrum), *resolved_times(problem))
-        if off > (1.0 + _FITTED) * MERGING * problem.accuracy:
-            raise InputError(
-                "resume: the run has merged modes of the material that matter in the longer history, which is slower "
-                "or faster; solve the whole history from its start.",
-                code="merged-modes",
-            )
-        return PeriodicMover(problem, replace(held, error=max(held.error, off)))
+        return PeriodicMover(problem, replace(held, error=_merged(held, problem, *resolved_times(problem))))
+
+
+def _merged(held: Modes, problem: Problem, shortest: float, longest: float) -> float:
+    """Return the error by merged modes over a longer history; InputError if it is too large."""
+    from viscofric.motion.wave_memory import MERGING
+
+    off = held.difference(Modes.of(problem.schedule.spectrum), shortest, longest)
+    if off > (1.0 + _FITTED) * MERGING * problem.accuracy:
+        raise InputError(
+            "resume: the run has merged modes of the material that matter in the longer history, which is slower or "
+            "faster; solve the whole history from its start.",
+            code="merged-modes",
+        )
+    return off if off > (1.0 + _FITTED) * held.error else held.error
 
 
 def _seen(mover: Mover[Any], reached: Reached[Any]) -> tuple[Mover[Any], Reached[Any]]:
@@ -158,9 +224,18 @@ def _same(problem: Problem, basis: Mapping[str, Array]) -> dict[str, Array]:
         "layer": np.array([] if layer is None else [float(layer.thickness), float(layer.bonded)]),
         "modulus of the indenter": np.array([problem.counterface]),
     }
-    if "s" not in basis:
-        return found | {"surface": np.append(indenter.z.ravel(), indenter.spacing)}  # type: ignore[union-attr]
-    return found | {"indenter": profile(indenter, basis["s"])}  # type: ignore[arg-type]
+    if "s" in basis:
+        return found | {"indenter": profile(indenter, basis["s"])}  # type: ignore[arg-type]
+    if "scale" in basis:
+        return found | {"indenter": _heights(indenter, basis["scale"][0].item())}  # type: ignore[arg-type]
+    return found | {"surface": np.append(indenter.z.ravel(), indenter.spacing)}  # type: ignore[union-attr]
+
+
+def _heights(indenter: Indenter, length: float) -> Array:
+    """Return the height of an indenter at places up to a distance from its axis, m."""
+    angle = 0.1 + np.pi * np.arange(8) / 4.0
+    distance = length * np.array([[0.25], [0.5], [0.75], [1.0]])
+    return np.asarray(indenter.height(distance * np.cos(angle), distance * np.sin(angle)), dtype=float).ravel()
 
 
 def _extended(kept: Array, fresh: NormalMotion) -> Array:

@@ -4,37 +4,45 @@ from __future__ import annotations
 
 import dataclasses
 import io
+import math
 import zipfile
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import LARGEST_FILE, file_path, insist_on_size, read_bytes, write_atomically
+from viscofric.files import LARGEST_FILE, LARGEST_UNPACKED, file_path, insist_on_size, read_bytes, write_atomically
 from viscofric.motion.chains import Difference, Errors, Link, Moment, Pair, Reached, Track
+from viscofric.motion.free.state import FreeState
+from viscofric.motion.free.stored import packed, unpacked
 from viscofric.motion.history import History
 from viscofric.motion.mover import Field, Observation, Scales
-from viscofric.motion.restart import Restart
+from viscofric.motion.normal import SpringState
+from viscofric.motion.periodic import PeriodicState
+from viscofric.motion.restart import Begun, Restart
 from viscofric.motion.schedule import Instant
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
     from os import PathLike
 
     from viscofric.arrays import Array
 
 _FORMAT = "viscofric state 2"
+#: Beginnings of the names of a march, and of that on the coarser grid of cells.
+_MARCHES = "", "coarser/"
 _DAMAGED = (KeyError, ValueError, TypeError, IndexError, OSError, EOFError, zipfile.BadZipFile, InputError)
-_REACHED = ("time", "jumped", "told", "pace", "share", "stored")
+_REACHED = ("time", "jumped", "told", "pace", "share", "stored", "limited")
 _SEEN = ("load", "depth", "friction_force", "area", "stored", "dissipated")
 
 
 def reached(restart: Restart | None) -> Restart:
-    """Return the state of a run; InputError if its contact was solved on cells."""
+    """Return the state of a run; InputError if it has none: its contact was heated, or is one of a cycle."""
     if restart is None:
         raise InputError(
-            "resume: a contact on cells does not go on from its end, since its grids depend on the whole history; "
-            "solve that from its start.",
+            "resume: a heated contact, or the period of a cycle, does not go on from its end; solve the whole history "
+            "from its start.",
             code="not-available",
         )
     return restart
@@ -42,10 +50,9 @@ def reached(restart: Restart | None) -> Restart:
 
 def write_restart(path: str | PathLike[str], restart: Restart) -> None:
     """Write the state of a run, atomically."""
-    history, track = restart.history, restart.track
+    history = restart.history
     named: dict[str, Any] = {"format": _FORMAT, "method": restart.method}
     named |= {f"same/{name}": value for name, value in restart.same.items()}
-    named |= {f"basis/{name}": value for name, value in restart.basis.items()}
     named |= {
         "history/time": history.time,
         "history/control": history.control,
@@ -56,7 +63,24 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
         "history/before": history.before,
         "history/direction": history.direction,
     }
-    last = track.reached
+    for begin, march in zip(_MARCHES, reversed(restart.marches), strict=False):
+        named |= {f"{begin}{name}": value for name, value in _march(march).items()}
+    file = io.BytesIO()
+    arrays: dict[str, Any] = {name: np.asarray(value) for name, value in named.items() if value is not None}
+    np.savez_compressed(file, **arrays)
+    if file.tell() > LARGEST_FILE or sum(one.nbytes for one in arrays.values()) > LARGEST_UNPACKED:
+        size, right = math.ceil(file.tell() / 1e6), LARGEST_FILE / 1e6
+        raise DataFileError(
+            str(path), f"would hold {size} MB, the state of a run at most {right:.0f} MB; solve with less accuracy.",
+            code="too-large",
+        )  # fmt: skip
+    write_atomically(file_path(path), file.getvalue())
+
+
+def _march(march: Begun) -> dict[str, Any]:
+    """Return a march as named arrays; None for what it does not have."""
+    track, last = march.track, march.track.reached
+    named: dict[str, Any] = {f"basis/{name}": value for name, value in march.basis.items()}
     named |= {f"reached/{name}": getattr(last, name) for name in _REACHED}
     named |= {
         "reached/scales": last.scales,
@@ -64,16 +88,18 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
         "counts": (track.steps, track.rejected, track.stored),
     }
     for name, link in zip(Pair._fields, last.pair, strict=True):
-        named[f"{name}/work"] = link.work
+        named |= {f"{name}/work": link.work, f"{name}/rubbed": link.rubbed}
         named |= {f"{name}/seen/{one}": getattr(link.seen, one) for one in _SEEN}
         named |= {f"{name}/extents/{one}": value for one, value in link.seen.extents.items()}
-        for part in dataclasses.fields(link.state):
-            named[f"{name}/state/{part.name}"] = getattr(link.state, part.name)
+        parts = packed(link.state) if isinstance(link.state, FreeState) else vars(link.state)
+        named |= {f"{name}/state/{part}": value for part, value in parts.items()}
     moments = track.moments
     named["moments/time"] = [one.instant.time for one in moments]
     named["moments/clock"] = [one.instant.clock for one in moments]
     named["moments/position"] = [one.instant.position for one in moments]
     named["moments/work"] = [one.work for one in moments]
+    named["moments/rubbed"] = [one.rubbed for one in moments]
+    named["moments/left_out"] = [one.seen.left_out for one in moments]
     named["moments/errors"] = [one.errors for one in moments]
     named |= {f"moments/{name}": [getattr(one.seen, name) for one in moments] for name in _SEEN}
     for name in moments[0].seen.extents if moments else ():
@@ -82,10 +108,7 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
         if one.field is not None:
             named[f"field/{place}/pressure"] = one.field.pressure
             named |= {f"field/{place}/axes/{name}": values for name, values in one.field.axes.items()}
-    packed = io.BytesIO()
-    arrays: dict[str, Any] = {name: np.asarray(value) for name, value in named.items() if value is not None}
-    np.savez_compressed(packed, **arrays)
-    write_atomically(file_path(path), packed.getvalue())
+    return named
 
 
 def read_restart(path: str | PathLike[str]) -> Restart:
@@ -113,13 +136,20 @@ def _restart(named: Mapping[str, Any]) -> Restart:
         direction=tuple(named["history/direction"].tolist()),
     )  # fmt: skip
     method = str(named["method"])
+    marches = [_begun(one, method) for one in (_below(named, start) for start in _MARCHES) if "counts" in one]
+    return Restart(method, history, tuple(reversed(marches)), _below(named, "same/"))
+
+
+def _begun(named: Mapping[str, Any], method: str) -> Begun:
+    if not _BASES[method] <= set(_below(named, "basis/")):
+        raise KeyError("basis")
     pair = Pair(*(_link(named, name, method) for name in Pair._fields))
     values: dict[str, Any] = {name: named[f"reached/{name}"].item() for name in _REACHED if f"reached/{name}" in named}
     values |= {"scales": Scales(*named["reached/scales"]), "spread": Difference(*named["reached/spread"])}
     last = Reached(pair, **values)
     steps, rejected, begun = named["counts"].tolist()
     track = Track(_moments(named), int(steps), int(rejected), True, last, begun)
-    return Restart(method, history, track, _below(named, "same/"), _below(named, "basis/"))
+    return Begun(track, _below(named, "basis/"))
 
 
 def _below(named: Mapping[str, Any], start: str) -> dict[str, Array]:
@@ -127,23 +157,32 @@ def _below(named: Mapping[str, Any], start: str) -> dict[str, Array]:
 
 
 def _link(named: Mapping[str, Any], name: str, method: str) -> Link[Any]:
-    if method == "springs":
-        from viscofric.motion.normal import SpringState as Kind
-    else:
-        from viscofric.motion.periodic import PeriodicState as Kind  # type: ignore[assignment]
     parts = _below(named, f"{name}/state/")
+    seen = _observation({one: named[f"{name}/seen/{one}"] for one in _SEEN}, _below(named, f"{name}/extents/"))
+    return Link(_STATES[method](parts), seen, float(named[f"{name}/work"]), float(named.get(f"{name}/rubbed", 0.0)))
+
+
+def _state(kind: Any, parts: Mapping[str, Any]) -> Any:
+    """Return a state whose parts are numbers, arrays and tuples."""
     values: dict[str, Any] = {}
-    for part in dataclasses.fields(Kind):
+    for part in dataclasses.fields(kind):
         value = parts.get(part.name)
         if value is None and part.default is dataclasses.MISSING:
             raise KeyError(part.name)
         if value is not None:
-            kind = str(part.type)
-            values[part.name] = tuple(value.tolist()) if kind.startswith("tuple") else value
-            if kind == "float":
+            values[part.name] = tuple(value.tolist()) if str(part.type).startswith("tuple") else value
+            if part.type == "float":
                 values[part.name] = float(value)
-    seen = _observation({one: named[f"{name}/seen/{one}"] for one in _SEEN}, _below(named, f"{name}/extents/"))
-    return Link(Kind(**values), seen, float(named[f"{name}/work"]))
+    return kind(**values)
+
+
+#: Method -> what makes a state of its parts; parts of the basis that are required.
+_STATES: dict[str, Callable[[Mapping[str, Any]], Any]] = {
+    "springs": partial(_state, SpringState),
+    "waves": partial(_state, PeriodicState),
+    "grid": unpacked,
+}
+_BASES = {"springs": {"s"}, "waves": {"C", "tau"}, "grid": {"scale", "toward", "level", "known", "grid", "numbers"}}
 
 
 def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Observation:
@@ -154,6 +193,10 @@ def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Obser
 
 def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
     columns, extents = {one: named[f"moments/{one}"] for one in _SEEN}, _below(named, "moments/extents/")
+    count = len(named["moments/time"])
+    rubbed, left_out = (
+        named.get(f"moments/{one}", np.zeros(shape)) for one, shape in (("rubbed", count), ("left_out", (count, 4)))
+    )
     moments: list[Moment[Any]] = []
     for place, time in enumerate(named["moments/time"].tolist()):
         axes, field = _below(named, f"field/{place}/axes/"), None
@@ -164,6 +207,8 @@ def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
             {one: value[place] for one, value in columns.items()},
             {one: value[place] for one, value in extents.items()},
         )
+        seen = seen._replace(left_out=tuple(left_out[place].tolist()))
         errors = Errors(*named["moments/errors"][place].tolist())
-        moments.append(Moment(instant, seen, float(named["moments/work"][place]), errors, field))
+        work = float(named["moments/work"][place])
+        moments.append(Moment(instant, seen, work, errors, field, float(rubbed[place])))
     return moments

@@ -201,9 +201,9 @@ class TransientSolution:
         Raises
         ------
         InputError
-            If the contact was solved on cells; such runs cannot be resumed.
+            If the contact was heated, or is one period of a cycle; such runs cannot be resumed.
         DataFileError
-            If the file cannot be written.
+            If the file cannot be written, or would be too large.
 
         Examples
         --------

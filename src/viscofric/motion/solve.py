@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.heat.heating import Heating
     from viscofric.motion.chains import Moment, Track
+    from viscofric.motion.free.stored import Level
     from viscofric.motion.mover import Mover
     from viscofric.motion.schedule import Schedule
     from viscofric.units import Quantities
@@ -82,7 +83,7 @@ def solve_transient(
     resume : TransientSolution or path, optional
         Run to continue, or the file that its `TransientSolution.save_state` wrote: an interrupted run, or one whose
         history is the beginning of this history.  The results equal those of one uninterrupted run, and include
-        those of the earlier one.  Not available for contacts on cells.
+        those of the earlier one; for a longer history on cells, to the stated errors.
     heating : Heating, optional
         Thermal properties and Coulomb heat: the rubber responds at the temperature of the history plus the mean rise of
         the contact's face, which the solution's `heating` holds.  In three or four runs, at some sixty times and those
@@ -153,14 +154,26 @@ def solve_transient(
     if resume is not None:
         return _resumed(resume, problem, history, asked, progress)
     mover, method, notes = mover_or_grid(problem, history)
-    if mover is not None:
-        track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
-        found = assemble(track, problem, history, method)
-        return replace(found, _restart=Restart.of(problem, history, method, mover, track))
+    if mover is None:
+        return _on_cells(problem, history, asked, progress, notes)
+    track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
+    found = assemble(track, problem, history, method)
+    return replace(found, _restart=Restart.of(problem, history, method, mover, track))
+
+
+def _on_cells(
+    problem: Problem,
+    history: History,
+    times: list[float] | None,
+    progress: Callable[[float, float], object] | None,
+    notes: tuple[Note, ...],
+    begun: Sequence[Level] = (),
+) -> TransientSolution:
     from viscofric.motion.free.solve import solve_free
 
-    track, doubts = solve_free(problem, asked, progress)
-    return assemble(track, problem, history, method, notes=(*notes, *doubts))
+    track, doubts, levels = solve_free(problem, times, progress, begun=begun)
+    found = assemble(track, problem, history, "grid", notes=(*notes, *doubts))
+    return replace(found, _restart=Restart.on_cells(problem, history, levels, all_steps=times is None))
 
 
 def _resumed(
@@ -181,16 +194,19 @@ def _resumed(
         raise InputError(
             f"resume = {brief(resume)}: must be a TransientSolution, or the file of its state.", code="wrong-type"
         )
-    method = "waves" if problem.kind == "periodic" else "springs"
-    if restart.method != method or (method == "springs" and needs_grid(problem, history)):
+    method, on_cells = restart.method, needs_grid(problem, history)
+    if (method == "waves") != (problem.kind == "periodic") or (method == "springs" and on_cells):
         raise InputError(
             "resume: this contact is not solved in the way of the run; solve the whole history from its start.",
             code="not-available",
         )
     restart.insist_on_same(problem)
+    if method == "grid":
+        problem, levels = restart.levels(problem, times)
+        return _on_cells(problem, history, times, progress, () if on_cells else (_RING,), levels)
     mover, begin = restart.mover(problem)
     track = march(mover, problem.schedule, accuracy=problem.accuracy, times=times, progress=progress, begin=begin)
-    track = restart.joined(track)
+    track = restart.track.joined(track)
     found = assemble(track, problem, history, method)
     return replace(found, _restart=Restart.of(problem, history, method, mover, track))
 

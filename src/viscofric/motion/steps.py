@@ -30,6 +30,14 @@ class StepParts(NamedTuple):
     new: Array
 
 
+def even_steps(edges: Array) -> Array:
+    """Return the edges of an even number of steps: the longest one is divided if their number is odd."""
+    if len(edges) % 2:
+        return edges
+    longest = int(np.argmax(np.diff(edges)))
+    return np.insert(edges, longest + 1, 0.5 * (edges[longest] + edges[longest + 1]))
+
+
 def step_parts(x: Array) -> StepParts:
     """Return the coefficients of a step of x = Δt/τ, not below zero."""
     small = x < _SERIES

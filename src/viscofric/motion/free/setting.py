@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.motion.memory import Modes
+    from viscofric.motion.problem import Problem
     from viscofric.motion.schedule import Instant, Schedule
 
 # Distance from the load, in path lengths and units of length, from which displacements in plane strain are measured.
@@ -64,6 +65,7 @@ class Setting:
     toward: tuple[float, float]  # of the lattice's x over the indenter's axes
     layer: ScaledLayer | None
     known: Scales | None = None  # sizes that errors are compared with, where a march has found them
+    distance: float | None = None  # `level`, where it is that of a shorter history
 
     @classmethod
     def of(
@@ -107,6 +109,11 @@ class Setting:
         body = Body.of(modes, plane_strain, counterface)
         return cls(schedule, modes, body, indenter, scale, ScaledIndenter(indenter, scale, toward), toward, scaled)
 
+    def with_modes(self, modes: Modes, problem: Problem) -> Setting:
+        """Return this setting with other modes of the same material."""
+        body = Body.of(modes, 1.0 - problem.material.poisson_ratio**2, problem.counterface)
+        return replace(self, modes=modes, body=body)
+
     @property
     def geometry(self) -> Geometry:
         """Whether it is a point or a line contact."""
@@ -125,6 +132,8 @@ class Setting:
     @cached_property
     def level(self) -> float:
         """Distance from which displacements are measured where there is no far field."""
+        if self.distance is not None:
+            return self.distance
         return _LEVEL * (1.0 + self.path_length)
 
     @cached_property
@@ -132,6 +141,12 @@ class Setting:
         """Largest distance between two places of the indenter along either axis."""
         places = np.array([self.turned(one) for one in _places(self.schedule)])
         return float(np.ptp(places, axis=0).max())
+
+    def in_units_of(self, other: Setting) -> Setting:
+        """Return this setting in the units and on the axes of another one of the same contact."""
+        return replace(
+            self, scale=other.scale, shape=other.shape, toward=other.toward, layer=other.layer, distance=other.level
+        )
 
     @property
     def scales(self) -> Scales:
@@ -250,7 +265,7 @@ class Setting:
         return self._split(np.concatenate([[start.time], kept[np.concatenate([np.diff(kept) > least, [True]])]]))[1:]
 
     def _split(self, edges: Array) -> Array:
-        """Divide intervals in which the speed changes by much, and one more where their number is odd."""
+        """Divide intervals in which the speed changes by much."""
         schedule = self.schedule
         pieces = [edges[:1]]
         for start, end in itertools.pairwise(edges):
@@ -258,11 +273,7 @@ class Setting:
             fastest = max(math.hypot(*first), math.hypot(*last))
             change = math.hypot(*(last - first)) / fastest if fastest > 0.0 else 0.0
             pieces.append(np.linspace(start, end, 2 + int(_OF_SPEED * change))[1:])
-        found = np.concatenate(pieces)
-        if len(found) % 2 == 0:  # an odd number of steps, the last of which would have no estimate of its error
-            longest = int(np.argmax(np.diff(found)))
-            found = np.insert(found, longest + 1, 0.5 * (found[longest] + found[longest + 1]))
-        return found
+        return np.concatenate(pieces)
 
     def _of_control(self, start: Instant, end: Instant) -> Array:
         """Return times between which the load or the depth changes by a part of the largest."""

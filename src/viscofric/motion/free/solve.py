@@ -20,9 +20,11 @@ from viscofric.errors import ConvergenceError
 from viscofric.motion.chains import Errors, Moment, Track
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.setting import Setting, with_fewer_kinks
+from viscofric.motion.free.stored import Level
 from viscofric.motion.march import march
 from viscofric.motion.memory import Modes
 from viscofric.motion.mover import Scales
+from viscofric.motion.progress import Progress
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.free.grids import Extent, Grid
+    from viscofric.motion.chains import Reached
     from viscofric.motion.problem import Problem
 
 logger = logging.getLogger(__name__)
@@ -47,7 +50,7 @@ _STEPS_LEFT, _MARGIN = 0.5, 1.5
 # Steps after a start that are not judged.
 _RESOLVED_STEPS = 4
 # A first window is so much wider than the elastic contact; it is tried again where the contact is so much shorter.
-_FIRST_WINDOW, _SHORT = 1.25, 0.6
+_FIRST_WINDOW, _SHORT, _ATTEMPTS = 1.25, 0.6, 5
 # Least friction coefficient that errors are compared with, in the slope of the indenter at the contact's edge.
 _LEAST_FRICTION = 1e-3
 # Least change of the depth of a line contact that errors are compared with, in the unit of depth.
@@ -56,53 +59,54 @@ _LEAST_DEPTH = 0.02
 _STEADY_LOAD = 1e-6
 # Of the contact conditions, in the accuracy, for a friction coefficient that is such a part of the slope; least part.
 _TOLERANCE, _TYPICAL_FRICTION, _SMALLEST = 0.01, 0.2, 0.02
-# Part of what remains that the first grid takes, and each of the next.
-_FIRST_PART, _NEXT_PART = 0.25, 0.7
+# Part of what remains of the work that the first grid takes, and each of the next.
+_PARTS = 0.25, 0.7
 # Error of the creep compliance by merged modes, in the accuracy.
 _MERGED = 0.02
 
 
 _ONE_GRID = Note(
     "one-grid",
-    "Interrupted on the first grid: the stated errors do not include those of the cells, which finer grids show.",
+    "Interrupted before a finer grid was solved: the stated errors do not include those of the cells, which it shows.",
 )
 
 
 @dataclass(frozen=True, eq=False)
-class _Level:
-    """A march on one grid."""
+class _Task:
+    """What is marched on every grid."""
 
-    mover: FreeMover
-    track: Track[Any]
-    cells: float  # along the longest contact
+    problem: Problem
+    times: Sequence[float] | None
+    told: Progress | None
+    follow: Callable[..., Track[Any]]
+    units: Setting | None  # of a shorter history that is continued
 
+    def setting(self, spacing: float, largest: Scales | None = None) -> Setting:
+        """Return the setting with the modes that matter on a grid, the more of them the smaller a known friction is."""
+        problem = self.problem
+        one = replace(_with_modes(problem, Modes.of(problem.schedule.spectrum)), known=largest)
+        times = one.shortest_time(spacing, self.times), one.longest_time
+        modes = Modes.for_history(problem.schedule.spectrum, *times, _MERGED * problem.accuracy * _smallness(one))
+        found = replace(_with_modes(problem, modes), known=largest)
+        return found if self.units is None else found.in_units_of(self.units)
 
-@dataclass(eq=False)
-class _Progress:
-    """One progress of all grids, whose number is not known before: each takes a part of what remains."""
+    def march(self, grid: Grid, largest: Scales | None, steps: float, size: float | None = None) -> Level:
+        """March on a grid, from the start."""
+        setting = self.setting(grid.spacing, largest)
+        mover = FreeMover(setting, grid, _TOLERANCE * self.problem.accuracy * _smallness(setting))
+        return Level(mover, self._followed(mover, steps), steps, size)
 
-    whole: Callable[[float, float], object]
-    start: float
-    end: float
-    begun: float = 0.0
-    remaining: float = 1.0
-    part: float = _FIRST_PART
-    furthest: float = 0.0
+    def go_on(self, level: Level) -> Level:
+        """Continue the march on a grid."""
+        reached = level.track.reached
+        return replace(level, track=level.track.joined(self._followed(level.mover, level.steps, begin=reached)))
 
-    def __call__(self, reached: float, end: float) -> None:
-        share = (reached - self.start) / (end - self.start)
-        self.furthest = max(self.furthest, self.begun + self.part * self.remaining * share)
-        self.whole(self.start + self.furthest * (self.end - self.start), self.end)
-
-    def next(self) -> None:
-        """Begin with another grid."""
-        self.begun += self.part * self.remaining
-        self.remaining = 1.0 - self.begun
-        self.part = _NEXT_PART
-
-    def end_all(self) -> None:
-        """State that all grids are done."""
-        self.whole(self.end, self.end)
+    def _followed(self, mover: FreeMover, steps: float, **begin: Reached[Any]) -> Track[Any]:
+        asked = {"accuracy": steps, "times": self.times, "progress": self.told}
+        track = self.follow(mover, self.problem.schedule, extrapolate=True, **asked, **begin)
+        if self.told is not None:
+            self.told.next()
+        return track
 
 
 def solve_free(
@@ -110,83 +114,84 @@ def solve_free(
     times: Sequence[float] | None,
     progress: Callable[[float, float], object] | None = None,
     follow: Callable[..., Track[Any]] = march,
-) -> tuple[Track[Any], tuple[Note, ...]]:
-    """March a free contact through its schedule; return the moments with all errors, and notes on assumptions.
+    begun: Sequence[Level] = (),
+) -> tuple[Track[Any], tuple[Note, ...], list[Level]]:
+    """March a free contact through its schedule.
 
-    `follow` takes the arguments of `march`, and returns the track on one grid.
+    Parameters
+    ----------
+    follow : callable
+        Takes the arguments of `march`, and returns the track on one grid.
+    begun : sequence of Level
+        The last grid, or the last two, of a run through a part of the schedule, to be continued.
+
+    Returns
+    -------
+    track, notes, levels
+        The moments with all errors, notes on assumptions, and the last one or two grids.
     """
-    problem = replace(problem, schedule=with_fewer_kinks(problem.schedule))
+    if not begun:
+        problem = replace(problem, schedule=with_fewer_kinks(problem.schedule))
     line = problem.indenter.geometry.dimension == 1  # type: ignore[union-attr]
-    cells = _LINE_CELLS if line else _POINT_CELLS
     most = _MOST_LINE_CELLS if line else _MOST_POINT_CELLS
-    told = None if progress is None else _Progress(progress, problem.schedule.start, problem.schedule.end)
-    level = _first(problem, cells, times, told, follow)
-    if level.track.interrupted:
-        return level.track, (*_notes(problem, level.mover.setting, level.track), _ONE_GRID)
-    largest, steps = _largest(level), problem.accuracy
-    while True:
-        finer = level.cells * _FINER
-        if finer > most:
+    told = None if progress is None else Progress(progress, problem.schedule.start, problem.schedule.end, *_PARTS)
+    task = _Task(problem, times, told, follow, begun[0].mover.setting if begun else None)
+    waiting = list(begun)
+    level = task.go_on(waiting.pop(0)) if waiting else None
+    level = _first(task, _LINE_CELLS if line else _POINT_CELLS, level)
+    found, levels = level.track, [level]
+    notes: tuple[Note, ...] = (_ONE_GRID,)
+    while not found.interrupted or waiting:
+        before, largest = level, _largest(level)
+        if waiting:
+            level = waiting.pop(0)
+            stopped = found.interrupted
+            level = replace(level, track=replace(level.track, interrupted=True)) if stopped else task.go_on(level)
+        elif level.cells * _FINER > most:
             raise ConvergenceError(
                 f"the accuracy {problem.accuracy:g} is not reached with {level.cells:.0f} cells along the contact.",
                 code="accuracy-not-reached",
             )
-        before, spacing = level, _fitted(level.mover.setting, level.mover.grid.spacing / _FINER)
-        steps *= _FINER_STEPS
-        level = _march(problem, _around(before, spacing), times, told, follow, largest, steps)
-        if level.track.interrupted and not level.track.moments:
-            return level.track, ()
+        else:
+            if begun and times is not None:  # also those of the run that is continued
+                task = replace(task, times=[one.instant.time for one in level.track.moments])
+            spacing = _fitted(before.mover.setting, before.mover.grid.spacing / _FINER)
+            level = task.march(_around(before, spacing), largest, before.steps * _FINER_STEPS)
+        levels = [before, level]
+        if not level.track.moments:
+            found = replace(found, interrupted=level.track.interrupted)
+            break
         moments = _compared(level, before)
-        largest = _largest(level)
+        found, notes = replace(level.track, moments=moments), ()
         judged = moments if times is not None else _resolved(moments, before.track.moments, problem.schedule.kinks)
-        error = _worst(judged, largest)
+        error = _worst(judged, _largest(level))
         logger.info(
             "%.0f cells along the contact: known to %.1g, %d products", level.cells, error, level.mover.products
         )
-        if error <= problem.accuracy or level.track.interrupted:
+        if error <= problem.accuracy:
             break
-    if told is not None and not level.track.interrupted:
+    if told is not None and not found.interrupted:
         told.end_all()
-    return replace(level.track, moments=moments), _notes(problem, level.mover.setting, level.track)
+    return found, (*_notes(problem, level.mover.setting, found), *notes), levels
 
 
-def _first(
-    problem: Problem,
-    cells: int,
-    times: Sequence[float] | None,
-    progress: _Progress | None,
-    follow: Callable[..., Track[Any]],
-) -> _Level:
-    """March on the coarsest grid that has so many cells along the longest contact."""
+def _first(task: _Task, cells: int, level: Level | None) -> Level:
+    """March on the coarsest grid that has so many cells along the longest contact; one may have been tried."""
     size = 1.0
-    for _ in range(6):
-        setting = _setting(problem, 2.0 * size / cells, times)
-        half = _FIRST_WINDOW * size
-        spacing = _fitted(setting, 2.0 * size / cells)
-        grid = replace(setting.geometry.grid.around(half, half, half, math.ceil(2.0 * half / spacing)), spacing=spacing)
-        level = _march(problem, grid, times, progress, follow, None, problem.accuracy)
+    for attempt in range(_ATTEMPTS + 1):
+        if level is None:
+            setting = task.setting(2.0 * size / cells)
+            half = _FIRST_WINDOW * size
+            spacing = _fitted(setting, 2.0 * size / cells)
+            grid = setting.geometry.grid.around(half, half, half, math.ceil(2.0 * half / spacing))
+            level = task.march(replace(grid, spacing=spacing), None, task.problem.accuracy, size)
         longest = level.mover.longest
-        if longest == 0.0 or _SHORT < 0.5 * longest / size < 1.0 / _SHORT or level.track.interrupted:
+        fits = level.size is None or longest == 0.0 or _SHORT < 0.5 * longest / level.size < 1.0 / _SHORT
+        if fits or level.track.interrupted or attempt == _ATTEMPTS:
             break
-        size = 0.5 * longest
+        size, level = 0.5 * longest, None
+    assert level is not None
     return level
-
-
-def _march(
-    problem: Problem,
-    grid: Grid,
-    times: Sequence[float] | None,
-    progress: _Progress | None,
-    follow: Callable[..., Track[Any]],
-    largest: Scales | None,
-    steps: float,
-) -> _Level:
-    setting = _setting(problem, grid.spacing, times, largest)
-    mover = FreeMover(setting, grid, _TOLERANCE * problem.accuracy * _smallness(setting))
-    track = follow(mover, problem.schedule, accuracy=steps, times=times, progress=progress, extrapolate=True)
-    if progress is not None:
-        progress.next()
-    return _Level(mover, track, mover.longest / mover.grid.spacing)
 
 
 def _smallness(setting: Setting) -> float:
@@ -197,19 +202,12 @@ def _smallness(setting: Setting) -> float:
     return min(1.0, max(_SMALLEST, setting.known.friction / typical)) if typical > 0.0 else 1.0
 
 
-def _setting(problem: Problem, spacing: float, times: Sequence[float] | None, largest: Scales | None = None) -> Setting:
-    """Return the setting with the modes that matter on a grid, the more of them the smaller a known friction is."""
-    every = Modes.of(problem.schedule.spectrum)
+def _with_modes(problem: Problem, modes: Modes) -> Setting:
     ratio, indenter = problem.material.poisson_ratio, problem.indenter
-    setting = Setting.of(problem.schedule, every, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
-    setting = replace(setting, known=largest)
-    shortest, error = setting.shortest_time(spacing, times), _MERGED * problem.accuracy * _smallness(setting)
-    modes = Modes.for_history(problem.schedule.spectrum, shortest, setting.longest_time, error)
-    found = Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
-    return replace(found, known=largest)
+    return Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
 
 
-def _around(level: _Level, spacing: float) -> Grid:
+def _around(level: Level, spacing: float) -> Grid:
     """Return a window around all contacts of a march, with cells of another length."""
     mover = level.mover
     if mover.longest == 0.0:
@@ -225,7 +223,7 @@ def _fitted(setting: Setting, spacing: float) -> float:
     return setting.stroke / math.ceil(setting.stroke / spacing - 1e-9) if setting.stroke > spacing else spacing
 
 
-def _largest(level: _Level) -> Scales:
+def _largest(level: Level) -> Scales:
     """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope.
 
     A contact that does not move has hardly any friction to be compared with.
@@ -247,7 +245,7 @@ def _largest(level: _Level) -> Scales:
     )
 
 
-def _compared(level: _Level, coarser: _Level) -> list[Moment[Any]]:
+def _compared(level: Level, coarser: Level) -> list[Moment[Any]]:
     """Return the moments of the finer grid with the errors of steps and cells, the work of friction extrapolated."""
     fine, coarse = level.track.moments, coarser.track.moments
     kinks = level.mover.setting.schedule.kinks
