@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 import scipy.fft
@@ -29,6 +29,34 @@ if TYPE_CHECKING:
 #: Cells along the contact, and room behind, ahead of and beside it, in half lengths of the contact.
 _CELLS, _MAPPED = 18, 40
 _BEHIND, _AHEAD, _BESIDE = 2.0, 0.6, 0.6
+
+
+class LoadedContact(Protocol):
+    """What rises of temperature per heat are found from: a solved contact, or one under an assumed pressure."""
+
+    @property
+    def speed(self) -> float:
+        """Along x, m/s."""
+
+    @property
+    def friction_force(self) -> float:
+        """Viscoelastic, N or N/m."""
+
+    @property
+    def contact_area(self) -> float:
+        """Of the loaded cells, m² or m."""
+
+    @property
+    def x(self) -> Array:
+        """Cell centres along the motion (nx,), m."""
+
+    @property
+    def y(self) -> Array:
+        """Cell centres across (ny,), m; one of a line contact."""
+
+    @property
+    def pressure(self) -> Array:
+        """Of the cells (nx, ny), Pa."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +101,7 @@ class FreeThermalContact(ThermalContact):
 
 
 def thermal_resistances(
-    solution: ContactSolution, modes: Modes, poisson_ratio: float, heating: Heating
+    solution: LoadedContact, modes: Modes, poisson_ratio: float, heating: Heating
 ) -> ThermalResistances:
     """Return rises of a contact per heat; `modes` are those at the temperature at which it was solved.
 
@@ -178,7 +206,7 @@ class Cells:
         self.cell = x[1] - x[0], math.inf if self.is_line else y[1] - y[0]
 
     @classmethod
-    def of(cls, solution: ContactSolution, across_contact: int) -> Cells:
+    def of(cls, solution: LoadedContact, across_contact: int) -> Cells:
         """Return so many cells along the contact, those of the solution put together, and room around it."""
         pressure = solution.pressure[::-1] if solution.speed < 0.0 else solution.pressure
         loaded = np.asarray(pressure > 0.0, dtype=np.float64)
@@ -196,7 +224,7 @@ class Cells:
         both = [_blocks(_blocks(one, along, size).T, across, size).T / size**2 for one in (pressure, loaded)]
         return cls(_row(along, size, forward), _row(across, size, solution.y), *both)
 
-    def radius(self, solution: ContactSolution) -> float:
+    def radius(self, solution: LoadedContact) -> float:
         """Return the half-width of a line contact, or the radius of a disc of equal area, m."""
         return 0.5 * solution.contact_area if self.is_line else math.sqrt(solution.contact_area / math.pi)
 

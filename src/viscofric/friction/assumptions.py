@@ -70,7 +70,8 @@ def check_assumptions(
         - "linearity": representative strain 0.2 a/R, at most that of the limit above, 6 %.
         - "uncoupled", where Coulomb friction is known: normal displacement of the surface due to its shear, over that
           due to the pressure, at most 0.02.  It vanishes on a half-space of ν = ½ only.
-        - "one temperature": relative change of friction by its own heat, at most 5 %.
+        - "one temperature": relative change of friction by its own heat, at most 5 %; unknown where the face of the
+          contact is warm enough for more, and the rubber below is not.
 
     Raises
     ------
@@ -87,11 +88,12 @@ def check_assumptions(
     contact's size suggests.
 
     Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction by the change of the material's own
-    friction along that shift, to first order in the loss, at each point separately.  ΔT is the flash temperature of the
-    Coulomb heat μ_c F v_slip, shared between the bodies, and the warming of the bulk by the viscoelastic loss (see
-    `viscofric.friction.warming`), on a contact of the smallest possible size.  It is an upper bound: the Coulomb heat
-    warms a thin skin only.  Heat that remains from one turn of the disc to the next is not included; measure it with a
-    thermometer in the rubber.
+    friction along that shift, to first order in the loss, at each point separately.  ΔT is the mean rise of the face of
+    the contact, by the Coulomb heat μ_c F v_slip, shared between the bodies, and by the viscoelastic loss below, as in
+    `solve_steady(heating=…)`, under Hertz's pressure on a contact of the smallest possible size.  The rise of the
+    rubber where the loss is released is smaller where the heat of the face warms a thin skin only: the change of
+    friction lies between those of both.  Heat that remains from one turn of the disc to the next is not included; see
+    `Heating`, or measure it with a thermometer in the rubber.
 
     Examples
     --------
@@ -127,8 +129,9 @@ def check_assumptions(
     # By both bounds, as the widest of `check_half_space`.
     steepest = max(sizes, key=lambda size: size.largest * size.smallest * size.curvature**2)
     try:
-        warming = Warming.of(material, indenter, curves, [size.smallest for size in sizes], rubber, counterbody)
-        isothermal = _one_temperature(curves, [size.where for size in sizes], warming, rubber, counterbody)
+        radius = [size.smallest for size in sizes]
+        warming = Warming.worst(material, indenter, curves, radius, rubber, counterbody)
+        isothermal = _one_temperature(curves, sizes[warming.row].where, warming, rubber, counterbody)
     except InputError as error:  # the shift factors end where their slope is needed
         unknown = Note("warming-unknown", f"The effect of warming on friction is unknown: {error}")
         isothermal = AssumptionCheck.of("one temperature", None, unknown, None, CHANGE)
@@ -182,32 +185,39 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
 
 def _one_temperature(
     curves: FrictionCurves,
-    places: list[Place],
+    where: Place,
     warming: Warming,
     rubber: ThermalProperties,
     counterbody: ThermalProperties,
 ) -> AssumptionCheck:
-    worst = int(np.argmax(warming.change))
-    surface, bulk, decades, change = (float(column[worst]) for column in warming)
-    warmed = f"Coulomb heat warms the surface by {surface:.2g} K and the viscoelastic loss"
     counted = curves.coulomb is not None and curves.slip is not None
+    holds = verdict(warming.least, warming.change, CHANGE)
+    heat = "Coulomb heat and the viscoelastic loss warm"
     if not counted:
-        warmed = "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms"
-    holds = change <= CHANGE
-    limit = f"(good if ≤ {100 * CHANGE:.0f} %)" + ("." if holds else "; reduce the slip or the speed.")
+        heat = "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms"
+    low, high = (plain(100 * one, 2) for one in (warming.least, warming.change))
+    change = f"{high} %" if low == high else f"{low} to {high} %"
+    rest = {
+        True: ".",
+        None: "; predict with heating.",
+        False: "; reduce the slip or the speed, or predict with heating.",
+    }[holds]
     sentence = Note(
         "warming",
-        f"{warmed} the rubber by {bulk:.2g} K at most ({places[worst]}; typical handbook values of {rubber.name} "
-        f"and {counterbody.name} are assumed). This shifts the speed by {decades:.2g} decades and changes friction by "
-        f"{plain(100 * change, 2)} % {limit}",
+        f"{heat} the face of the contact by {warming.face:.2g} K, and the rubber where the loss is released by "
+        f"{warming.below:.2g} K ({where}; typical handbook values of {rubber.name} and {counterbody.name} are assumed)"
+        f". This shifts the speed by up to {warming.decades:.2g} decades and changes friction by {change} "
+        f"(good if ≤ {100 * CHANGE:.0f} %){rest}",
         values={
-            "surface": surface if counted else None,
-            "bulk": bulk,
-            "decades": decades,
-            "change": change,
+            "coulomb_counted": counted,
+            "face_rise": warming.face,
+            "loss_weighted_rise": warming.below,
+            "decades": warming.decades,
+            "change": warming.change,
+            "least_change": warming.least,
             "rubber": rubber.name,
             "counterbody": counterbody.name,
-            **places[worst].values,
+            **where.values,
         },
     )
-    return AssumptionCheck.of("one temperature", holds, sentence, change, CHANGE)
+    return AssumptionCheck.of("one temperature", holds, sentence, warming.change, CHANGE)

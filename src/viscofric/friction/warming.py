@@ -1,24 +1,9 @@
-"""Warming of the rubber by friction, and its effect on friction.
+"""Warming of the rubber by friction, and its effect on friction, at every point of friction curves.
 
-Heat on a circle of radius a under Hertz's pressure, q = (3/2) q̄ √(1 − r²/a²), that moves with Péclet number
-Pe = V a/(2κ) over a half-space raises its surface temperature at most by [1]_ ::
-
-    ΔT = 2.32 q̄ a / (k √(π (1.234 + Pe)))
-
-which joins the limits of a source at rest, 3π q̄ a/(8 k), and of a fast one, under which heat flows vertically.  This
-is the rise of each of two bodies with all of the heat; as their surfaces are equally warm, the heat divides such that
-1/ΔT = 1/ΔT₁ + 1/ΔT₂ [1]_.  Under a line contact (half-width a, q = (4/π) q̄ √(1 − x²/a²)) the fast limit is used,
-which is an upper limit at any speed while heat flows vertically::
-
-    ΔT = 2.188 (4/π) q̄ √(a κ/(π V)) / k
-
-Viscoelastic friction μ_v F is work per length of track, lost in the bulk to a depth of about a: spread over the half
-circle of radius a below the contact, it warms each length that has passed by μ_v F/(ρc π a²/2), and on a line contact
-by μ_v F/(ρc a).
-
-References
-----------
-.. [1] X. Tian, F. E. Kennedy, J. Tribol. 116 (1994) 167, doi:10.1115/1.2927035
+The heat of Coulomb friction is on the face, shared with the indenter; the viscoelastic loss is released below, where
+the stress of Hertz's pressure dissipates it.  Both rises, of the face and of the rubber where the loss is released,
+are those of `viscofric.contact.heating`.  They are found at the few points where the heat alone suggests the largest
+change of friction.
 """
 
 from __future__ import annotations
@@ -28,8 +13,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from viscofric.contact.fields.dissipation import Modes
+from viscofric.contact.heating import thermal_resistances
 from viscofric.errors import InputError
 from viscofric.friction.identification.forward import FirstOrder
+from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
+from viscofric.heat.means import disc_mean, strip_mean
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import shown_celsius
 
@@ -44,66 +33,24 @@ if TYPE_CHECKING:
     from viscofric.thermal import ThermalProperties
 
 
-# The fast limit's largest ∫ √(1 − s²)/√(x − s) ds from −1 to x, over x.
-_FAST_HERTZ = 2.188
 # Loads whose logarithms differ by less are equal; parts of the shift that are checked, as a maximum may lie within.
 _SAME_LOAD, _STEPS = 0.05, np.linspace(0.0, 1.0, 5)
-
-
-def flash_temperature(
-    heat: float, radius: float, speed: float, body: ThermalProperties, *, line: bool = False
-) -> float:
-    """Return the largest rise of a surface's temperature, K, if all of the heat goes into this body.
-
-    `heat` is that of the whole contact, W, or W/m of a line contact; `radius` the contact radius or half-width, m;
-    `speed` (m/s, not below zero) that of the contact over the body.  A line contact at rest has no steady temperature:
-    infinite.  Raises InputError if a value is out of range.
-    """
-    if not (heat >= 0.0 and radius > 0.0 and speed >= 0.0):
-        raise InputError(
-            f"heat = {heat:g} W, radius = {radius:g} m, speed = {speed:g} m/s: heat and speed must not be below zero, "
-            "and the radius must be above it.",
-            code="out-of-range",
-        )
-    conductivity = float(body.conductivity)
-    if line:
-        mean = heat / (2.0 * radius)
-        if speed == 0.0:
-            return math.inf if heat > 0.0 else 0.0
-        depth = math.sqrt(radius * body.diffusivity / (math.pi * speed))
-        return _FAST_HERTZ * (4.0 / math.pi) * mean * depth / conductivity
-    mean = heat / (math.pi * radius**2)
-    peclet = speed * radius / (2.0 * body.diffusivity)
-    return 2.32 * mean * radius / (conductivity * math.sqrt(math.pi * (1.234 + peclet)))
-
-
-def shared_flash_temperature(first: float, second: float) -> float:
-    """Return the rise of both surfaces, K, from the rise of each with all of the heat."""
-    if first == 0.0 or second == 0.0:
-        return 0.0
-    return 1.0 / (1.0 / first + 1.0 / second)
-
-
-def bulk_temperature(force: float, radius: float, body: ThermalProperties, *, line: bool = False) -> float:
-    """Return the rise of temperature behind the contact, K, by the loss in the bulk.
-
-    `force` is the viscoelastic friction force, work per length of track, N, or N/m of a line contact; `radius` the
-    contact radius or half-width, m.
-    """
-    section = radius if line else 0.5 * math.pi * radius**2
-    return force / (body.volume_heat * section)
+_MOST = 3  # points whose rises are found
+_CELLS = 36  # along the pressure of a contact
 
 
 class Warming(NamedTuple):
-    """Warming and its effect at every point of friction curves, (n,) each."""
+    """Warming at the point of friction curves where it matters most, and its effect there."""
 
-    surface: Array  # rise of temperature by the Coulomb heat, K
-    bulk: Array  # rise of temperature by the viscoelastic loss, K
-    decades: Array  # shift of log10 of the speed by both
-    change: Array  # largest relative change of friction on the way, either way
+    row: int
+    face: float  # mean rise of temperature of the face, K
+    below: float  # of the rubber where the loss is released, K
+    decades: float  # shift of log10 of the speed by the warmer of both
+    change: float  # largest relative change of friction on the way, either way, by the warmer
+    least: float  # and by the colder
 
     @classmethod
-    def of(
+    def worst(
         cls,
         material: Material,
         indenter: Indenter,
@@ -112,39 +59,101 @@ class Warming(NamedTuple):
         rubber: ThermalProperties,
         counterbody: ThermalProperties,
     ) -> Warming:
-        """Return it for contacts of given radii, m, on a material with a shift; see `check_assumptions`.
+        """Return the worst of contacts of given radii, m, on a material with a shift; see `check_assumptions`.
 
-        Raises InputError if α is not known near a temperature.
+        Of the few where the heat alone suggests the largest change.  Raises InputError if α is not known near a
+        temperature.
         """
         assert material.shift is not None
-        surface, bulk = np.array([_rise(curves, row, one, rubber, counterbody) for row, one in enumerate(radii)]).T
+        contacts = [_Contact.of(curves, row, radius, rubber, counterbody) for row, radius in enumerate(radii)]
         temperatures, place = np.unique(curves.temperature, return_inverse=True)
-        per_kelvin = np.array([_decades_per_kelvin(material.shift, float(one)) for one in temperatures])
-        decades = (surface + bulk) * per_kelvin[place]
-        return cls(surface, bulk, decades, _change(material, indenter, curves, decades))
+        per_kelvin = np.array([_decades_per_kelvin(material.shift, float(one)) for one in temperatures])[place]
+        rough = _change(material, indenter, curves, np.array([one.rough_rise() for one in contacts]) * per_kelvin)
+        found: Warming | None = None
+        for row in np.argsort(-rough, kind="stable")[:_MOST].tolist():
+            spectrum = material.modes_at(float(curves.temperature[row]))
+            modes = Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+            face, below = contacts[row].rises(modes, material.poisson_ratio)
+            rises = np.array([max(face, below), min(face, below)])
+            decades = rises * per_kelvin[row]
+            high, low = _change(material, indenter, curves.select(np.array([row, row])), decades).tolist()
+            if found is None or high > found.change:
+                found = cls(row, face, below, float(decades[0]), high, low)
+        assert found is not None
+        return found
 
 
-def _rise(
-    curves: FrictionCurves, row: int, radius: float, rubber: ThermalProperties, counterbody: ThermalProperties
-) -> tuple[float, float]:
-    """Return the rise of temperature by the Coulomb heat and by the viscoelastic loss, K."""
-    speed, load, line = float(curves.speed[row]), float(curves.load[row]), curves.load_unit == "N/m"
-    surface = 0.0
-    if curves.coulomb is not None and curves.slip is not None:
-        slip = float(curves.slip[row])
-        heat = abs(float(curves.coulomb[row])) * load * slip
-        # The sense of slip with the slower, and so warmer, indenter.
-        surface = shared_flash_temperature(
-            flash_temperature(heat, radius, speed, rubber, line=line),
-            flash_temperature(heat, radius, abs(speed - slip), counterbody, line=line),
-        )
-    force = abs(float(curves.viscoelastic[row])) * load
-    # Slow contacts lose heat meanwhile: the rise is limited to that with all heat on the surface.
-    bulk = min(
-        bulk_temperature(force, radius, rubber, line=line),
-        flash_temperature(force * speed, radius, speed, rubber, line=line),
-    )
-    return surface, bulk
+class _Contact(NamedTuple):
+    """One contact under Hertz's pressure; see `viscofric.contact.heating.LoadedContact`."""
+
+    speed: float
+    load: float
+    radius: float
+    coulomb_heat: float
+    loss_heat: float
+    heating: Heating
+    is_line: bool
+    friction_force: float = 0.0  # so that all of the loss is released near the contact
+
+    @classmethod
+    def of(
+        cls, curves: FrictionCurves, row: int, radius: float, rubber: ThermalProperties, counterbody: ThermalProperties
+    ) -> _Contact:
+        speed, load, line = float(curves.speed[row]), float(curves.load[row]), curves.load_unit == "N/m"
+        known = curves.coulomb is not None and curves.slip is not None
+        slip = float(curves.slip[row]) if curves.slip is not None else None
+        coulomb = abs(float(curves.coulomb[row])) if known and curves.coulomb is not None else 0.0
+        heating = Heating(rubber=rubber, counterface=counterbody, coulomb=coulomb, slip=slip)
+        heat = coulomb * load * heating.sliding(speed)
+        return cls(speed, load, radius, heat, abs(float(curves.viscoelastic[row])) * load * speed, heating, line)
+
+    @property
+    def x(self) -> Array:
+        """Cell centres along the motion, m."""
+        return self.radius * (2.0 * (np.arange(_CELLS) + 0.5) / _CELLS - 1.0)
+
+    @property
+    def y(self) -> Array:
+        """Cell centres across, m."""
+        return np.zeros(1) if self.is_line else self.x
+
+    @property
+    def contact_area(self) -> float:
+        """Area, m², or width of a line contact, m."""
+        return 2.0 * self.radius if self.is_line else math.pi * self.radius**2
+
+    @property
+    def pressure(self) -> Array:
+        """Hertz's pressure (nx, ny), Pa."""
+        square = 1.0 - np.add.outer(np.square(self.x), np.square(self.y)) / self.radius**2
+        peak = (4.0 / math.pi if self.is_line else 1.5) * self.load / self.contact_area
+        return np.asarray(peak * np.sqrt(np.maximum(square, 0.0)))
+
+    def rough_rise(self) -> float:
+        """Return a rise of the right order, K, to find the points that matter.
+
+        The loss is on the face or, where that is less, spread over the half circle of the contact's radius below it.
+        """
+        rubber = self._on_the_face(self.heating.rubber, self.speed)
+        other = self._on_the_face(self.heating.counterface, abs(self.speed - self.heating.sliding(self.speed)))
+        resistances = ThermalResistances(rubber, rubber, rubber, rubber, 0.0, other)
+        section = self.radius if self.is_line else 0.5 * math.pi * self.radius**2
+        spread = self.loss_heat / (self.speed * self.heating.rubber.volume_heat * section)
+        face = HeatBalance.of(resistances, self.coulomb_heat, 0.0).face_rise
+        return face + min(rubber * self.loss_heat, spread)
+
+    def _on_the_face(self, body: ThermalProperties, speed: float) -> float:
+        """Return the mean rise of a disc or strip per heat, K/W or K m/W; infinite of a strip at rest."""
+        peclet = speed * self.radius / (2.0 * body.diffusivity)
+        if self.is_line:
+            return strip_mean(peclet, hertz=True) / (2.0 * float(body.conductivity)) if peclet > 0.0 else math.inf
+        return disc_mean(peclet, hertz=True) / (math.pi * self.radius * float(body.conductivity))
+
+    def rises(self, modes: Modes, poisson_ratio: float) -> tuple[float, float]:
+        """Return the mean rise of the face, and of the rubber where the loss is released, K."""
+        resistances = thermal_resistances(self, modes, poisson_ratio, self.heating)
+        balance = HeatBalance.of(resistances, self.coulomb_heat, self.loss_heat)
+        return balance.face_rise, balance.loss_weighted_rise
 
 
 def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
