@@ -199,6 +199,20 @@ def test_backend_benchmark_measures_what_is_there_and_names_what_is_not(
     assert all(row[what] > 0.0 for row in rows for what in ("elastic", "ball") if what in row)
 
 
+def test_benchmark_of_octaves_compares_two_methods(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS / "roughness"))
+    import octaves
+
+    monkeypatch.setattr(octaves, "SPEEDS", (1e-6,))
+    octaves.main(["--shortest", "32", "--seeds", "1", "--json", str(tmp_path / "octaves.json")])
+    assert "theory over solution" in capsys.readouterr().out
+    (row,) = read(tmp_path / "octaves.json")["rows"]
+    assert row["area"] > 0.7
+    assert 0.95 < row["half_ratio"] < row["full_ratio"] < 1.2  # 0.98 and 1.12 with three surfaces
+
+
 @pytest.mark.usefixtures("contact_path")
 def test_rough_benchmark_leaves_a_reason_where_a_peer_is_missing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -345,6 +359,25 @@ def test_benchmark_of_the_interface_counts_planted_laws_within_bands(
     for row in read(tmp_path / "interface.json")["rows"]:
         assert row["refused"] == 0
         assert row["points"] > 0.5  # below a half in 1 of 70 such sets of four bands, which move as one
+
+
+@pytest.mark.slow
+@pytest.mark.apart
+def test_benchmark_of_total_friction_compares_it_with_that_of_the_planted_interface(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS / "friction"))
+    import total
+
+    monkeypatch.setattr(total, "TRUE", 8)
+    monkeypatch.setattr(total, "OTHERS", 8)
+    few = ["--scenes", "1", "--draws", "2", "--shapes", "cylinder", "rough"]
+    total.main([*few, "--json", str(tmp_path / "total.json")])
+    assert "within its 95 % band" in capsys.readouterr().out
+    for row in read(tmp_path / "total.json")["rows"]:
+        assert row["problems"] + row["refused"] == 2
+        assert 0.0 < row["width"] < 0.5
+        assert 0.0 <= row["held"] <= 1.0
 
 
 @pytest.mark.apart

@@ -18,6 +18,7 @@ from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isothe
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.notes import Note
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress
+from viscofric.rheology.interface.friction import OF_LIMIT
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.units import Quantity, positive, to_si
@@ -279,7 +280,7 @@ def shear_stress(
     curves, coulomb, coulomb_error = curves.select(keep), coulomb[keep], coulomb_error[keep]
     rows = np.array([partner(curves, row, solved) for row in range(len(curves))])
     pressure = solved.mean_pressure[rows]
-    relative = np.hypot(coulomb_error / coulomb, solved.mean_pressure_error[rows] / pressure)
+    relative = np.hypot(coulomb_error / coulomb, OF_LIMIT * solved.mean_pressure_error[rows] / pressure)
     stress = coulomb * pressure
     if shift is not None:
         shift = shift if kelvin is None else shift.at_reference(kelvin)

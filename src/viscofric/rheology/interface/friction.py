@@ -9,6 +9,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_law import LN10
 
 if TYPE_CHECKING:
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
 #: Within this factor pressures are those of the fit.
 SAME_PRESSURE = 1.5
+#: Error estimates of solved contacts are limits that nearly all contacts keep: taken as ends of 95 % intervals, this
+#: part of them is a standard error.
+OF_LIMIT = 1.0 / LEVEL_95
 
 
 def insist_on_interface(given: object) -> InterfaceLaw:
@@ -46,10 +50,11 @@ def interface_friction(
 ) -> tuple[Array, Array]:
     """Return μ = τ_s(v, T)/p and its standard error at slip speeds, m/s, and mean contact pressures, Pa, of one shape.
 
-    The error of a law of unknown uncertainty is that of the pressure alone.
+    `pressure_error` is the error estimate of solved contacts.  The error of a law of unknown uncertainty is that of the
+    pressure alone.
     """
     friction = np.asarray(law(speed, kelvin)) / pressure
-    relative = pressure_error / pressure
+    relative = OF_LIMIT * pressure_error / pressure
     if law.has_standard_error:
         relative = np.hypot(relative, LN10 * np.asarray(law.standard_error(speed, kelvin)))
     return friction, friction * relative
