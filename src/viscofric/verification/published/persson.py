@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.integrate import quad
@@ -106,7 +106,7 @@ def _flash() -> Iterator[Comparison]:
     material = Material(solid.spectrum, Arrhenius(80e3, _KELVIN), _NU)
     ends = {"longest": 2.0 * math.pi / _WAVE, "shortest": 2.0 * math.pi / (_WAVE * (1.0 + _WIDTH))}
     surface = PowerSpectrum.self_affine(_HURST, **ends, rms_slope=_ONE_SLOPE)
-    asked = {"pressure": _FULL_CONTACT, "temperatures": _KELVIN, "accuracy": 1e-6}
+    asked: dict[str, Any] = {"pressure": _FULL_CONTACT, "temperatures": _KELVIN, "accuracy": 1e-6}
     for speed in (0.1, 1.0, 10.0):
         found = persson_theory(material, surface, speeds=speed, **asked, thermal=_RUBBER)
         rise, friction = heated_wave(material, speed)
