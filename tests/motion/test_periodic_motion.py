@@ -198,6 +198,21 @@ def test_normal_motion_of_a_second_solver() -> None:
     assert [each.area for each in seen] == pytest.approx((found > 0.0).mean(axis=1), abs=1e-9)
 
 
+@pytest.mark.parametrize(("control", "values"), [("pressure", [400.0, 100.0]), ("gap", [5e-7, 9e-7])])
+def test_errors_by_the_contact_conditions_are_as_small_as_stated(control: str, values: list[float]) -> None:
+    # Against the same steps with a twentieth of the tolerance: a contact that begins to slide while it gets lighter.
+    history = vf.History([0.0, 2e-3], **{control: values}, speed=[1.0, 0.2], before="at rest")
+    one, finer = (mover(TWO_MODES, crossed(), history) for _ in range(2))
+    finer._tightness *= 0.05
+    times = np.linspace(0.0, 2e-3, 13).tolist()
+    scales = one.scales
+    for rough, fine in zip(stepped(one, times), stepped(finer, times), strict=True):
+        assert abs(rough.depth - fine.depth) <= one.tolerance * scales.depth
+        assert abs(rough.load - fine.load) <= one.tolerance * max(scales.load, fine.load)
+        friction = np.subtract(rough.friction_force, fine.friction_force)
+        assert np.abs(friction).max() <= one.tolerance * max(scales.friction, np.abs(fine.friction_force).max())
+
+
 @pytest.mark.slow
 def test_pressure_may_go_and_come_back() -> None:
     history = vf.History([0.0, 1e-3, 2e-3, 3e-3, 8e-3], pressure=[1e3, 1e3, 0.0, 0.0, 1e3], speed=0.05)

@@ -59,14 +59,17 @@ class Extension:
         dtype: Any,
         toward: tuple[float, float] = (1.0, 0.0),
         lag: float = 0.0,
+        *,
+        block: int = _BLOCK,
+        reach: float = _REACH,
     ) -> None:
         self.backend, self.dtype, self._lag = backend, dtype, abs(lag)
         self._ahead = _corners_ahead(toward, lag) if lag else []
-        blocks = [next(size for size in range(_BLOCK, 0, -1) if points % size == 0) for points in shape]
+        blocks = [next(size for size in range(block, 0, -1) if points % size == 0) for points in shape]
         self.shape = shape[0] // blocks[0], shape[1] // blocks[1]
         qx = 2.0 * np.pi * np.fft.fftfreq(self.shape[0], blocks[0])
         qy = 2.0 * np.pi * np.fft.rfftfreq(self.shape[1], blocks[1])
-        self._weights = self._array(np.exp(-_REACH * np.hypot(qx[:, None], qy)))
+        self._weights = self._array(np.exp(-reach * np.hypot(qx[:, None], qy)))
         self._means = [self._array(np.full((1, size), 1.0 / size)) for size in blocks]
         self._lines = [self._array(_interpolation(size)) for size in blocks]
 

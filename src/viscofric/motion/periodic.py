@@ -34,15 +34,15 @@ if TYPE_CHECKING:
     from viscofric.motion.schedule import Instant
 
 
-# Complementarity of a step, as a part of what the step may add to the error, over the displacement that follows at once
+# Gap that is left by a step, as a part of what the step may add to the error, over the displacement at once
 # (from the least one on, in rms heights); of the first contact, a part of that.
 _TIGHTNESS, _LEAST_DISPLACEMENT, _FIRST = 0.25, 1e-5, 0.1
 # Friction coefficient, over the rms slope of the surface, that is resolved to the accuracy.
 _LEAST_FRICTION = 0.1
 # Steps whose transfer functions are kept: one, and its halves.
 _KEPT = 2
-# Points from which on residuals are extended, which saves products but costs time.
-_EXTENDED = 10_000
+# Points from which on residuals are extended, which saves products but costs time; blocks and reach, in cells.
+_EXTENDED, _BLOCK, _REACH = 10_000, 4, 1.0
 _SHARES = (0.05, 0.3)  # see `march`: for ridges, and for spots, where errors of steps that come and go nearly cancel
 _SAME = 1e-12  # relative difference up to which steps are the same
 _SINGLE = 1e-4  # accuracy from which on memory is in single precision: each step rounds it to 6e-8 of itself
@@ -106,7 +106,7 @@ class PeriodicMover:
         self._extension = None
         if math.prod(surface.shape) >= _EXTENDED:
             # Without the lag behind edges, which costs more than it saves where few iterations are left.
-            self._extension = Extension(self.backend, surface.shape, np.float32)
+            self._extension = Extension(self.backend, surface.shape, np.float32, block=_BLOCK, reach=_REACH)
         self.products = 0
         self._steps: dict[tuple[float, ...], _Step] = {}
 
@@ -145,8 +145,13 @@ class PeriodicMover:
         compliance = modes.instantaneous + sum(C * share for C, share in zip(modes.C, shares, strict=True))
         problem = self._made(StepResponse.steady(turn, compliance), moving)
         past = np.zeros(turn.shape, complex)
-        pressure, depth = self._solved(problem, past, first, None, None)
+        pressure, depth = self._solved(problem, past, first, None)
         waves = self.grid.of(pressure)
+        if pressure.any():
+            # Once more, to the tolerance of the steps that follow, which respond at first as a stiffer solid.
+            guess = PeriodicState(pressure, waves, past, depth, (0.0, 0.0), 0.0, 0.0)
+            pressure, depth = self._solved(problem, past, first, guess)
+            waves = self.grid.of(pressure)
         scaled = self._scale * waves
         memory = np.empty((len(modes), *waves.shape), self.precision)
         for each, share in zip(memory, shares, strict=True):
@@ -182,10 +187,7 @@ class PeriodicMover:
         problem = self._step_of(clock_step, path, lagging)
         before = self._scale * state.waves
         past = problem.response.known(self.modes, state.memory, before)
-        guess = state.pressure
-        if state.trend is not None and clock_step > 0.0:
-            guess = guess + clock_step * state.trend
-        pressure, depth = self._solved(problem, past, end, guess, state.waves)
+        pressure, depth = self._solved(problem, past, end, state, clock_step)
         waves = self.grid.of(pressure)
         after = advance(problem.response, self.modes, state.memory, before, self._scale * waves, keep=keep)
         trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
@@ -308,32 +310,36 @@ class PeriodicMover:
         return _Step(response, StepContact(exact, exact.for_corrections(), self._extension, toward, self._elastic))
 
     def _solved(
-        self, problem: _Step, past: ComplexArray, end: Instant, guess: Array | None, waves: ComplexArray | None
+        self, problem: _Step, past: ComplexArray, end: Instant, state: PeriodicState | None, clock_step: float = 0.0
     ) -> tuple[Array, float]:
         """Return the pressure and the depth, without the mean displacement, at the end of a step."""
-        known = self._unscaled * past
+        known = self.grid.folded(self._unscaled * past)
         known[0, 0] = 0.0  # a mean displacement is added to the depth afterwards
-        height = self.grid.field(known) + self.height
-        del known  # large
-        load = indentation = None
+        load = indentation = before = None
         if end.gap is None:
-            load = end.pressure / self.pressure_unit * height.size  # type: ignore[operator]
-            if load == 0.0:
-                return np.zeros(height.shape), float(height.min())
+            load = end.pressure / self.pressure_unit * self.height.size  # type: ignore[operator]
         else:
             indentation = self.mean_height - end.gap / self.depth_unit
-            if indentation <= float(height.min()):
-                return np.zeros(height.shape), indentation
-        if load is not None and guess is not None and guess.min() > 0.0:
+        if state is not None and load != 0.0 and state.pressure.any():
+            before = state.pressure
+            known += problem.contact.exact.transfer * self.grid.folded(state.waves)
+        gap = self.grid.unfolded_field(known) + self.height
+        del known  # large
+        if before is None and (load == 0.0 or (indentation is not None and indentation <= float(gap.min()))):
+            return np.zeros(gap.shape), float(gap.min()) if indentation is None else indentation
+        if load is not None and before is not None and before.min() > 0.0:
             # Full contact that persists is a linear problem.
-            level = float(height.mean())
-            pressure = problem.contact.exact.precondition(level - height)
-            pressure += load / height.size - float(pressure.mean())
+            level = float(gap.mean())
+            pressure = before + problem.contact.exact.precondition(level - gap)
+            pressure += load / gap.size - float(pressure.mean())
             if float(pressure.min()) >= 0.0:
                 self.products += 1
                 return pressure, level
-        target = Target(load, indentation, self._tolerance(waves))
-        pressure, depth, products = problem.contact.solved(height, target, guess)
+        change = None
+        if state is not None and state.trend is not None:
+            change = clock_step * state.trend
+        target = Target(load, indentation, self._tolerance(None if state is None else state.waves))
+        pressure, depth, products = problem.contact.solved(gap, before, target, change)
         self.products += products
         return pressure, depth
 

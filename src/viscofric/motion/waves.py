@@ -97,6 +97,7 @@ class Waves:
         found[nx // 2] = 0.5 * (waves[nx // 2] + waves[nx])
         return found
 
-    def field(self, waves: ComplexArray) -> Array:
-        """Field (nx, ny) of waves."""
-        return np.asarray(scipy.fft.irfft2(self.folded(waves), self.shape, overwrite_x=True))
+    def unfolded_field(self, waves: ComplexArray) -> Array:
+        """Field (nx, ny) of folded waves, which are overwritten."""
+        # One axis after the other: irfft2 would take a copy.
+        return np.asarray(scipy.fft.irfft(scipy.fft.ifft(waves, axis=0, overwrite_x=True), self.shape[1], axis=1))
