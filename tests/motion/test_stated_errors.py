@@ -87,3 +87,17 @@ def test_energy_is_balanced_at_the_default_accuracy(indenter, history):
     run = vf.solve_transient(RUBBER, indenter, history, times=np.linspace(0.2, 1.0, 5) * history.time[-1])
     assert run.dissipated[-1] > 0.0
     assert run.energy_imbalance < 1e-4
+
+
+def test_the_stated_error_of_a_pressure_covers_the_marks_of_steps_at_an_advancing_edge():
+    """Against steps for a tenth of the accuracy, on the same springs."""
+    history, times = vf.History([0.0, 0.02], indentation=[0.0, 1e-4]), [0.005, 0.01, 0.02]
+    one, two = (
+        vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=times, accuracy=accuracy)
+        for accuracy in (1e-2, 1e-3)
+    )
+    for time in times:
+        coarse, fine = one.pressure_at(time), two.pressure_at(time)
+        off = float(abs(coarse - fine).max())
+        assert 0.01 * float(fine.max()) < off < coarse.attrs["error"] < 0.5 * float(fine.max())
+        assert fine.attrs["error"] < 0.5 * coarse.attrs["error"]  # of first order in the steps

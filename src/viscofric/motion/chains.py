@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Generic, NamedTuple
 
-from viscofric.motion.mover import Field, Observation, Scales, State
+from viscofric.motion.mover import Field, Mover, Observation, Scales, State
 
 if TYPE_CHECKING:
     from viscofric.motion.schedule import Instant
@@ -127,6 +127,19 @@ class Moment(Generic[State]):
 def faded(spread: Difference, pair: Pair[State]) -> Difference:
     """Return the size of the difference of the chains, or a part of an earlier one: it may pass through zero."""
     return Difference(*(max(abs(now), _FADING * then) for now, then in zip(difference(pair), spread, strict=True)))
+
+
+def field_of(mover: Mover[State], pair: Pair[State]) -> Field:
+    """Return the pressure of the fine chain, with its difference from that of the coarse one as its error."""
+    coarse, fine = (mover.pressure(link.state) for link in pair)
+    return replace(fine, error=fine.apart(coarse))
+
+
+def floor_of(scales: Scales, tolerance: float, instant: Instant) -> Errors:
+    """Return the errors by the contact conditions; none of what is prescribed."""
+    load, depth, friction, energy = (tolerance * one for one in scales)
+    given = instant.depth is None and instant.gap is None
+    return Errors(0.0 if given else load, depth if given else 0.0, friction, energy)
 
 
 def moment_of(

@@ -22,7 +22,6 @@ from viscofric.errors import ConvergenceError
 from viscofric.motion.chains import (
     SAME,
     Difference,
-    Errors,
     Link,
     Moment,
     Pair,
@@ -30,6 +29,8 @@ from viscofric.motion.chains import (
     Track,
     difference,
     faded,
+    field_of,
+    floor_of,
     moment_of,
     over_scales,
 )
@@ -339,10 +340,8 @@ class _March(Generic[State]):
     def _record(self, pair: Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:
         if not asked and self.times is not None:
             return
-        held = self.mover.pressure(pair.fine.state) if self.fields else None
-        load, depth, friction, energy = (self.mover.tolerance * one for one in self._scales)
-        given = instant.depth is None and instant.gap is None
-        floor = Errors(0.0 if given else load, depth if given else 0.0, friction, energy)
+        held = field_of(self.mover, pair) if self.fields else None
+        floor = floor_of(self._scales, self.mover.tolerance, instant)
         early = self.mover.early(self.schedule.since_jump(instant))
         self.moments += times * [
             moment_of(pair, instant, held, self._spread, floor, early=early, extrapolate=self.extrapolate)

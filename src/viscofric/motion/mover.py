@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
+import numpy as np
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -77,10 +79,25 @@ class Field:
         Name of each dimension (``r``; ``x`` and ``y``) → its points.
     pressure : array
         Pa, along these dimensions.
+    error : float
+        Largest error of it by steps, Pa.
     """
 
     axes: Mapping[str, Array]
     pressure: Array = field(repr=False)
+    error: float = 0.0
+
+    def apart(self, other: Field) -> float:
+        """Return the largest difference from a pressure on points of the same lattice, where both have points, Pa."""
+        here, there = [], []
+        for name, one in self.axes.items():
+            two = other.axes[name]
+            first = max(one[0], two[0])
+            i, j = int(np.argmin(np.abs(one - first))), int(np.argmin(np.abs(two - first)))
+            count = min(len(one) - i, len(two) - j)
+            here.append(slice(i, i + count))
+            there.append(slice(j, j + count))
+        return float(np.abs(self.pressure[tuple(here)] - other.pressure[tuple(there)]).max(initial=0.0))
 
 
 class Mover(Protocol[State]):

@@ -107,6 +107,7 @@ def _march(march: Begun) -> dict[str, Any]:
     for place, one in enumerate(moments):
         if one.field is not None:
             named[f"field/{place}/pressure"] = one.field.pressure
+            named[f"field/{place}/error"] = one.field.error
             named |= {f"field/{place}/axes/{name}": values for name, values in one.field.axes.items()}
     return named
 
@@ -201,7 +202,7 @@ def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
     for place, time in enumerate(named["moments/time"].tolist()):
         axes, field = _below(named, f"field/{place}/axes/"), None
         if f"field/{place}/pressure" in named:
-            field = Field(axes, named[f"field/{place}/pressure"])
+            field = Field(axes, named[f"field/{place}/pressure"], float(named[f"field/{place}/error"]))
         instant = Instant(time, float(named["moments/clock"][place]), named["moments/position"][place])
         seen = _observation(
             {one: value[place] for one, value in columns.items()},

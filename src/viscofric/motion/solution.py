@@ -163,7 +163,8 @@ class TransientSolution:
         Returns
         -------
         xarray.DataArray
-            Pa, along ``r``, or along ``x`` and ``y``, from the indenter's axis (m).
+            Pa, along ``r``, or along ``x`` and ``y``, from the indenter's axis (m); its attribute ``error`` is the
+            largest error by steps, Pa, within half a cell or spring of the edge perhaps more.
 
         Raises
         ------
@@ -172,8 +173,9 @@ class TransientSolution:
 
         Notes
         -----
-        Unlike forces and depths, the pressure next to an advancing edge shows the single time steps:
-        for a ball pressed in at a constant rate, 4 % of the largest pressure at an accuracy of 1e-3, 0.6 % at 1e-4.
+        The pressure next to an advancing edge shows the single time steps, far more than forces and depths: for a ball
+        pressed in at a constant rate, up to 9 % of the largest pressure at an accuracy of 1e-3, and 3 % at 1e-4.
+        ``error`` is the largest difference from the same contact with steps twice as long.
         """
         import xarray
 
@@ -187,7 +189,8 @@ class TransientSolution:
                 code="unknown-time",
             )
         axes = {name: (name, values, {"units": "m"}) for name, values in held.axes.items()}
-        attributes = {"units": "Pa", "long_name": "contact pressure", "time": float(self.time[near[-1]])}
+        seconds = float(self.time[near[-1]])
+        attributes = {"units": "Pa", "long_name": "contact pressure", "time": seconds, "error": held.error}
         return xarray.DataArray(held.pressure, coords=axes, dims=tuple(held.axes), attrs=attributes)
 
     def save_state(self, path: str | PathLike[str]) -> None:

@@ -44,9 +44,9 @@ _MOST_POINT_CELLS, _MOST_LINE_CELLS = 400, 3000
 _FINER_STEPS = 0.7
 # Part of the change from grid to grid that is left as the error, which falls with the square of the cells.
 _LEFT = 1.0 / (_FINER**2 - 1.0)
-# Part of the error of the steps that is left after its extrapolation; margin of the friction's error by cells, which
-# covers 97 % of those in benchmarks/motion/stated_errors.py.
-_STEPS_LEFT, _MARGIN = 0.5, 1.5
+# Part of the error of the steps that is left after its extrapolation; margin of the errors of friction and energy by
+# cells, whose signs change; least one of the energy, over that of cells of second order (benchmarks/motion).
+_STEPS_LEFT, _MARGIN, _LEAST_ENERGY = 0.5, 1.5, 1.5
 # Steps after a start that are not judged.
 _RESOLVED_STEPS = 4
 # A first window is so much wider than the elastic contact; it is tried again where the contact is so much shorter.
@@ -256,6 +256,8 @@ def _compared(level: Level, coarser: Level) -> list[Moment[Any]]:
     usual = np.sqrt(np.mean(left**2, axis=0))
     load, depth, energy, along, across = np.maximum(np.abs(left), usual).T[:5]
     friction = _MARGIN * np.hypot(along, across)
+    # All energies share the change by the first indentation, so that their mean is no measure.
+    energy = _MARGIN * np.maximum(energy, _LEAST_ENERGY * here[:, 2] / max(level.cells, 1.0) ** 2)
     found = []
     for place, one in enumerate(fine):
         of_cells = load[place], depth[place], friction[place], energy[place]
