@@ -8,6 +8,8 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import ConvergenceError
+from viscofric.motion.free.box import Box
+from viscofric.motion.free.carried import Lattice
 
 SLS = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
 BALL = vf.Ball("10 mm")
@@ -225,3 +227,32 @@ def test_broad_spectra_repeat_themselves_after_a_few_periods(control, mean, ampl
     )
     work = np.pi * cycle.loss_stiffness * moved**2
     assert cycle.energy_per_cycle == pytest.approx(work, abs=cycle.energy_per_cycle_error, rel=1e-2)
+
+
+def test_memory_is_carried_to_finer_cells_and_other_modes() -> None:
+    # Linear interpolation is exact on planes, and of fields that are linear in ln τ; beyond the box there is nothing.
+    times = np.array([1e-3, 1e-1])
+    coarse = Lattice(Box(-4, -2, 9, 5), 0.3, 0.6, times)
+    x, y = 0.3 * (np.arange(-4, 5) + 0.5), 0.6 * (np.arange(-2, 3) + 0.5)
+    plane = 2.0 + x[:, None] + 0.5 * y
+    fine = coarse.finer(0.2, 0.4, np.array([1e-4, 1e-2, 1e-1]))
+    found = coarse.carried(np.stack([plane, 3.0 * plane]), fine)
+    assert found.shape == (3, *fine.box.shape)
+    x, y = 0.2 * (np.arange(fine.box.nx) + fine.box.i + 0.5), 0.4 * (np.arange(fine.box.ny) + fine.box.j + 0.5)
+    inside = np.ix_((x > -1.05) & (x < 1.35), (y > -0.9) & (y < 1.5))
+    wanted = (2.0 + x[:, None] + 0.5 * y)[inside]
+    assert inside[0].size == 12
+    for field, factor in zip(found, (1.0, 2.0, 3.0), strict=True):
+        assert field[inside] == pytest.approx(factor * wanted)
+    assert x[0] <= -1.2 + 0.1
+    assert np.all(np.abs(found[0][0]) < np.abs(found[0][1]))
+
+
+@pytest.mark.apart
+def test_finer_cells_begin_with_the_memory_of_coarser_ones() -> None:
+    """Three periods on the first grid, two on the next one."""
+    time = 2.0 * np.pi * np.arange(97) / 9600.0
+    path = 1.8e-3 * np.sin(100.0 * time)
+    path[-1] = path[0]
+    cycle = vf.solve_cycle(SLS, BALL, vf.History(time, load=1.0, position=path, before="at rest"), accuracy=0.1)
+    assert cycle.periods == 5

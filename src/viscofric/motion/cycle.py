@@ -149,6 +149,7 @@ class _Search:
     change: float = np.inf
     whole: Track[Any] | None = None  # every step of the period in the periodic state
     found: Found | None = None
+    coarser: tuple[Any, NDArray[Any]] | None = None  # mover on the grid before, and its memory
 
     def follow(
         self,
@@ -166,6 +167,8 @@ class _Search:
         state = mover.begin()
         if schedule.before == "untouched":
             state = mover.step(state, schedule.at(schedule.start, after=False), first)
+        if self.coarser is not None:
+            state = mover.with_memory(state, repeating.memory_from(*self.coarser))
         mixing, plain = _Anderson(self.damping), False
         period: Period | None = None
         for _ in range(self.most_periods):
@@ -192,6 +195,7 @@ class _Search:
                 plain, state = False, mover.with_memory(state, mixing.next(memory, change))
             elif plain and before is not None:
                 coarser = None if self.found is None else self.found.last
+                self.coarser = repeating, reached
                 self.whole, self.found = track, Found(period, before, coarser, self.change, changed, accuracy)
                 if times is None:
                     return track

@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -248,6 +248,10 @@ class NormalMotion:
             matrix = recovery_at_depth(self.glassy / level, self.compliances, self.tau, period)
             found[these] = (change - common)[these] @ matrix.T
         return np.asarray(found + common / freely)
+
+    def memory_from(self, coarser: Any, memory: Array) -> Array:
+        """Return the memory: there is one grid."""
+        return memory
 
     def touching(self, state: SpringState) -> Array:
         """Return 1 for each spring that touches, 0 for the others."""

@@ -250,6 +250,10 @@ class PeriodicMover:
         steps = ((end.clock - start.clock) / self.modes.tau)[:, None, None]
         return change / -np.expm1(-steps + 1j * turn)
 
+    def memory_from(self, coarser: Any, memory: NDArray[Any]) -> NDArray[Any]:
+        """Return the memory: there is one grid."""
+        return memory
+
     def touching(self, state: PeriodicState) -> Array:
         """Return no points: `recovered` does not need them."""
         return np.empty(0)

@@ -35,6 +35,10 @@ class RepeatingMover(Mover[State], Protocol[State]):
         """
         ...
 
+    def memory_from(self, coarser: Any, memory: NDArray[Any]) -> NDArray[Any]:
+        """Return the memory of a mover of the same kind on another grid; of movers that have several grids."""
+        ...
+
     def touching(self, state: State) -> Array:
         """Return 1 for each point that touches, 0 for the others; empty where `recovered` does not need it."""
         ...

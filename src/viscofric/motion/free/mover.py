@@ -18,6 +18,7 @@ from viscofric.contact.free.grids import Extent, Window
 from viscofric.contact.free.stage import Footprint
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
+from viscofric.motion.free.carried import Lattice
 from viscofric.motion.free.cells import Cells
 from viscofric.motion.free.energy import Products
 from viscofric.motion.free.past import NO_PAST, parted
@@ -261,6 +262,15 @@ class FreeMover(Cells):
             matrix = recovery_at_depth(instantaneous, body.compliances, body.times, period)
             return np.tensordot(matrix, change, 1)
         return np.asarray(change / -np.expm1(-period / body.times)[:, None, None])
+
+    def memory_from(self, coarser: FreeMover, memory: Array) -> Array:
+        """Return the memory of a mover with other cells on the cells of this one."""
+        assert coarser._swept is not None
+        times, theirs = self.setting.body.times, coarser.setting.body.times
+        here = Lattice(coarser._swept, coarser.grid.spacing, coarser.grid.width, theirs)
+        there = here.finer(self.grid.spacing, self.grid.width, times)
+        self._swept = there.box
+        return np.asarray(self._roots * here.carried(memory / coarser._roots, there))
 
     def touching(self, state: FreeState) -> Array:
         """Return no points: `recovered` does not need them."""
