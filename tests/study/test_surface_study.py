@@ -236,3 +236,33 @@ def test_check_shows_how_much_it_would_be(tmp_path: Path) -> None:
 def test_a_topography_is_not_taken_for_a_surface() -> None:
     with refused("wrong-type", naming="surface"):
         vf.solve_periodic(RUBBER, surfaces()[0], speed=1.0, pressure=1e4, temperature=300.0)  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_an_interface_acts_on_the_real_contact_area(tmp_path: Path) -> None:
+    """As that of the Python interface on the same surface."""
+    path = tmp_path / "study.toml"
+    text = STUDY.replace("[1, 2]", "1").replace('["30 degC", "60 degC"]', '"30 degC"')
+    path.write_text(text + '[interface]\nlaw = "constant"\nstress = "0.2 MPa"\n', encoding="utf-8")
+    data = run_study(path).dataset
+    surface = vf.self_affine(
+        0.8, shape=(32, 32), spacing="10 um", rolloff="160 um", shortest="80 um", rms_slope=0.2, seed=1
+    )
+    same = vf.predict_rough_friction(
+        RUBBER,
+        surface,
+        speeds=["10 mm/s", "1 m/s"],
+        temperatures="30 degC",
+        pressure="50 kPa",
+        interface=vf.ConstantShearStress("0.2 MPa"),
+        tolerance=1e-7,
+    )
+    np.testing.assert_allclose(data["interface_friction"], same.interface_friction[0, :, 0], rtol=1e-9)
+    np.testing.assert_allclose(data["total_friction"], data["friction_coefficient"] + data["interface_friction"])
+    assert np.all(data["corrected_area_fraction"] < data["contact_area_fraction"])
+
+
+def test_a_law_on_a_surface_has_its_constants(tmp_path: Path) -> None:
+    with pytest.raises(vf.StudyError) as wrong:
+        parse_study(STUDY + "[interface]\n", tmp_path / "study.toml")
+    assert " interface" in str(wrong.value)

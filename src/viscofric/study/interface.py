@@ -12,6 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.interface.prediction import with_interface
 from viscofric.friction.interface.shear_stress import shear_stress
 from viscofric.notes import Note, note_of
+from viscofric.rheology.interface.friction import interface_friction, interface_notes
 from viscofric.study.cases.record import Record
 from viscofric.study.study_rubber import curves_of
 
@@ -23,6 +24,11 @@ if TYPE_CHECKING:
     from viscofric.study.measurement import Measurement
     from viscofric.study.run_file.interface import InterfaceTable
 
+_CUT_OFF = Note(
+    "interface-on-roughness",
+    "The real contact area of a rough surface, and with it the interface's part of friction, grows with shorter "
+    "wavelengths of the surface; the law, found on smooth contacts, is used on that area as it is.",
+)
 #: Speeds at which the law is stored.
 _POINTS = 101
 _BEYOND = 0.2  # decades that these reach beyond the measured ones
@@ -64,6 +70,8 @@ def interface_columns(contacts: Contacts, interface: StudyInterface, requested: 
     table, law, layers = contacts.study.interface, interface.law, contacts.study.layer
     if table is None or law is None:
         return InterfaceColumns({}, [])
+    if contacts.study.surface is not None:
+        return _on_surface(table, law, requested)
     thinnest = None if layers is None else Layer(min(layers.thickness), bonded=layers.base == "bonded")
     least = min(one.material.poisson_ratio for one in contacts.rubbers)
     try:
@@ -79,6 +87,22 @@ def interface_columns(contacts: Contacts, interface: StudyInterface, requested: 
         "total_friction": curves.total,
     }
     return InterfaceColumns(columns, list(map(note_of, curves.notes)))
+
+
+def _on_surface(table: InterfaceTable, law: InterfaceLaw, requested: Solved) -> InterfaceColumns:
+    """Return the part of the interface on the corrected contact area of rough surfaces, with the error of the law."""
+    records = requested.records
+    names = ("pressure", "corrected_area_fraction", "speed", "temperature", "friction_coefficient")
+    nominal, area, speed, kelvin, hysteresis = (np.array([getattr(one, name) for one in records]) for name in names)
+    slip = speed if table.slip is None else np.full(speed.shape, table.slip)
+    local = nominal / area
+    try:
+        friction, error = interface_friction(law, slip, kelvin, local, np.zeros(local.shape))
+        notes = list(interface_notes(law, slip, kelvin, local))
+    except InputError as failed:
+        return InterfaceColumns({}, [_not_predicted(failed)])
+    columns = {"interface_friction": friction, "interface_error": error, "total_friction": hysteresis + friction}
+    return InterfaceColumns(columns, [*notes, _CUT_OFF])
 
 
 def _fitted(

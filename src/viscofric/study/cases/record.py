@@ -13,6 +13,7 @@ from viscofric.contact.solution import LINE_NUMBERS as LINE
 from viscofric.contact.solution import NUMBERS as INDENTER
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note
+from viscofric.roughness.patches import contact_statistics
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -73,7 +74,9 @@ _OF_INDENTER = (
     *("edge_error", "max_pressure_error", "centre_of_pressure"),
 )
 # … and of one on a rough surface.
-_OF_SURFACE = ("pressure", "lateral_friction_coefficient", "contact_area_fraction", "mean_gap")
+_OF_SURFACE = (
+    *("pressure", "lateral_friction_coefficient", "contact_area_fraction", "corrected_area_fraction", "mean_gap"),
+)
 
 
 def _stored(names: tuple[str, ...], meaning: dict[str, Meaning]) -> dict[str, Meaning]:
@@ -81,6 +84,7 @@ def _stored(names: tuple[str, ...], meaning: dict[str, Meaning]) -> dict[str, Me
     more: dict[str, Meaning] = {
         "interpolation_error": ("1", "part of the friction error due to interpolation between solved contacts"),
         "pressure": SURFACE["mean_pressure"],
+        "corrected_area_fraction": ("1", "contact area fraction, corrected for the excess of counted points"),
     }
     return {name: (meaning | more)[name] for name in names}
 
@@ -245,6 +249,7 @@ def surface_record(solution: PeriodicSolution, temperature: float, with_fields: 
         friction_error=solution.diagnostics.friction_error,
         lateral_friction_coefficient=solution.lateral_friction_coefficient,
         contact_area_fraction=solution.contact_area_fraction,
+        corrected_area_fraction=contact_statistics(solution).corrected_area_fraction,
         mean_gap=solution.mean_gap,
         **_common(solution, temperature, max(solution.pressure.shape)),
         fields=_fields(solution) if with_fields else None,

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 _COLUMNS = (
     ("friction_coefficient", True),
     ("contact_area_fraction", True),
+    ("corrected_area_fraction", True),
     ("mean_gap", True),
     ("max_pressure", True),
     ("lateral_friction_coefficient", False),

@@ -192,13 +192,8 @@ def _interface(tables: Tables) -> Iterator[Problem]:
     interface = tables.get("interface")
     if interface is None:
         return
-    if tables.get("surface") is not None:
-        yield (
-            "interface",
-            "needs an [indenter], but there is a rough [surface]; in Python, predict_rough_friction has it",
-        )
     if not interface.is_given and tables.get("measurement") is None:
-        yield "interface", "needs a [measurement] with Coulomb friction, or a law with its constants"
+        yield "interface", "needs a [measurement] with Coulomb friction (of a ball), or a law with its constants"
 
 
 def _heating(tables: Tables) -> Iterator[Problem]:
