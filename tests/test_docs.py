@@ -121,6 +121,7 @@ def test_every_key_of_a_run_file_is_in_the_reference(extensions: dict[str, Modul
         "impact": run_file.ImpactTable,
         "measurement": run_file.MeasurementTable,
         "interface": run_file.InterfaceTable,
+        "heating": run_file.HeatingTable,
         "solver": run_file.SolverTable,
         "uncertainty": run_file.UncertaintyTable,
         "outputs": run_file.OutputsTable,

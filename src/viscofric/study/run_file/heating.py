@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
 from viscofric.errors import brief
 from viscofric.heat.heating import Heating
 from viscofric.study.run_file.tables import Length, Number, Speeds, Table, as_written, listed, one_or_more
-from viscofric.thermal import BODIES, FILLED_RUBBER, body_of
+from viscofric.thermal import BODIES, body_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -63,7 +63,9 @@ class HeatingTable(Table):
         "and heat capacity, or conductivity and diffusivity."
     )
     rubber: Rubber = Field(
-        FILLED_RUBBER, description="The same of the rubber; default: typical handbook values of a filled rubber."
+        "filled rubber",
+        validate_default=True,
+        description="The same of the rubber; default: typical handbook values of a filled rubber.",
     )
     coulomb: Coefficients = Field(
         (0.0,),
