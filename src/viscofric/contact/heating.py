@@ -172,8 +172,11 @@ def _per_loss(released: Dissipation, loss: float) -> Array:
 
 
 def _to_face(released: Dissipation, lengths: Array) -> Array:
-    """Return the factors of `Diffusion.influence` on the face, and from each depth to it."""
-    to_face = np.exp(-np.square(released.depth[:, None] / lengths))
+    """Return the factors of `Diffusion.influence` on the face, and from each layer to it, uniform across its depth."""
+    from scipy.special import erf
+
+    ends = np.concatenate([[0.0], np.cumsum(released.thickness)])[:, None]
+    to_face = 0.5 * math.sqrt(math.pi) * lengths / released.thickness[:, None] * np.diff(erf(ends / lengths), axis=0)
     return np.concatenate([np.ones((1, len(lengths))), to_face])
 
 

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 #: κt/a² below which nothing has spread, and above which M is a normal distribution; sizes of the table between.
 _LEAST, _MOST = 1e-4, 10.0
 _TIMES, _PLACES, _RADII = 41, 81, 400
+#: The loss is released over the depth z like z exp(−z/b), with b in sizes of the contact (see the theory page on heat).
+_DEPTH = {"disc": 0.5, "strip": 0.65}
 #: Standard deviations of diffusion beyond the reach of source and face at which nothing is left.
 _REACH = 7.0
 #: Of the distance between two points, along one axis: under Hertz's pressure and on the face.
@@ -64,7 +66,7 @@ class PathRise(NamedTuple):
 def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -> PathRise:
     """Return the rise along a path by Coulomb heat on the face and loss below it, heats (n,) since the time before.
 
-    The loss is released evenly to the depth of the contact's size, and stays in the rubber; of the Coulomb heat each
+    The loss is released below the face, and stays in the rubber; of the Coulomb heat each
     body takes so much that both faces are equally warm at all times.
     """
     count = len(passage.time)
@@ -111,15 +113,15 @@ def _response(passage: Passage, body: ThermalProperties, row: int, last: int, ra
     scale = body.volume_heat * math.sqrt(math.pi * body.diffusivity) * radius ** _POWER[passage.shape]
     each = 2.0 * (half * _WEIGHTS).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
     each /= scale * (start**2 - end**2)
-    return float(each.sum()), float(each @ _from_below(spread))
+    return float(each.sum()), float(each @ _from_below(spread, passage.shape))
 
 
-def _from_below(spread: Array) -> Array:
-    """Return ∫_0^1 exp(−z²/(4κt/a²)) dz: what heat spread evenly to a depth does at the face, over heat on it."""
-    from scipy.special import erf
+def _from_below(spread: Array, shape: str) -> Array:
+    """Return what heat released below the face does to it over heat on it: the mean of exp(−z²/4κt) over its depth."""
+    from scipy.special import erfcx
 
-    x = 0.5 / np.sqrt(spread)
-    return np.asarray(0.5 * math.sqrt(math.pi) * erf(x) / x)
+    x = np.sqrt(spread) / _DEPTH[shape]
+    return np.asarray(2.0 * x**2 * (1.0 - math.sqrt(math.pi) * x * erfcx(x)))
 
 
 def density(distance: Array, spread: Array, shape: str) -> Array:
