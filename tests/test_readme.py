@@ -215,9 +215,10 @@ def test_blocks_and_commands_are_found() -> None:
     assert (console.line, script.line, output.language) == (3, 8, "")
 
 
-def test_the_tutorial_shows_the_figures_that_it_draws() -> None:
+@pytest.mark.parametrize("name", ["index.md", "tread.md"])
+def test_tutorials_show_the_figures_that_they_draw(name: str) -> None:
     """They are drawn by its own Python when the site is built, so that each that it shows must be saved there."""
-    page = (ROOT / "docs" / "tutorial" / "index.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "tutorial" / name).read_text(encoding="utf-8")
     shown = re.findall(r"_generated/tutorial/([\w-]+\.svg)", page)
     saved = re.findall(r'savefig\("([\w-]+\.svg)"\)', page)
     assert shown

@@ -1,4 +1,4 @@
-"""The figures of the tutorial: drawn by the Python that the page shows, in the order in which a reader types it."""
+"""The figures of the tutorials: drawn by the Python that a page shows, in the order in which a reader types it."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from viscofric.cli import main
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-PAGE = DOCS / "tutorial" / "index.md"
-_DEPENDS_ON = ("contact", "example", "friction", "readers", "report", "rheology")
+PAGES = tuple(sorted((DOCS / "tutorial").glob("*.md")))
+_DEPENDS_ON = ("contact", "example", "friction", "heat", "readers", "report", "rheology", "roughness")
 _BLOCK = re.compile(r"^```(python|console)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _FILES = "$ viscofric new "  # what puts files there that the Python reads
 _NEEDS_A_STUDY = "open_results("  # runs after commands that draw nothing for the page
@@ -52,7 +52,7 @@ def draw(page: str) -> dict[str, bytes]:
             elif _NEEDS_A_STUDY not in text:
                 above = page.count("\n", 0, block.start()) + 1  # lines, so that a traceback names the page's
                 with contextlib.redirect_stdout(io.StringIO()):
-                    exec(compile("\n" * above + text, str(PAGE), "exec"), names)
+                    exec(compile("\n" * above + text, "tutorial", "exec"), names)
         return {path.name: path.read_bytes() for path in sorted(Path().glob("*.svg"))}
 
 
@@ -74,11 +74,12 @@ def _repeatable() -> Iterator[None]:
 
 
 def generate() -> None:
-    """Draw them unless they were drawn by the present page and code."""
-    page = PAGE.read_text(encoding="utf-8")
-    state = digest(*_DEPENDS_ON) + hashlib.sha256(page.encode()).hexdigest()
+    """Draw them unless they were drawn by the present pages and code."""
+    pages = [page.read_text(encoding="utf-8") for page in PAGES]
+    state = digest(*_DEPENDS_ON) + hashlib.sha256("".join(pages).encode()).hexdigest()
     if is_made_of("tutorial", state):
         return
-    for name, image in draw(page).items():
-        write(f"tutorial/{name}", image)
+    for page in pages:
+        for name, image in draw(page).items():
+            write(f"tutorial/{name}", image)
     made_of("tutorial", state)
