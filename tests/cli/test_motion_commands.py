@@ -160,7 +160,10 @@ def test_a_rough_surface_slides_under_a_pressure_and_goes_on_from_its_state(tmp_
     again = record(*words, "--slide", "20 um", "--resume", tmp_path / "begun.npz")
     assert again["results"]["time"][: len(run.time)] == begun["results"]["time"]
     assert again["results"]["time"][-1] == pytest.approx(3e-3)
-    assert "mean pressure" in lines(call(*words, "--slide", "10 um"))
+    said = call(*words, "--slide", "10 um")
+    assert "mean pressure" in lines(said)
+    assert "Note: " in said.stdout
+    assert [note["code"] for note in begun["note_records"]] == ["errors-in-time"]
     assert refusal(*words[:-2], "--load", "1 N").status == 2
     assert refusal(*words[:-2], *BALL).status == 2
     assert refusal("transient", *PRESS, "--prepare", "window").status == 2

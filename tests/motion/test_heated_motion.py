@@ -38,6 +38,21 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     assert set(run.to_dataset()) >= {"temperature_rise", "temperature_rise_error", "isothermal_friction_force"}
 
 
+def test_a_heated_contact_has_no_state_to_go_on_from_and_one_progress_of_all_its_runs() -> None:
+    told: list[float] = []
+    history = vf.History([0.1, 0.3, 0.3, 1.0], load=[1.0, 1.0, 5.0, 5.0], temperature="20 degC")
+    run = vf.solve_transient(
+        vf.synthetic_fluoroelastomer(), BALL, history, times=[0.5, 1.0], accuracy=5e-2, heating=HEATING,
+        progress=lambda reached, end: told.append(reached),
+    )  # fmt: skip
+    assert run.heating is not None
+    assert run.heating.loss_heat == pytest.approx(run.dissipated)
+    assert told[0] < 0.55  # the first run takes half of the history
+    assert (np.diff(told).min() >= 0.0, told[-1]) == (True, 1.0)
+    with refused("not-available"):
+        run.save_state("never.npz")
+
+
 def test_what_cannot_be_heated_over_time_is_refused() -> None:
     material = vf.synthetic_fluoroelastomer()
     pressed = vf.History([0.0, 1.0], load=1.0, temperature="20 degC")

@@ -80,6 +80,19 @@ def test_jumps_at_both_ends_keep_both_values():
     assert ends == [-1e-4, 0.0, 1e-4, 2e-4]
 
 
+def test_a_time_that_misses_an_end_by_rounding_is_that_end():
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+    history = vf.History([0.1, 0.3], load=1.0)
+    asked = [0.3 - 0.1 - 0.1, 0.1 + 0.2]
+    assert asked[0] < 0.1
+    assert asked[1] > 0.3
+    run = vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=asked, accuracy=0.1)
+    assert run.time.tolist() == [0.1, 0.3]
+    for beyond in (0.3 * (1.0 + 3e-12), 0.1 - 1e-12):
+        with refused("out-of-range"):
+            vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=[beyond], accuracy=0.1)
+
+
 def test_times_are_dense_after_each_kink():
     history = vf.History([0.0, 1.0, 1.0, 3.0], load=1.0, speed=[0.0, 0.0, 0.1, 0.1])
     times = np.array(dense_times(history, 45))

@@ -103,9 +103,9 @@ def test_an_interrupted_run_goes_on_from_a_file(tmp_path: Path, name: str, part:
     begun = solved(name, progress=stopped_after(max(1, int(part * steps))))
     assert begun.interrupted
     if name == "far memory":
-        assert begun._restart.reached.pair.fine.state.past.pieces
+        assert begun._restart.track.reached.pair.fine.state.past.pieces
     if name == "slid":
-        assert begun._restart.reached.pair.fine.state.wake is not None
+        assert begun._restart.track.reached.pair.fine.state.wake is not None
     begun.save_state(tmp_path / "begun.npz")
     again = solved(name, resume=tmp_path / "begun.npz")
     same(again, run)

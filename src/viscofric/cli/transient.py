@@ -214,7 +214,7 @@ def _print(
     name: str, rubber: NamedRubber, history: History, result: TransientSolution | CycleSolution, seconds: float
 ) -> None:
     from viscofric.motion.cycle_solution import CycleSolution
-    from viscofric.report.texts.motion import cycle_lines, history_words, transient_lines
+    from viscofric.report.texts.motion import cycle_lines, history_words, notes_on_errors, transient_lines
 
     synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
     click.echo(f"{name}{synthetic}")
@@ -227,6 +227,8 @@ def _print(
     width = max(len(quantity) for quantity, _ in lines)
     for quantity, value in lines:
         click.echo(f"{quantity:<{width}}  {value}")
+    for note in notes_on_errors(result.run if isinstance(result, CycleSolution) else result):
+        click.echo(f"Note: {note}")
 
 
 def _draw(

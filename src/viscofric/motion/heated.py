@@ -7,7 +7,7 @@ longer changes.  Heat acts on the future only, so that this converges quickly.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from viscofric.heat.heating import Heating
 from viscofric.heat.path import Passage, path_rise
 from viscofric.heat.result import TransientHeating
 from viscofric.motion.history import History, dense_times
+from viscofric.motion.progress import Progress
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 #: Times at which the rise is found, besides those asked for, and most runs.
 _POINTS, _MOST_RUNS = 60, 12
+#: Part of what remains of the work that the first run takes, and each of the next.
+_PARTS = 0.5, 0.5
 #: Friction changes by less than so many times itself with a decade of α.
 _STEEPEST = 2.5
 
@@ -54,7 +57,7 @@ def solve_heated(
     assert history.temperature is not None
     own = dense_times(history, max(_POINTS, 2 * len(history.time)))
     grid = sorted([*own, *(set(times or ()) - set(own))])
-    told = None if progress is None else _Runs(progress)
+    told = None if progress is None else Progress(progress, grid[0], grid[-1], *_PARTS)
     isothermal = run = solve(history, grid, told)
     schedule = problem.schedule
     around = np.array([schedule.temperature(time, after=after) for time, after in _sided(grid)])
@@ -62,14 +65,17 @@ def solve_heated(
     for _ in range(_MOST_RUNS):
         if run.interrupted:
             said = "Interrupted before the rise of temperature was known: the friction is not that of a heated contact."
-            return replace(run, warnings=(*run.warnings, Note("not-heated", said)))
-        found = _rise(problem, run, heating)
+            return replace(run, warnings=(*run.warnings, Note("not-heated", said)), _restart=None)
+        heats = _heats(run, heating)
+        found = _rise(problem, run, heating, heats)
         change = np.abs(np.asarray(law.log10(around + found.rise)) - np.asarray(law.log10(around + rise)))
         residual = np.abs(found.rise - rise)
         if float(change.max()) * _STEEPEST <= problem.accuracy:
             break
         rise = found.rise
-        run = solve(_warmer(problem, history, grid, around + rise), grid, None if told is None else told.next())
+        if told is not None:
+            told.next()
+        run = solve(_warmer(problem, history, grid, around + rise), grid, told)
     else:
         raise ConvergenceError(
             f"the temperature of the contact did not settle in {_MOST_RUNS} runs: it still changes by "
@@ -77,15 +83,15 @@ def solve_heated(
             code="temperature-not-settled",
         )
     if told is not None:
-        told.end()
-    coulomb, loss = _heats(run, heating)
+        told.end_all()
     heated = TransientHeating(
-        rise, found.by_loss, np.cumsum(coulomb), np.cumsum(loss), np.cumsum(found.counterface),
-        isothermal.friction_force, residual, _change_with_half(problem, run, heating, found),
+        rise, found.by_loss, *heats, np.cumsum(found.counterface), isothermal.friction_force, residual,
+        _change_with_half(problem, run, heating, heats, found),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
     run = replace(run, warnings=(*run.warnings, *_thin_skin(problem, run, heating, rise)))
-    chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep))
+    # A state of the last run is no state of the heated contact.
+    chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
     return chosen
 
 
@@ -154,8 +160,14 @@ def _warmer(problem: Problem, history: History, grid: Sequence[float], temperatu
     return History(list(grid), **given, temperature=temperature, before=history.before, direction=history.direction)
 
 
-def _rise(problem: Problem, run: TransientSolution, heating: Heating, rows: Indices | None = None) -> PathRise:
-    coulomb, loss = (np.cumsum(one) for one in _heats(run, heating))
+def _rise(
+    problem: Problem,
+    run: TransientSolution,
+    heating: Heating,
+    heats: tuple[Array, Array],
+    rows: Indices | None = None,
+) -> PathRise:
+    coulomb, loss = heats
     rows = np.arange(len(run.time), dtype=np.intp) if rows is None else rows
     shape = "strip" if problem.kind == "line" else "disc"
     passage = Passage(run.time[rows], run.position[rows], _sizes(problem, run)[rows], shape)
@@ -163,7 +175,7 @@ def _rise(problem: Problem, run: TransientSolution, heating: Heating, rows: Indi
 
 
 def _heats(run: TransientSolution, heating: Heating) -> tuple[Array, Array]:
-    """Return Coulomb heat and loss since the time before; what a jump releases counts after it."""
+    """Return Coulomb heat and loss since the start; what a jump releases counts after it."""
     way = np.hypot(*np.diff(run.position, axis=0).T)
     load = 0.5 * (run.load[1:] + run.load[:-1])
     coulomb = np.concatenate([[0.0], heating.coulomb * load * way])
@@ -172,13 +184,15 @@ def _heats(run: TransientSolution, heating: Heating) -> tuple[Array, Array]:
         if row + 1 < len(loss):
             loss[row + 1] += loss[row]
             loss[row] = 0.0
-    return coulomb, loss
+    return np.cumsum(coulomb), np.cumsum(loss)
 
 
-def _change_with_half(problem: Problem, run: TransientSolution, heating: Heating, found: PathRise) -> Array:
+def _change_with_half(
+    problem: Problem, run: TransientSolution, heating: Heating, heats: tuple[Array, Array], found: PathRise
+) -> Array:
     """Return how much the rise changes with every other time left out, interpolated."""
     rows = np.unique(np.append(np.arange(0, len(run.time), 2), len(run.time) - 1))
-    change = np.abs(_rise(problem, run, heating, rows).rise - found.rise[rows])
+    change = np.abs(_rise(problem, run, heating, heats, rows).rise - found.rise[rows])
     return np.asarray(np.interp(np.arange(len(run.time)), rows, change))
 
 
@@ -205,23 +219,3 @@ def _selected(found: Any, keep: Sequence[int]) -> Any:
         elif one.name == "_fields" and value:
             chosen[one.name] = tuple(value[row] for row in rows)
     return replace(found, **chosen)
-
-
-@dataclass(eq=False)
-class _Runs:
-    """One progress of several runs, whose number is not known before: each takes half of what remains."""
-
-    whole: Callable[[float, float], object]
-    begun: float = 0.0
-    last: float = 0.0
-
-    def __call__(self, reached: float, end: float) -> None:
-        self.last = end
-        self.whole((self.begun + 0.5 * (1.0 - self.begun) * reached / end) * end if end > 0.0 else reached, end)
-
-    def next(self) -> _Runs:
-        self.begun += 0.5 * (1.0 - self.begun)
-        return self
-
-    def end(self) -> None:
-        self.whole(self.last, self.last)

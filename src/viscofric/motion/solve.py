@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from viscofric.units import Quantities
 
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
+_ROUNDING = 1e-12  # of times, relative to the ends of the history
 _RING = Note(
     "not-one-disc",
     "The profile of the indenter does not rise all the way outwards, so that its contact may be a ring: it was solved "
@@ -68,7 +69,7 @@ def solve_transient(
     indenter : Indenter or PeriodicSurface
     history : History
     times : (m,) array of float, str or pint.Quantity, optional
-        Times to return, ascending, within the history, s; they are met exactly.  All steps if omitted.
+        Times to return, ascending, within the history (to 1e-12 of it), s; they are met exactly.  All steps if omitted.
     accuracy : float
         Largest error of load, indentation, friction force and energy in time, relative to their largest values so far.
     layer : Layer, optional
@@ -299,6 +300,9 @@ def checked_times(times: Quantities | None, schedule: Schedule) -> list[float] |
     seconds = to_si_array(times, "s", "times")
     if not len(seconds) or np.any(np.diff(seconds) < 0.0):
         raise InputError(f"times = {brief(times)}: must be one or more times in ascending order.", code="not-sorted")
+    near = _ROUNDING * max(abs(schedule.start), abs(schedule.end))
+    for end in (schedule.start, schedule.end):  # such as 0.1 + 0.2 of a history up to 0.3
+        seconds = np.where(np.abs(seconds - end) <= near, end, seconds)
     if seconds[0] < schedule.start or seconds[-1] > schedule.end:
         outside = seconds[0] if seconds[0] < schedule.start else seconds[-1]
         raise InputError(

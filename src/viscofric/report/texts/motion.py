@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.datasets import plain, record
-from viscofric.notes import listed
+from viscofric.notes import Note, listed
 from viscofric.report.texts.numbers import degrees, length, prefixed, short, significant, with_error
 from viscofric.report.texts.tables import aligned
 
@@ -19,6 +19,11 @@ if TYPE_CHECKING:
     from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
     from viscofric.motion.solution import TransientSolution
 
+_ERRORS_IN_TIME = Note(
+    "errors-in-time",
+    "The stated errors (±) of a rough contact over time are those in time; they do not include those of the distance "
+    "between the surface's points.",
+)
 #: Friction below this part of the largest load is rounding.
 _ROUND_OFF = 1e-12
 _FORCES = {"point": ("N", "J"), "line": ("N/m", "J/m"), "periodic": ("Pa", "J/m²")}
@@ -46,6 +51,11 @@ def _range(values: Any, unit: str) -> str:
     if low == high:
         return prefixed(high, None, unit)
     return f"{prefixed(low, None, unit)} to {prefixed(high, None, unit)}"
+
+
+def notes_on_errors(run: TransientSolution) -> tuple[Note, ...]:
+    """Return a note on what the stated errors do not include."""
+    return (_ERRORS_IN_TIME,) if run.geometry == "periodic" else ()
 
 
 def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, str]]:
@@ -239,5 +249,6 @@ def transient_record(
         "steps": run.steps,
         "rejected_steps": run.rejected_steps,
         **listed("warnings", run.warnings),
+        **listed("notes", notes_on_errors(run)),
         "seconds": seconds,
     }
