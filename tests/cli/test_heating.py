@@ -60,7 +60,7 @@ def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None
 @pytest.mark.slow
 @pytest.mark.apart
 def test_a_contact_over_time_is_heated() -> None:
-    options = ["--slide", "1 mm", "--speed", "0.1 m/s", "--times", "5 ms, 10 ms", *HEAT]
+    options = ["--slide", "1 mm", "--speed", "0.1 m/s", "--times", "5 ms, 10 ms", "--heating", "PTFE", *HEAT[2:]]
     found = json.loads(run("transient", *LINE, *options, "--json"))
     assert found["results"]["temperature_rise"][1] > found["results"]["temperature_rise"][0] > 0.0
 
