@@ -1,95 +1,61 @@
 // Tools in the page's header: undo and redo, the menu of units, light and dark.
 
 import { chooseTheme, isDark } from "./figures.js";
-import { button, h, icon } from "./parts.js";
-import { effect } from "./reactive.js";
+import { html, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
+import { Button, Icon } from "./views.js";
+
+const Units = view(() => {
+  const row = ({ kind, title, units: all, chosen }) => html`
+    <label for="unit-${kind}">${title}</label>
+    <select id="unit-${kind}" value=${chosen} onChange=${({ target }) => units.choose(kind, target.value)}>
+      ${all.map((one) => html`<option value=${one} selected=${one === chosen}>${one}</option>`)}
+    </select>
+  `;
+  const set = (name) => html`<${Button} kind="small" onClick=${() => units.choose(name)}>${name}<//>`;
+  return html`
+    <button type="button" class="button quiet" aria-label="Units" popovertarget="units-menu">
+      <${Icon} name="units" /><span>Units</span>
+    </button>
+    <div class="menu" id="units-menu" popover="auto" role="dialog" aria-label="Units">
+      <div class="menu-sets" role="group" aria-label="Sets of units">${units.systems.map(set)}</div>
+      <div class="menu-grid">${units.choices().map(row)}</div>
+    </div>
+  `;
+});
+
+const Theme = view(() => {
+  const [now, other] = isDark() ? ["Dark", "light"] : ["Light", "dark"];
+  return html`<${Button} kind="quiet" symbol="theme" aria-label="${now}; change to ${other}"
+    title=${isDark() ? "Light" : "Dark"} onClick=${() => chooseTheme(other)} />`;
+});
+
+const WAYS = [
+  ["undo", "Undo", "Ctrl+Z", "canUndo"],
+  ["redo", "Redo", "Ctrl+Shift+Z", "canRedo"],
+];
+const change = (announce, way) => state[way]() && announce(way === "undo" ? "Undone." : "Redone.");
+
+const History = view(({ announce }) =>
+  WAYS.map(
+    ([way, label, keys, can]) =>
+      html`<${Button} kind="quiet" symbol=${way} title="${label} (${keys})" aria-label=${label} disabled=${!state[can]}
+        onClick=${() => change(announce, way)} />`,
+  ),
+);
 
 /** All tools; `announce` gives screen readers a sentence on what was done. */
-export function headerTools(announce) {
-  return [...undoButtons(announce), ...unitsMenu(), themeButton()];
+export function Tools({ announce }) {
+  return html`<${History} announce=${announce} /><${Units} /><${Theme} />`;
 }
 
-function unitsMenu() {
-  const panel = h("div", { class: "menu", id: "units-menu", popover: "auto", role: "dialog", "aria-label": "Units" });
-  const opener = h(
-    "button",
-    { type: "button", class: "button quiet", "aria-label": "Units", popovertarget: "units-menu" },
-    icon("units"),
-    h("span", {}, "Units"),
-  );
-  const fill = () => {
-    const rows = units.choices().map(({ kind, title, units: all, chosen }) => {
-      const select = h(
-        "select",
-        { id: `unit-${kind}` },
-        all.map((one) => h("option", { value: one, selected: one === chosen }, one)),
-      );
-      select.addEventListener("change", () => units.choose(kind, select.value));
-      return [h("label", { for: `unit-${kind}` }, title), select];
-    });
-    const sets = units.systems.map((name) => button({ label: name, kind: "small", onClick: () => units.choose(name) }));
-    panel.replaceChildren(
-      h("div", { class: "menu-sets", role: "group", "aria-label": "Sets of units" }, sets),
-      h("div", { class: "menu-grid" }, rows.flat()),
-    );
-  };
-  effect(() => {
-    const focused = document.activeElement?.id;
-    fill();
-    if (focused) document.getElementById(focused)?.focus();
-  });
-  return [opener, panel];
-}
-
-function themeButton() {
-  const toggle = h("button", { type: "button", class: "button quiet" }, icon("theme"));
-  toggle.addEventListener("click", () => chooseTheme(isDark() ? "light" : "dark"));
-  effect(() => {
-    toggle.setAttribute("aria-label", isDark() ? "Dark; change to light" : "Light; change to dark");
-    toggle.title = isDark() ? "Light" : "Dark";
-  });
-  return toggle;
-}
-
-function undoButtons(announce) {
-  const change = (how, word) => () => state[how]() && announce(`${word}.`);
-  const undo = h(
-    "button",
-    {
-      type: "button",
-      class: "button quiet",
-      title: "Undo (Ctrl+Z)",
-      "aria-label": "Undo",
-      onclick: change("undo", "Undone"),
-    },
-    icon("undo"),
-  );
-  const redo = h(
-    "button",
-    {
-      type: "button",
-      class: "button quiet",
-      title: "Redo (Ctrl+Shift+Z)",
-      "aria-label": "Redo",
-      onclick: change("redo", "Redone"),
-    },
-    icon("redo"),
-  );
-  effect(() => {
-    undo.disabled = !state.canUndo;
-    redo.disabled = !state.canRedo;
-  });
+/** Undo and redo by the keyboard; in a text field they are the field's. */
+export function followKeys(announce) {
   document.addEventListener("keydown", (event) => {
-    if (
-      !(event.ctrlKey || event.metaKey) ||
-      event.key.toLowerCase() !== "z" ||
-      /^(text|number)$/.test(event.target.type ?? "")
-    )
-      return;
+    const asked = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
+    if (!asked || /^(text|number)$/.test(event.target.type ?? "")) return;
     event.preventDefault();
-    (event.shiftKey ? redo : undo).click();
+    change(announce, event.shiftKey ? "redo" : "undo");
   });
-  return [undo, redo];
 }

@@ -3,9 +3,9 @@
 import * as api from "./api.js";
 import * as figures from "./figures.js";
 import * as fields from "./fields.js";
-import { headerTools } from "./header.js";
+import { Tools, followKeys } from "./header.js";
 import { Job, newest, result } from "./jobs.js";
-import { effect, html } from "./reactive.js";
+import { effect, html, render } from "./reactive.js";
 import { state } from "./state.js";
 import contact from "./steps/contact.js";
 import * as units from "./units.js";
@@ -228,7 +228,8 @@ async function begin() {
   try {
     app.start = await api.getStart();
     state.begin(app.start.study);
-    document.getElementById("tools").append(...headerTools(announce));
+    render(html`<${Tools} announce=${announce} />`, document.getElementById("tools"));
+    followKeys(announce);
     STEPS.forEach((module, at) => addStep(module, at + 1));
   } catch (error) {
     main.append(fields.note([`The page could not be started: ${error.message}`], "error"));

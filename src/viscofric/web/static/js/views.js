@@ -24,6 +24,15 @@ export const Icon = ({ name }) =>
 export const Button = ({ kind = "", symbol, children, ...rest }) =>
   html`<button type="button" class="button ${kind}" ...${rest}>${symbol && html`<${Icon} name=${symbol} />`}${children}</button>`;
 
+/** A row of buttons of which one is pressed. */
+export const Pick = ({ label, options, value, onChange }) =>
+  html`<div class="row" role="group" aria-label=${label}>
+    ${options.map(([one, text]) => {
+      const kind = one === value ? "small main" : "small";
+      return html`<${Button} kind=${kind} aria-pressed=${one === value} onClick=${() => onChange(one)}>${text}<//>`;
+    })}
+  </div>`;
+
 /** A card with a heading, for figures and forms that belong together. */
 export const Card = ({ title, children, ...rest }) =>
   html`<section class="card" ...${rest}><h2>${title}</h2>${children}</section>`;
@@ -57,8 +66,10 @@ export const Table = view(({ of, head, rows, caption }) => {
   </div>`;
 });
 
+const cancelledOnly = ({ cancelled }) => (cancelled ? "Cancelled." : "");
+
 /** Progress of a job with a button that cancels it; `ended({seconds, cancelled})` words its end. */
-export const Progress = view(({ job, label, ended = ({ cancelled }) => (cancelled ? "Cancelled." : "") }) => {
+export const Progress = view(({ job, label, cancels = true, ended = cancelledOnly }) => {
   const { done, total, label: words } = job.progress ?? {};
   const counted = total > 1 ? `${Math.round(done)} of ${total}` : "";
   const text = job.progress
@@ -69,7 +80,7 @@ export const Progress = view(({ job, label, ended = ({ cancelled }) => (cancelle
   return html`<div class="progress ${job.progress ? "" : "done"}" hidden=${text === ""}>
     ${job.progress && html`<progress max="1" ...${total > 0 ? { value: done / total } : {}} aria-label=${label} />`}
     <span class="progress-text">${text}</span>
-    ${job.progress && html`<${Button} kind="quiet small" onClick=${() => job.cancel()}>Cancel<//>`}
+    ${job.progress && cancels && html`<${Button} kind="quiet small" onClick=${() => job.cancel()}>Cancel<//>`}
   </div>`;
 });
 

@@ -1,12 +1,12 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
-import { shows } from "../jobs.js";
-import { effect } from "../reactive.js";
+import { effect, html, render, view } from "../reactive.js";
+import { Card, Dom, Figure, Notes, Numbers, Progress, shown } from "../views.js";
 import { decades, rubber, shownRubber, sourceOf, synthetic } from "./made.js";
-import { qualityCards } from "./quality.js";
+import { Quality } from "./quality.js";
 import { shiftedCard } from "./shifted.js";
 import { stepFigure } from "./sweeps_figures.js";
-import { alphaFigure, lawTable, limitsInWords, residualTraces, verticalFigure } from "./shift_figures.js";
+import { LawTable, alphaFigure, limitsInWords, residualTraces, verticalFigure } from "./shift_figures.js";
 
 const SHIFTS = [
   ["measured", "as measured"],
@@ -33,86 +33,73 @@ const KIND = {
 };
 
 export function mount(section, app) {
-  const { fields, figures } = app;
-  const { h, card, note } = fields;
-  const wait = fields.progressBar(rubber.start(), { label: "Fitting the material", cancels: false });
-  const problem = note([], "error");
-  const nothing = note([], "note");
-  const verdict = verdictCard(app);
   const form = settings(app);
   const shifted = shiftedCard(app);
-  const factors = card("Shift factors");
-  const alpha = figures.figure(factors, {
-    id: "shift-factors",
-    title: "Shift factor against temperature",
-    x: { label: "temperature", kind: "temperature" },
-    y: { label: "log₁₀ α" },
-    traces: [],
+  rubber.start();
+  const Shift = view(() => {
+    const of = shownRubber();
+    const none = of && !of.shift && "This material has no shift factors: it is valid at one temperature only.";
+    return html`
+      <p>All isotherms are shifted along the frequency axis at once, onto one master curve.</p>
+      <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} /></div>
+      <${Notes} kind="error" list=${[rubber.error && app.explain(rubber.error, "shift")]} />
+      <${Notes} list=${[none]} />
+      <div class="columns">
+        <div><${Dom} of=${form} /></div>
+        <div>${of?.check && html`<${Verdict} of=${of} />`}<${Notes} of=${of} kind="warning" list=${of?.notes} /></div>
+      </div>
+      <div class="columns"><div><${Dom} of=${shifted.controls} /></div><div><${Dom} of=${shifted} /></div></div>
+      ${of?.shift && html`<${Factors} app=${app} of=${of} />`}
+    `;
   });
-  const limits = h("p", { class: "help" });
-  factors.append(limits);
-  const laws = card("Laws");
-  const explanation = h("p", { class: "help" });
-  const table = h("div", { class: "words" });
-  laws.append(explanation, table);
-  const over = h("div", { class: "card" });
-  const steps = figures.figure(over, { id: "shifted-steps", title: "Creep and relaxation tests over reduced time", x: {}, y: {}, traces: [] });
-  const left = card("Residuals of each law");
-  const residual = figures.figure(left, {
-    id: "law-residuals",
-    title: "Measured factors over each law",
-    caption: "log₁₀ of the measured over the law’s α; the band is the measurement’s 95 %.",
-    x: { label: "temperature", kind: "temperature" },
-    y: { label: "log₁₀ measured/law" },
-    traces: [],
-  });
-  const quality = qualityCards(app);
-  const vertical = card("Vertical shift");
-  const b = figures.figure(vertical, {
-    id: "vertical-shift",
-    title: "Vertical shift b(T)",
-    x: { label: "temperature", kind: "temperature" },
-    y: { label: "b" },
-    traces: [],
-  });
-  const notes = note([], "warning");
-  section.append(
-    h("p", {}, "All isotherms are shifted along the frequency axis at once, onto one master curve."),
-    h("div", { class: "waiting" }, wait),
-    problem,
-    nothing,
-    h("div", { class: "columns" }, h("div", {}, form), h("div", {}, verdict, notes)),
-    h("div", { class: "columns" }, h("div", {}, shifted.controls), h("div", {}, shifted)),
-    h("div", { class: "grid" }, over, factors, left),
-    laws,
-    h("div", { class: "grid thirds" }, ...quality.cards, vertical),
-  );
-
-  effect(() => {
-    const result = shownRubber();
-    problem.set(rubber.error ? [app.explain(rubber.error, "shift")] : []);
-    const shift = result?.shift;
-    for (const one of [verdict, laws, notes, limits]) shows(one, result);
-    nothing.set(
-      result && !shift ? ["This material has no shift factors: it is valid at one temperature only."] : [],
-    );
-    verdict.show(result);
-    factors.hidden = !shift;
-    laws.hidden = left.hidden = !shift?.laws.length;
-    over.hidden = !shift?.steps;
-    vertical.hidden = !shift?.vertical;
-    quality.show(result);
-    notes.set(result?.notes ?? []);
-    if (!shift) return;
-    alpha.update({ of: result, ...alphaFigure(result, app) });
-    if (shift.steps) steps.update({ of: result, ...stepFigure(shift.steps, synthetic(result, app), app) });
-    limits.textContent = limitsInWords(shift, app);
-    explanation.textContent = shift.explanation;
-    table.replaceChildren(lawTable(shift, app));
-    residual.update({ of: result, traces: residualTraces(shift), synthetic: synthetic(result, app) });
-    if (shift.vertical) b.update({ of: result, ...verticalFigure(shift.vertical, result, app) });
-  });
+  render(html`<${Shift} />`, section);
 }
+
+/** Shift factors, their laws, and whether superposition holds. */
+const Factors = view(({ app, of }) => {
+  const { shift, check } = of;
+  const made = synthetic(of, app);
+  const temperature = { label: "temperature", kind: "temperature" };
+  const laws = shift.laws.length > 0;
+  return html`
+    <div class="grid">
+      ${
+        shift.steps &&
+        html`<div class="card">
+          <${Figure} id="shifted-steps" title="Creep and relaxation tests over reduced time" of=${of}
+            ...${stepFigure(shift.steps, made, app)} />
+        </div>`
+      }
+      <${Card} title="Shift factors">
+        <${Figure} id="shift-factors" title="Shift factor against temperature" of=${of} x=${temperature}
+          y=${{ label: "log₁₀ α" }} ...${alphaFigure(of, app)} />
+        <p ...${shown(of, "help")}>${limitsInWords(shift, app)}</p>
+      <//>
+      ${
+        laws &&
+        html`<${Card} title="Residuals of each law">
+          <${Figure} id="law-residuals" title="Measured factors over each law" of=${of} synthetic=${made} x=${temperature}
+            y=${{ label: "log₁₀ measured/law" }} traces=${residualTraces(shift)}
+            caption="log₁₀ of the measured over the law’s α; the band is the measurement’s 95 %." />
+        <//>`
+      }
+    </div>
+    ${
+      laws &&
+      html`<${Card} title="Laws"><p class="help">${shift.explanation}</p><div class="words"><${LawTable} app=${app} of=${of} /></div><//>`
+    }
+    <div class="grid thirds">
+      ${check?.diagrams && html`<${Quality} app=${app} of=${of} />`}
+      ${
+        shift.vertical &&
+        html`<${Card} title="Vertical shift">
+          <${Figure} id="vertical-shift" title="Vertical shift b(T)" of=${of} x=${temperature} y=${{ label: "b" }}
+            ...${verticalFigure(shift.vertical, of, app)} />
+        <//>`
+      }
+    </div>
+  `;
+});
 
 /** How sweeps are shifted; nothing of it holds for a rubber that is ready. */
 function settings(app) {
@@ -189,43 +176,29 @@ function settings(app) {
   return element;
 }
 
-function verdictCard({ fields }) {
-  const { h, note } = fields;
-  const headline = h("h3", { class: "verdict" });
-  const sentences = note([]);
-  const numbers = fields.keyNumbers();
-  const element = h("section", { class: "card", "aria-live": "polite" }, headline, numbers, sentences);
-  element.show = (result) => {
-    const check = result?.check;
-    element.hidden = !check;
-    if (!check) return;
-    headline.textContent = check.headline;
-    headline.dataset.kind = KIND[check.verdict];
-    sentences.set(check.sentences, { error: "error", warning: "warning" }[KIND[check.verdict]] ?? "note");
-    const { misfit, used, origin } = result.shift;
-    const held = (result.shift.factors?.held ?? []).filter(Boolean).length;
-    numbers.set([
-      ...(misfit
-        ? [{ label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` }]
-        : []),
-      ...(check.figure_of_merit !== undefined
-        ? [{ label: "figure of merit", value: check.figure_of_merit.toPrecision(2), remark: "good if ≤ 1" }]
-        : []),
-      ...(check.diagrams
-        ? [
-            {
-              label: "E′ against E″",
-              value: check.kramers_kronig ? (check.kramers_kronig.holds ? "agree" : "do not agree") : "not tested",
-              remark: "Kramers–Kronig",
-            },
-          ]
-        : []),
-      {
-        label: "α(T) used",
-        value: used === "measured" ? "as measured" : used,
-        remark: origin === "given" ? "from a file" : held ? `${held} fixed manually` : "fitted to the measurements",
-      },
-    ]);
-  };
-  return element;
-}
+const Verdict = view(({ of }) => {
+  const { check, shift } = of;
+  const { misfit, used, origin } = shift;
+  const kind = KIND[check.verdict];
+  const held = (shift.factors?.held ?? []).filter(Boolean).length;
+  const agree = check.kramers_kronig ? (check.kramers_kronig.holds ? "agree" : "do not agree") : "not tested";
+  const numbers = [
+    misfit && { label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` },
+    check.figure_of_merit !== undefined && {
+      label: "figure of merit",
+      value: check.figure_of_merit.toPrecision(2),
+      remark: "good if ≤ 1",
+    },
+    check.diagrams && { label: "E′ against E″", value: agree, remark: "Kramers–Kronig" },
+    {
+      label: "α(T) used",
+      value: used === "measured" ? "as measured" : used,
+      remark: origin === "given" ? "from a file" : held ? `${held} fixed manually` : "fitted to the measurements",
+    },
+  ];
+  return html`<section ...${shown(of, "card")} aria-live="polite">
+    <h3 class="verdict" data-kind=${kind}>${check.headline}</h3>
+    <${Numbers} list=${numbers.filter(Boolean)} />
+    <${Notes} kind=${kind === "good" ? "note" : kind} list=${check.sentences} />
+  </section>`;
+});

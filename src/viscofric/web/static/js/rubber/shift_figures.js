@@ -1,5 +1,8 @@
 // What the figures and the table of shift factors and their laws show.
 
+import { html, view } from "../reactive.js";
+import { state } from "../state.js";
+import { Button, Table } from "../views.js";
 import { TESTS, named, synthetic } from "./made.js";
 
 export function alphaFigure(result, app) {
@@ -90,10 +93,8 @@ export function limitsInWords({ material }, app) {
   return `Used: ${words}. Valid ${span}.`;
 }
 
-export function lawTable({ laws }, app) {
-  const { state, fields } = app;
-  const { button } = fields;
-  const rows = laws.map((row) => {
+export const LawTable = view(({ app, of }) => {
+  const rows = of.shift.laws.map((row) => {
     const words = row.refusal || row.words;
     const mark = row.used
       ? "used"
@@ -107,7 +108,7 @@ export function lawTable({ laws }, app) {
       row.used ||
       (state.get("material.shift_factors") === undefined && !TESTS.some((key) => state.get(`material.${key}`) !== undefined))
         ? null
-        : button({ label: `Use ${row.title}`, kind: "small", onClick: () => state.set("material.shift", row.kind) });
+        : html`<${Button} kind="small" onClick=${() => state.set("material.shift", row.kind)}>Use ${row.title}<//>`;
     const valid = row.limits
       ? row.limits.valid.map((kelvin) => (kelvin === null ? "∞" : named(kelvin, app))).join(" to ")
       : "–";
@@ -122,12 +123,9 @@ export function lawTable({ laws }, app) {
       use ?? "",
     ];
   });
-  return fields.table(
-    ["law", "constants", "AIC", "weight", "scatter (decades)", "valid", "", ""],
-    rows,
-    "Comparison of laws: a lower AIC is better",
-  );
-}
+  const head = ["law", "constants", "AIC", "weight", "scatter (decades)", "valid", "", ""];
+  return html`<${Table} of=${of} head=${head} rows=${rows} caption="Comparison of laws: a lower AIC is better" />`;
+});
 
 export function residualTraces({ laws, factors }) {
   const band = factors

@@ -1,10 +1,12 @@
 // Step 3: the spectrum, E'(ω) and E''(ω) at any temperature with their bands, and what the fit leaves unexplained.
 
-import { Job, shows } from "../jobs.js";
-import { effect, signal } from "../reactive.js";
-import { named, pick, rubber, shownRubber, synthetic, worded } from "./made.js";
-import { settings, temperatureChoice } from "./spectrum_form.js";
-import { caption, keyNumbers, modesFigure, modesTable, modulusTraces, tangentTraces } from "./spectrum_figures.js";
+import { Job } from "../jobs.js";
+import { html, render, signal, view } from "../reactive.js";
+import * as units from "../units.js";
+import { Button, Card, Dom, Figure, Notes, Numbers, Pick, Progress } from "../views.js";
+import { named, rubber, shownRubber, synthetic, worded } from "./made.js";
+import { settings } from "./spectrum_form.js";
+import { ModesTable, caption, keyNumbers, modesFigure, modulusTraces, residualTraces, tangentTraces } from "./spectrum_figures.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
 const moduli = new Job("moduli", {
@@ -13,149 +15,104 @@ const moduli = new Job("moduli", {
   when: () => Boolean(rubber.current),
   inputs: () => {
     const { shift, spectrum } = rubber.result ?? {};
+    const line = shift?.material.line.temperature;
     if (!shift || chosen.value === null || Math.abs(chosen.value - spectrum.reference) < 0.005) return null;
+    if (chosen.value < line[0] || chosen.value > line.at(-1)) return null;
     const options = { temperature: worded(chosen.value), bands: rubber.complete };
     return { study: rubber.inputs.value.study, options };
   },
 });
 
+const KINDS = [
+  ["retardation", "Retardation C(τ)"],
+  ["relaxation", "Relaxation E(τ)"],
+];
+const kind = signal("retardation");
+const FREQUENCY = { label: "frequency", kind: "angular_frequency", log: true };
+
 export function mount(section, app) {
-  const { fields, figures } = app;
-  const { h, card, note } = fields;
-  moduli.start();
-  const wait = fields.progressBar(rubber.start(), {
-    label: "Fitting the material",
-    cancels: false,
-    ended: () => (rubber.result?.no_band ? `No 95 % band: ${rubber.result.no_band}.` : ""),
+  const form = settings(app);
+  for (const job of [rubber, moduli]) job.start();
+  const ended = () => (rubber.result?.no_band ? `No 95 % band: ${rubber.result.no_band}.` : "");
+  const Step = view(() => {
+    const of = shownRubber();
+    const { fit, notes } = of?.spectrum ?? {};
+    return html`
+      <p>Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors.</p>
+      <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} ended=${ended} /></div>
+      <${Notes} kind="error" list=${[rubber.error && app.explain(rubber.error, "spectrum")]} />
+      <${Numbers} of=${of} list=${of ? keyNumbers(of, app) : []} />
+      <${Notes} of=${of} kind="warning" list=${of ? [...(fit?.notes ?? []), ...notes, ...(of.band?.notes ?? [])] : []} />
+      <div class="columns">
+        <div><${Dom} of=${form} /></div>
+        <div>${of && html`<${Modulus} app=${app} of=${of} />`}</div>
+      </div>
+      ${of && html`<div class="grid thirds"><${Others} app=${app} of=${of} /></div>`}
+    `;
   });
-  const problem = note([], "error");
-  const doubts = note([], "warning");
-  const numbers = fields.keyNumbers();
-  const first = card("Modulus against frequency");
-  const at = temperatureChoice(app, chosen);
-  const modulus = figures.figure(first, {
-    id: "modulus",
-    title: "E′ and E″",
-    x: { label: "frequency", kind: "angular_frequency", log: true },
-    y: { label: "modulus", kind: "modulus", log: true },
-    traces: [],
-    height: 430,
-  });
-  first.insertBefore(at, first.children[1]);
-  const second = card("Loss tangent");
-  const tangent = figures.figure(second, {
-    id: "loss-tangent",
-    title: "tan δ",
-    x: { label: "frequency", kind: "angular_frequency", log: true },
-    y: { label: "tan δ", log: true },
-    traces: [],
-  });
-  const third = card("Residuals of the fit");
-  const residual = figures.figure(third, {
-    id: "spectrum-residuals",
-    title: "Measured over fitted modulus",
-    caption: "log₁₀, at the points of the master curve.",
-    x: { label: "reduced frequency α ω", kind: "angular_frequency", log: true },
-    y: { label: "log₁₀ measured/fit" },
-    traces: [],
-  });
-  const fourth = card("Spectrum");
-  const kind = signal("retardation");
-  fourth.append(
-    pick(
-      {
-        label: "Spectrum",
-        options: [
-          ["retardation", "Retardation C(τ)"],
-          ["relaxation", "Relaxation E(τ)"],
-        ],
-        value: kind.value,
-        onChange: (value) => (kind.value = value),
-      },
-      fields,
-    ),
-  );
-  const modes = figures.figure(fourth, {
-    id: "modes",
-    title: "Modes",
-    x: { label: "time τ", kind: "time", log: true },
-    y: {},
-    traces: [],
-  });
-  const table = h("div", {});
-  fourth.append(h("details", {}, h("summary", {}, "Table of modes"), table));
-  section.append(
-    h("p", {}, "Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors."),
-    h("div", { class: "waiting" }, wait),
-    problem,
-    numbers,
-    doubts,
-    h("div", { class: "columns" }, h("div", {}, settings(app)), h("div", {}, first)),
-    h("div", { class: "grid thirds" }, second, third, fourth),
-  );
-
-  effect(() => {
-    const result = shownRubber();
-    problem.set(rubber.error ? [app.explain(rubber.error, "spectrum")] : []);
-    for (const one of [first, second, third, fourth]) one.hidden = !result;
-    numbers.set(result ? keyNumbers(result, app) : []);
-    for (const one of [numbers, doubts, table]) shows(one, result);
-    doubts.set(
-      result ? [...(result.spectrum.fit?.notes ?? []), ...result.spectrum.notes, ...(result.band?.notes ?? [])] : [],
-    );
-    if (!result) return;
-    at.show(result);
-    draw(result);
-  });
-
-  function draw(result) {
-    const { spectrum } = result;
-    const moved = moduli.result;
-    const doubt = moved?.extrapolated ? "The shift factor is extrapolated at this temperature." : "";
-    at.note(moduli.error?.message ?? doubt, moduli.error);
-    const here = moved ?? {
-      temperature: spectrum.reference,
-      modulus: spectrum.modulus,
-      band: result.band ?? null,
-      moved: spectrum.measured,
-      isotherm: null,
-    };
-    const madeUp = synthetic(result, app);
-    const title = here.temperature === null ? "E′ and E″" : `E′ and E″ at ${named(here.temperature, app)}`;
-    const of = moved ?? result;
-    modulus.update({ of, title, synthetic: madeUp, caption: caption(result, here, app), traces: modulusTraces(here) });
-    tangent.update({
-      of,
-      title: here.temperature === null ? "tan δ" : `tan δ at ${named(here.temperature, app)}`,
-      synthetic: madeUp,
-      traces: tangentTraces(here),
-    });
-    third.hidden = !spectrum.residual;
-    if (spectrum.residual) {
-      const x = spectrum.measured.angular_frequency;
-      residual.update({
-        of: result,
-        synthetic: madeUp,
-        marks: [{ y: 0 }],
-        traces: [
-          ["storage_modulus", "E′", "square", "blue"],
-          ["loss_modulus", "E″", "circle", "vermilion"],
-        ].map(([key, name, symbol, colour]) => ({
-          name,
-          mode: "markers",
-          symbol,
-          colour,
-          open: true,
-          size: 5,
-          x,
-          y: spectrum.residual[key],
-        })),
-      });
-    }
-    fourth.hidden = !spectrum.modes;
-    if (spectrum.modes) {
-      modes.update({ of: result, ...modesFigure(result, kind.value, madeUp) });
-      table.replaceChildren(modesTable(spectrum, app));
-    }
-  }
+  render(html`<${Step} />`, section);
 }
+
+/** The moduli at the chosen temperature, or at the reference; and what the figures of them share. */
+function shownModuli(of, app) {
+  const { reference, modulus, measured } = of.spectrum;
+  const moved = moduli.result;
+  const here = moved ?? { temperature: reference, modulus, band: of.band ?? null, moved: measured, isotherm: null };
+  const at = here.temperature === null ? "" : ` at ${named(here.temperature, app)}`;
+  return { here, at, shared: { of: moved ?? of, synthetic: synthetic(of, app), x: FREQUENCY } };
+}
+
+const Modulus = view(({ app, of }) => {
+  const { here, at, shared } = shownModuli(of, app);
+  return html`<${Card} title="Modulus against frequency">
+    ${of.shift && html`<${Temperature} of=${of} />`}
+    <${Figure} id="modulus" title="E′ and E″${at}" height=${430} y=${{ label: "modulus", kind: "modulus", log: true }}
+      ...${shared} caption=${caption(of, here, app)} traces=${modulusTraces(here)} />
+  <//>`;
+});
+
+const Others = view(({ app, of }) => {
+  const { spectrum } = of;
+  const { here, at, shared } = shownModuli(of, app);
+  return html`
+    <${Card} title="Loss tangent">
+      <${Figure} id="loss-tangent" title="tan δ${at}" y=${{ label: "tan δ", log: true }} ...${shared} traces=${tangentTraces(here)} />
+    <//>
+    ${
+      spectrum.residual &&
+      html`<${Card} title="Residuals of the fit">
+        <${Figure} id="spectrum-residuals" title="Measured over fitted modulus" of=${of} synthetic=${shared.synthetic}
+          caption="log₁₀, at the points of the master curve." marks=${[{ y: 0 }]} traces=${residualTraces(spectrum)}
+          x=${{ ...FREQUENCY, label: "reduced frequency α ω" }} y=${{ label: "log₁₀ measured/fit" }} />
+      <//>`
+    }
+    ${
+      spectrum.modes &&
+      html`<${Card} title="Spectrum">
+        <${Pick} label="Spectrum" options=${KINDS} value=${kind.value} onChange=${(one) => (kind.value = one)} />
+        <${Figure} id="modes" of=${of} x=${{ label: "time τ", kind: "time", log: true }}
+          ...${modesFigure(of, kind.value, shared.synthetic)} />
+        <details><summary>Table of modes</summary><${ModesTable} of=${of} /></details>
+      <//>`
+    }
+  `;
+});
+
+/** Slider and box of the temperature that E(ω) is shown at. */
+const Temperature = view(({ of: { shift, spectrum } }) => {
+  const line = shift.material.line.temperature;
+  const inside = chosen.value !== null && chosen.value >= line[0] && chosen.value <= line.at(-1);
+  const kelvin = inside ? chosen.value : spectrum.reference;
+  const doubt = moduli.result?.extrapolated ? "The shift factor is extrapolated at this temperature." : "";
+  return html`<div class="field">
+    <label class="field-label" for="modulus-temperature">Temperature</label>
+    <div class="slider-row">
+      <input type="range" id="modulus-temperature" step="1" min=${273.15 + Math.ceil(line[0] - 273.15)}
+        max=${273.15 + Math.floor(line.at(-1) - 273.15)} value=${kelvin}
+        onInput=${({ target }) => (chosen.value = Number(target.value))} />
+      <output for="modulus-temperature" class="field-label">${units.show(kelvin, "temperature")}</output>
+      <${Button} kind="small" onClick=${() => (chosen.value = null)}>At the reference<//>
+    </div>
+    <p class=${moduli.error ? "help field-error" : "help"} aria-live="polite">${moduli.error?.message ?? doubt}</p>
+  </div>`;
+});

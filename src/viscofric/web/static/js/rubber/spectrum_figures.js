@@ -1,5 +1,7 @@
 // What the figures and the table of the spectrum and the modulus show.
 
+import { html, view } from "../reactive.js";
+import { Table } from "../views.js";
 import { named } from "./made.js";
 
 const SHOWN = 1e-10; // modes weaker than the strongest by more change nothing that can be seen
@@ -123,6 +125,18 @@ export function tangentTraces({ modulus, band, moved, isotherm }) {
   return [...points, line, ...sweep];
 }
 
+export const residualTraces = ({ measured, residual }) =>
+  MODULI.map(([key, name, symbol, colour]) => ({
+    name,
+    mode: "markers",
+    symbol,
+    colour,
+    open: true,
+    size: 5,
+    x: measured.angular_frequency,
+    y: residual[key],
+  }));
+
 /** A stem for each mode, with its band and the times that no measured frequency reaches. */
 export function modesFigure(result, kind, synthetic) {
   const { spectrum, band } = result;
@@ -180,7 +194,8 @@ export function modesFigure(result, kind, synthetic) {
   };
 }
 
-export function modesTable({ modes, relaxation }, { fields }) {
+export const ModesTable = view(({ of }) => {
+  const { modes, relaxation } = of.spectrum;
   const count = Math.max(modes.retardation_time.length, relaxation.relaxation_time.length);
   const cell = (values, at) => (at < values.length ? values[at].toExponential(4).replace("-", "−") : "");
   const rows = Array.from({ length: count }, (_, at) => [
@@ -190,9 +205,6 @@ export function modesTable({ modes, relaxation }, { fields }) {
     cell(relaxation.relaxation_time, at),
     cell(relaxation.modulus, at),
   ]);
-  return fields.table(
-    ["k", "retardation time τ (s)", "compliance C (1/Pa)", "relaxation time (s)", "modulus E (Pa)"],
-    rows,
-    "Retardation modes, and the same material as a Prony series",
-  );
-}
+  const head = ["k", "retardation time τ (s)", "compliance C (1/Pa)", "relaxation time (s)", "modulus E (Pa)"];
+  return html`<${Table} of=${of} head=${head} rows=${rows} caption="Retardation modes, and the same material as a Prony series" />`;
+});

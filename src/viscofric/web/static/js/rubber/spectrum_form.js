@@ -1,4 +1,4 @@
-// What the user says of the spectrum, and the temperature that the modulus is shown at.
+// What the user says of the spectrum.
 
 import { effect } from "../reactive.js";
 import { sourceOf } from "./made.js";
@@ -59,36 +59,4 @@ export function settings(app) {
   };
   effect(refresh);
   return card("Spectrum", fitted, ready);
-}
-
-/** Slider and box of the temperature that E(ω) is shown at: a signal in K, null for the reference. */
-export function temperatureChoice({ fields, units }, chosen) {
-  const { h } = fields;
-  const slider = h("input", { type: "range", id: "modulus-temperature", step: 1 });
-  const shown = h("output", { for: "modulus-temperature", class: "field-label" });
-  const said = h("p", { class: "help", "aria-live": "polite" });
-  slider.addEventListener("input", () => (chosen.value = Number(slider.value)));
-  const back = fields.button({ label: "At the reference", kind: "small", onClick: () => (chosen.value = null) });
-  const element = h(
-    "div",
-    { class: "field" },
-    h("label", { class: "field-label", for: "modulus-temperature" }, "Temperature"),
-    h("div", { class: "slider-row" }, slider, shown, back),
-    said,
-  );
-  element.note = (words, wrong) => {
-    said.textContent = words;
-    said.classList.toggle("field-error", Boolean(wrong));
-  };
-  element.show = ({ shift, spectrum: { reference } }) => {
-    element.hidden = !shift;
-    if (!shift) return;
-    const line = shift.material.line.temperature;
-    slider.min = 273.15 + Math.ceil(line[0] - 273.15);
-    slider.max = 273.15 + Math.floor(line.at(-1) - 273.15);
-    if (chosen.value !== null && (chosen.value < line[0] || chosen.value > line.at(-1))) chosen.value = null;
-    slider.value = chosen.value ?? reference;
-    shown.textContent = units.show(chosen.value ?? reference, "temperature");
-  };
-  return element;
 }
