@@ -52,16 +52,16 @@ def cases() -> dict[str, Case]:
             solid, BALL, {"time": short, "indentation": 1e-4 + 3e-6 * sine(24)}, 1e-3, 20
         ),
         "ball, depth by 2 %, fluoroelastomer at 0 °C, 100 Hz": Case(
-            rubber, BALL, {"time": quick, "indentation": 1e-4 + 2e-6 * sine(24), **cold}, 1e-3, 200
+            rubber, BALL, {"time": quick, "indentation": 1e-4 + 2e-6 * sine(24), **cold}, 1e-3, 60
         ),
         "ball, load by 30 %, fluoroelastomer at 30 °C, 16 Hz": Case(
-            rubber, BALL, {"time": short, "load": 1.0 + 0.3 * sine(24), **warm}, 1e-3, 200
+            rubber, BALL, {"time": short, "load": 1.0 + 0.3 * sine(24), **warm}, 1e-3, 60
         ),
         "ball, load by 30 %, fluoroelastomer at 0 °C, 100 Hz": Case(
-            rubber, BALL, {"time": quick, "load": 1.0 + 0.3 * sine(24), **cold}, 1e-3, 200
+            rubber, BALL, {"time": quick, "load": 1.0 + 0.3 * sine(24), **cold}, 1e-3, 60
         ),
         "ridges there and back, one mode, ωτ = 10": Case(
-            slow, ridges, {"time": long, "pressure": 3e3, "position": 4e-4 * sine(48)}, 5e-3, 40
+            slow, ridges, {"time": long, "pressure": 3e3, "position": 4e-4 * sine(48)}, 5e-3, 25
         ),
         "ball there and back on cells, one mode": Case(
             solid, BALL, {"time": fine, "load": 1.0, "position": 1.8e-3 * sine(96)}, 1e-1, 4
