@@ -163,7 +163,8 @@ class TransientHeating:
     Attributes
     ----------
     temperature_rise : array
-        Mean rise of the face, the same in both bodies, K; the contact was solved so much warmer.
+        Mean rise of the face by the heat of the solved contact, the same in both bodies, K.  The contact was solved so
+        much warmer, but for `residual`, which changes its friction by less than the accuracy.
     loss_rise : array
         Its part by the viscoelastic loss, before the counterface has taken any of it, K.
     coulomb_heat, loss_heat : array

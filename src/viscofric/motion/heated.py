@@ -84,12 +84,13 @@ def solve_heated(
         )
     if told is not None:
         told.end_all()
+    # The rise by the heat of the last run, even where that run could do without it.
     heated = TransientHeating(
-        rise, found.by_loss, *heats, np.cumsum(found.counterface), isothermal.friction_force, residual,
+        found.rise, found.by_loss, *heats, np.cumsum(found.counterface), isothermal.friction_force, residual,
         _change_with_half(problem, run, heating, heats, found),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
-    run = replace(run, warnings=(*run.warnings, *_thin_skin(problem, run, heating, rise)))
+    run = replace(run, warnings=(*run.warnings, *_thin_skin(problem, run, heating, found.rise)))
     # A state of the last run is no state of the heated contact.
     chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
     return chosen

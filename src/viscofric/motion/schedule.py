@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -150,11 +151,14 @@ class Schedule:
 
     def since_jump(self, instant: Instant) -> float:
         """Return the time since the last jump, or the first contact with an untouched body, s of the clock; or inf."""
-        jumps = self.kinks[[self.jumps_at(float(time)) for time in self.kinks]]
-        if self.before == "untouched":
-            jumps = np.append(self.start, jumps)
-        before = jumps[jumps <= instant.time]
+        before = self._jumps[self._jumps <= instant.time]
         return instant.clock - self.at(float(before[-1])).clock if len(before) else math.inf
+
+    @cached_property
+    def _jumps(self) -> Array:
+        """Times of jumps and of the first contact with an untouched body, ascending, s."""
+        jumps = self.kinks[[self.jumps_at(float(time)) for time in self.kinks]]
+        return np.append(self.start, jumps) if self.before == "untouched" else jumps
 
     def starts_at(self, time: float) -> bool:
         """Return whether a motion starts, stops or turns at a time: the velocity changes by a quarter or more."""
