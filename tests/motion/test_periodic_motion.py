@@ -15,7 +15,7 @@ from viscofric.contact.reference import westergaard
 from viscofric.motion.memory import Modes
 from viscofric.motion.periodic import PeriodicMover
 from viscofric.motion.problem import Problem
-from viscofric.motion.wave_memory import StepResponse, advance, merged_modes
+from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
 
 if TYPE_CHECKING:
     from viscofric.motion.mover import Observation
@@ -65,14 +65,14 @@ def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float, shape: tupl
     turn = np.array([0.0, 1e-5, 0.3, -4.0]).reshape(shape)
     q0, p0, p1 = generator.normal(size=(3, *shape)) + 1j * generator.normal(size=(3, *shape))
     modes = Modes(1.0, np.array([2.0]), np.array([1.0]))
-    whole = advance(StepResponse.of(modes, kappa, turn), modes, q0[None], p0, p1)
+    whole = advance(StepResponse.of(modes, kappa, turn), modes, q0[None], (p0, p1), stored_energy(modes, q0[None]))
     parts = 400
     small = StepResponse.of(modes, kappa / parts, turn / parts)
     q, squares = q0[None], []
     for i in range(parts + 1):
         p = p0 + (p1 - p0) * i / parts
         squares.append(float((np.abs(p - q[0]) ** 2).sum()))
-        q = advance(small, modes, q, p, p0 + (p1 - p0) * (i + 1) / parts).memory if i < parts else q
+        q = advance(small, modes, q, (p, p0 + (p1 - p0) * (i + 1) / parts), 0.0).memory if i < parts else q
     simpson = squares[0] + squares[-1] + 4.0 * sum(squares[1::2]) + 2.0 * sum(squares[2:-1:2])
     assert whole.memory == pytest.approx(q, rel=1e-9, abs=1e-9)
     assert whole.dissipated == pytest.approx(2.0 * kappa * simpson / (3 * parts), rel=1e-4)
@@ -334,7 +334,8 @@ def test_contact_without_memory_is_elastic(before: str) -> None:
 def test_memory_is_finite_for_instant_steps() -> None:
     response = StepResponse.of(Modes(1.0, np.array([1.0]), np.array([1.0])), 0.0, np.array([[0.0, 0.5]]))
     memory = np.array([[[1.0 + 0.0j, 2.0]]])
-    found = advance(response, Modes(1.0, np.array([1.0]), np.array([1.0])), memory, *np.zeros((2, 1, 2)))
+    none = np.zeros((1, 2), complex)
+    found = advance(response, Modes(1.0, np.array([1.0]), np.array([1.0])), memory, (none, none), 2.5)
     assert found.memory[0, 0] == pytest.approx([1.0, 2.0 * np.exp(0.5j)])
     assert found.dissipated == 0.0
     assert math.isclose(found.stored, 2.5)

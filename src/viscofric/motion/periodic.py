@@ -185,11 +185,18 @@ class PeriodicMover:
         path = np.asarray(end.position) - np.asarray(start.position)
         clock_step = end.clock - start.clock
         problem = self._step_of(clock_step, path, lagging)
-        before = self._scale * state.waves
-        past = problem.response.known(self.modes, state.memory, before)
+        past = problem.response.known(self.modes, state.memory, self._scale * state.waves)
         pressure, depth = self._solved(problem, past, end, state, clock_step)
         waves = self.grid.of(pressure)
-        after = advance(problem.response, self.modes, state.memory, before, self._scale * waves, keep=keep)
+        held = state.stored - self._elastic_energy(state.waves)
+        after = advance(
+            problem.response,
+            self.modes,
+            state.memory,
+            (self._scale * state.waves, self._scale * waves),
+            held,
+            keep=keep,
+        )
         trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
         done = after.stored, state.dissipated + after.dissipated
         return self._state(pressure, waves, after.memory, problem.response, past, depth, done, trend)
@@ -285,10 +292,14 @@ class PeriodicMover:
         work = self.grid.weights * (np.conj(waves) * displacement).imag
         qx, qy = self.grid.numbers
         friction = float(work.sum(axis=1) @ qx[:, 0]), float(work.sum(axis=0) @ qy[0])
+        stored = self._elastic_energy(waves) + energies[0]
+        return PeriodicState(pressure, waves, memory, depth, friction, stored, energies[1], trend)
+
+    def _elastic_energy(self, waves: ComplexArray) -> float:
+        """Return the energy that is stored in no mode."""
         elastic = self.modes.instantaneous * self._shape + self._rigid
         squares = np.square(waves.real) + np.square(waves.imag)
-        stored = 0.5 * float(np.vdot(self.grid.weights * elastic, squares)) + energies[0]
-        return PeriodicState(pressure, waves, memory, depth, friction, stored, energies[1], trend)
+        return 0.5 * float(np.vdot(self.grid.weights * elastic, squares))
 
     def _step_of(self, clock_step: float, path: Array, lagging: float) -> _Step:
         """Return the problem of a step, kept from one that differs by rounding only."""
@@ -339,11 +350,9 @@ class PeriodicMover:
             if float(pressure.min()) >= 0.0:
                 self.products += 1
                 return pressure, level
-        change = None
-        if state is not None and state.trend is not None:
-            change = clock_step * state.trend
         target = Target(load, indentation, self._tolerance(None if state is None else state.waves))
-        pressure, depth, products = problem.contact.solved(gap, before, target, change)
+        trend = None if state is None else state.trend
+        pressure, depth, products = problem.contact.solved(gap, before, target, trend, clock_step)
         self.products += products
         return pressure, depth
 

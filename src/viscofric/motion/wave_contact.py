@@ -38,7 +38,7 @@ _MOST_PRODUCTS = 10_000  # of that method, the one of steady contacts
 _SINGLE_ERROR, _SINGLE_PART = 1e-6, 0.1
 # Largest residual of one point, over the root mean square, of a contact that is solved; points in contact from which on
 # the root mean square may be as large as the tolerance; that of fewer must be less, since they cancel less in forces.
-_LARGEST, _MANY = 10.0, 1000
+_LARGEST, _MANY = 20.0, 1000
 # Least eigenvalue of the products of normalised displacements, over the largest, that is used: others are of rounding.
 _ALIKE = 1e-5
 
@@ -67,17 +67,17 @@ class StepContact:
         return self.exact.products + self.single.products
 
     def solved(
-        self, gap: Array, before: Array | None, target: Target, change: Array | None
+        self, gap: Array, before: Array | None, target: Target, trend: Array | None = None, duration: float = 0.0
     ) -> tuple[Array, float, int]:
         """Return pressure, indentation and the number of products; ConvergenceError if none are found.
 
         `gap` is that of the pressure before, None if that is zero, at an indentation of zero; it is overwritten.
-        `change` is an estimate of the change of the pressure.
+        The pressure is likely to change by its trend for the duration.
         """
         start, pressure = self.products, None
         if before is not None and np.any(before > 0.0):
             pressure = before.copy()
-            indentation = self._followed(gap, pressure, target, change)
+            indentation = self._followed(gap, pressure, target, trend, duration)
             if indentation is not None:
                 return pressure, indentation, self.products - start
             gap = gap - self.exact(pressure)
@@ -95,13 +95,15 @@ class StepContact:
             )
         return result.pressure, result.indentation, self.products - start + one.products
 
-    def _followed(self, gap: Array, pressure: Array, target: Target, change: Array | None) -> float | None:
+    def _followed(
+        self, gap: Array, pressure: Array, target: Target, trend: Array | None, duration: float
+    ) -> float | None:
         """Change a pressure and its gap until they meet the target; return the indentation, None if they do not."""
         p, g, backend = pressure.reshape(-1), gap.reshape(-1), self.exact.backend
         changes: list[_Change] = []
         contact = backend.cells(pressure > 0.0)
         old = p[contact.indices]
-        values = old.copy() if change is None else old + change.reshape(-1)[contact.indices]
+        values = old.copy() if trend is None else old + duration * trend.reshape(-1)[contact.indices]
         least, since = np.inf, 0
         for _ in range(_MOST):
             np.maximum(values, 0.0, out=values)

@@ -140,28 +140,28 @@ def advance(
     response: StepResponse,
     modes: Modes,
     memory: ComplexArray,
-    before: ComplexArray,
-    after: ComplexArray,
+    pressures: tuple[ComplexArray, ComplexArray],
+    held: float,
     *,
     keep: bool = True,
 ) -> Advanced:
-    """Return the memory (n, rows, columns) after a step from one pressure to another, both (rows, columns).
+    """Return the memory (n, rows, columns) after a step from one of two pressures (rows, columns) to the other.
 
-    The given memory is overwritten unless `keep` is set.
+    The given memory, which stores the energy held, is overwritten unless `keep` is set.
     """
+    before, after = pressures
     found = np.empty_like(memory) if keep else memory
     squares = np.square(np.abs(before)) + np.square(np.abs(after))
     dissipated = float((response.loss * squares).sum()) + float((response.mixed * np.conj(before) * after).sum().real)
-    stored = released = 0.0
+    stored = 0.0
     for rows in _blocks(len(modes), *before.shape):
         decay, *pair = response.coefficients(rows)
-        pressures, old, new = np.stack([before[rows], after[rows]]), memory[:, rows], found[:, rows]
-        released += stored_energy(modes, old)
-        dissipated -= float(np.vdot(pressures, _summed(modes.C, pair[::-1], old)).real)
+        both, old, new = np.stack([before[rows], after[rows]]), memory[:, rows], found[:, rows]
+        dissipated -= float(np.vdot(both, _summed(modes.C, pair[::-1], old)).real)
         np.multiply(old, decay.astype(memory.dtype), out=new)
-        new += _spread(pair, pressures.astype(memory.dtype))
+        new += _spread(pair, both.astype(memory.dtype))
         stored += stored_energy(modes, new)
-    return Advanced(found, stored, dissipated - stored + released)
+    return Advanced(found, stored, dissipated - stored + held)
 
 
 def _blocks(modes: int, rows: int, columns: int) -> Iterator[slice]:
