@@ -45,7 +45,7 @@ def test_a_heated_contact_has_the_numbers_of_python() -> None:
     assert found["inputs"]["heating"]["slip"] == 0.05
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None:
     picture = tmp_path / "curve.svg"
     options = ["--speed", "0.05 m/s, 0.2 m/s", *HEAT]

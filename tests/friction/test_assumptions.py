@@ -165,6 +165,7 @@ def test_warming_is_that_of_the_heated_contact(counterbody: vf.ThermalProperties
     assert check.values["least_change"] < check.value
 
 
+@pytest.mark.apart
 def test_few_points_are_as_bad_as_all(monkeypatch: pytest.MonkeyPatch) -> None:
     """The points that heat alone suggests have the largest change of all."""
     measured = replace(curves(), coulomb=np.full(4, 0.3), slip=0.2 * SPEED)
@@ -173,6 +174,7 @@ def test_few_points_are_as_bad_as_all(monkeypatch: pytest.MonkeyPatch) -> None:
     assert checks(RUBBER, BALL, measured, contact_radius="2 mm")["one temperature"] == found
 
 
+@pytest.mark.apart
 def test_warming_of_a_contact_does_not_depend_on_the_speeds_that_were_asked_beside() -> None:
     """One mode, whose friction has its maximum near 3 m/s; 30 m/s is beyond it, where warming raises friction."""
     mode = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from marks import apart, slow
 from refusals import refused
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
@@ -188,8 +189,7 @@ def test_what_does_not_repeat_itself_is_refused() -> None:
         vf.solve_cycle(SLS, BALL, vf.History([0.0, 1e-3], load=1.0), most_periods=1)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("control", ["load", "indentation"])
+@pytest.mark.parametrize("control", [*slow("load"), *apart("indentation")])
 def test_stated_errors_cover_those_of_random_oscillations(control: str) -> None:
     """At a tenth of the accuracy; all of 48 in benchmarks/motion/stated_cycles.py hold, to 0.7 of the errors."""
     chance = np.random.default_rng(5)

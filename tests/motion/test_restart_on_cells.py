@@ -90,8 +90,8 @@ def same(one: vf.TransientSolution, two: vf.TransientSolution) -> None:
     assert (one.steps, one.interrupted) == (two.steps, False)
 
 
-PARTS = [*slow(("cylinder", 0.02), ("cylinder", 0.7), ("slid", 0.6))]
-MORE = [("cylinder", 0.3), ("far memory", 0.95)] + [
+PARTS = [*slow(("cylinder", 0.7))]
+MORE = [("cylinder", 0.02), ("slid", 0.6), ("cylinder", 0.3), ("far memory", 0.95)] + [
     (name, part) for name in ("ball", "ellipsoid", "layer", "lost") for part in (0.02, 0.4, 0.6, 0.95)
 ]
 

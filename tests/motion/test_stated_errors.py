@@ -47,7 +47,7 @@ def test_stated_friction_includes_that_of_merged_modes_where_it_is_small_against
         assert abs(one.seen.friction_force[0] - two.seen.friction_force[0]) < one.errors.friction
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_stated_errors_soon_after_a_jump_include_those_of_modes_merged_for_later_times():
     """A hundred times earlier than the shortest time that the modes are merged for, and later."""
     history = vf.History([0.0, 1.0], pressure=5e3)
