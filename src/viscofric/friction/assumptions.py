@@ -90,7 +90,7 @@ def check_assumptions(
     Warming by ΔT shifts the speed by d log10 α/dT · ΔT decades, and friction by the change of the material's own
     friction along that shift, to first order in the loss, at each point separately.  ΔT is the mean rise of the face of
     the contact, by the Coulomb heat μ_c F v_slip, shared between the bodies, and by the viscoelastic loss below, as in
-    `solve_steady(heating=…)`, under Hertz's pressure on a contact of the smallest possible size.  The rise of the
+    ``solve_steady(heating=…)``, under Hertz's pressure on a contact of the smallest possible size.  The rise of the
     rubber where the loss is released is smaller where the heat of the face warms a thin skin only: the change of
     friction lies between those of both.  Heat that remains from one turn of the disc to the next is not included; see
     `Heating`, or measure it with a thermometer in the rubber.
