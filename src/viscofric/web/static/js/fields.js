@@ -1,197 +1,169 @@
-// Fields, notes, progress bars and other parts of a form; each returns an element to put into a step's section.
+// Fields of the study's document: each edits one path (state.js), and shows beside itself the errors whose `field` is that path,
+// of the check of the document and of the jobs.
 //
-// Every field edits one path of the study's document (state.js) and shows, beside itself, the errors whose `field` is that
-// path: of the check of the document, and of the jobs.
+// <${Quantity} path="conditions.load" label="Load" kind="load" placeholder help />       a quantity with its unit
+// <${Text} path label read write />       free text; `read` turns it into a document's value, `write` the reverse
+// <${Amount} path label min max step />   a plain number
+// <${Choose} path label options=${[[value, text], …]} otherwise onChange />               undefined removes the key
+// <${Toggle} path label value />          a switch that stands for a table or a key
+// <${Range} path label kind spacing otherwise />                                         one value, a list, or a range
+//
+// quantityField({…}) and its like return the same as an element.
 
 import * as jobs from "./jobs.js";
 import { h } from "./parts.js";
-import { computed, effect, signal } from "./reactive.js";
+import { computed, html, render, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
 export * from "./parts.js";
 
-let made = 0;
-
-/** Label, control, help and error of one path. */
-function field({ path, label, help, classes = "", beside = null }, control, controls = [control]) {
-  const id = `field-${(made += 1)}`;
-  const single = controls.length === 1;
-  controls[0].id ||= id;
-  const labelled = single
-    ? h("label", { for: controls[0].id, class: "field-label" }, label)
-    : h("span", { class: "field-head" }, h("span", { id: `${id}-label`, class: "field-label" }, label), beside);
-  const helped = help ? h("p", { class: "help", id: `${id}-help` }, help) : null;
-  const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
-  const described = [helped && `${id}-help`, `${id}-error`].filter(Boolean).join(" ");
-  for (const one of controls) one.setAttribute("aria-describedby", described);
-  const element = h("div", { class: `field ${classes}`.trim() }, labelled, control, helped, error);
-  if (!single) {
-    element.setAttribute("role", "group");
-    element.setAttribute("aria-labelledby", `${id}-label`);
-  }
-  if (!path) return element;
-  if (!homes.peek().includes(path)) homes.value = [...homes.peek(), path];
-  effect(() => {
-    const message = [...(sentencesOf.value.get(path) ?? [])].join(" ");
-    error.textContent = message;
-    error.hidden = !message;
-    for (const one of controls) {
-      if (message) one.setAttribute("aria-invalid", "true");
-      else one.removeAttribute("aria-invalid");
-    }
-    element.classList.toggle("wrong", Boolean(message));
-  });
-  return element;
-}
-
+const listed = (value) => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
 const readable = (words) =>
   String(words ?? "")
     .replace("degC", "°C")
     .replace("degF", "°F")
     .replace(/(?<=\d\s*)u(?=[ms]\b)/, "µ");
 
-const listed = (value) => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
+/** Label, controls, help and error of one path; `controls` gets what each of them has, `beside` is in the label's row. */
+function field({ number }, { path, label, help, classes = "", beside }, controls) {
+  const id = `field-${number}`;
+  if (path && !homes.peek().includes(path)) homes.value = [...homes.peek(), path];
+  const message = [...(sentencesOf.value.get(path) ?? [])].join(" ");
+  const described = { "aria-describedby": `${help ? `${id}-help ` : ""}${id}-error`, "aria-invalid": message ? "true" : undefined };
+  const group = beside ? { role: "group", "aria-labelledby": `${id}-label` } : {};
+  return html`<div class=${`field ${classes} ${message ? "wrong" : ""}`.trim()} ...${group}>
+    ${
+      beside
+        ? html`<span class="field-head"><span id="${id}-label" class="field-label">${label}</span>${beside(described)}</span>`
+        : html`<label for=${id} class="field-label">${label}</label>`
+    }
+    ${controls(beside ? described : { id, ...described })}
+    ${help && html`<p class="help" id="${id}-help">${help}</p>`}
+    <p class="field-error" id="${id}-error" hidden=${!message}>${message}</p>
+  </div>`;
+}
 
-/** Text box whose value follows a path; `read` turns text into a document's value, `write` the reverse. */
-function box(path, { read, write, placeholder, type = "text", label, ...rest }) {
-  const input = h("input", {
-    type,
-    placeholder,
-    autocomplete: "off",
-    spellcheck: "false",
-    "aria-label": label,
-    ...rest,
-  });
-  const refresh = () => {
-    const words = write(state.get(path));
-    if (document.activeElement !== input || !input.dataset.typing) input.value = words;
+/** Text box whose value follows a path, but not while somebody types. */
+const Box = view(({ path, read, write, type = "text", ...rest }, self) => {
+  const words = String(write(state.get(path)));
+  const typed = self.base?.dataset.typing && document.activeElement === self.base;
+  const take = ({ target }) => {
+    delete target.dataset.typing;
+    state.set(path, target.value.trim() === "" ? undefined : read(target.value));
+    self.setState({});
   };
-  input.addEventListener("input", () => (input.dataset.typing = "yes"));
-  input.addEventListener("change", () => {
-    delete input.dataset.typing;
-    state.set(path, input.value.trim() === "" ? undefined : read(input.value));
-    refresh();
-  });
-  effect(refresh);
-  return input;
-}
+  return html`<input type=${type} autocomplete="off" spellcheck=${false} value=${typed ? self.base.value : words}
+    onInput=${({ target }) => (target.dataset.typing = "yes")} onChange=${take} ...${rest} />`;
+});
 
-/** One quantity with its unit: quantityField({path: "conditions.load", label: "Load", kind: "load"}). */
-export function quantityField({ path, label, kind = "plain", help, placeholder }) {
-  const input = box(path, { read: (text) => units.typed(text, kind), write: readable, placeholder, inputmode: "text" });
-  return field({ path, label, help }, input);
-}
+export const Quantity = view(({ path, kind = "plain", placeholder, ...about }, self) =>
+  field(
+    self,
+    { path, ...about },
+    (own) => html`<${Box} path=${path} read=${(text) => units.typed(text, kind)} write=${readable} placeholder=${placeholder}
+      inputmode="text" ...${own} />`,
+  ),
+);
 
-/** Free text, such as a title or a name; `read` turns it into a document's value, `write` the reverse. */
-export function textField({ path, label, help, placeholder, read, write }) {
-  const ways = { read: read ?? ((text) => text.trim()), write: write ?? ((value) => value ?? "") };
-  return field({ path, label, help }, box(path, { ...ways, placeholder }));
-}
+const trimmed = (text) => text.trim();
+const orNothing = (value) => value ?? "";
 
-/** A plain number: numberField({path: "solver.accuracy", label: "Accuracy", min, max, step}). */
-export function numberField({ path, label, help, min, max, step = "any", placeholder }) {
-  const read = (text) => (text === "" || Number.isNaN(Number(text)) ? text : Number(text));
-  const input = box(path, { read, write: (value) => value ?? "", type: "number", min, max, step, placeholder });
-  return field({ path, label, help }, input);
-}
+export const Text = view(({ path, placeholder, read = trimmed, write = orNothing, ...about }, self) =>
+  field(
+    self,
+    { path, ...about },
+    (own) => html`<${Box} path=${path} read=${read} write=${write} placeholder=${placeholder} ...${own} />`,
+  ),
+);
 
-/** A choice: choiceField({path, label, options: [[value, label], …], otherwise, onChange}); an undefined value removes the key. */
-export function choiceField({ path, label, options, help, otherwise, onChange }) {
-  const select = h(
-    "select",
-    {},
-    options.map(([value, text], index) => h("option", { value: String(index) }, text ?? value)),
+const asNumber = (text) => (text === "" || Number.isNaN(Number(text)) ? text : Number(text));
+
+export const Amount = view(({ path, min, max, step = "any", placeholder, ...about }, self) =>
+  field(
+    self,
+    { path, ...about },
+    (own) => html`<${Box} path=${path} type="number" read=${asNumber} write=${orNothing} min=${min} max=${max} step=${step}
+      placeholder=${placeholder} ...${own} />`,
+  ),
+);
+
+export const Choose = view(({ path, options, otherwise, onChange = (value) => state.set(path, value), ...about }, self) => {
+  const now = JSON.stringify(state.get(path) ?? otherwise);
+  const take = ({ target }) => {
+    onChange(options[Number(target.value)][0]);
+    self.setState({});
+  };
+  const index = options.findIndex(([one]) => JSON.stringify(one) === now);
+  return field(
+    self,
+    { path, ...about },
+    (own) => html`<select value=${index < 0 ? "" : String(index)} onChange=${take} ...${own}>
+      ${options.map(([value, text], at) => html`<option value=${String(at)}>${text ?? value}</option>`)}
+    </select>`,
   );
-  const refresh = () => {
-    const value = state.get(path) ?? otherwise;
-    const index = options.findIndex(([one]) => JSON.stringify(one) === JSON.stringify(value));
-    select.selectedIndex = index;
-  };
-  select.addEventListener("change", () => {
-    const value = options[Number(select.value)][0];
-    if (onChange) onChange(value);
-    else state.set(path, value);
-  });
-  effect(refresh);
-  return field({ path, label, help }, select);
-}
+});
 
-/** A switch that stands for a table or a key: toggleField({path: "layer", label: "Layer", value: {thickness: "2 mm"}}). */
-export function toggleField({ path, label, value = true, help }) {
-  const input = h("input", { type: "checkbox", role: "switch" });
-  const refresh = () => void (input.checked = state.get(path) !== undefined);
-  let last = value;
-  input.addEventListener("change", () => {
-    if (!input.checked) last = structuredClone(state.get(path));
-    state.set(path, input.checked ? last : undefined);
-  });
-  effect(refresh);
-  return field({ path: "", label, help, classes: "switch" }, input);
-}
+export const Toggle = view(({ path, value = true, ...about }, self) => {
+  const now = state.get(path);
+  if (now !== undefined) self.last = now;
+  const take = ({ target }) => state.set(path, target.checked ? (self.last ?? value) : undefined);
+  return field(
+    self,
+    { ...about, classes: "switch" },
+    (own) => html`<input type="checkbox" role="switch" checked=${now !== undefined} onChange=${take} ...${own} />`,
+  );
+});
 
-/** One value, a list, or a range: rangeField({path: "conditions.speed", label: "Speed", kind: "speed"}). */
-export function rangeField({ path, label, kind = "plain", help, spacing = ["log", "linear"], otherwise = {} }) {
-  const form = () => {
-    const value = state.get(path);
-    if (value && typeof value === "object" && !Array.isArray(value)) return "range";
-    return Array.isArray(value) && value.length !== 1 ? "list" : "one";
-  };
-  const mode = h("select", { class: "mode", "aria-label": `${label}: how to give it` });
-  for (const [value, text] of [
-    ["one", "one value"],
-    ["list", "list"],
-    ["range", "range"],
-  ])
-    mode.append(h("option", { value }, text));
+const FORMS = [
+  ["one", "one value"],
+  ["list", "list"],
+  ["range", "range"],
+];
+const isRange = (value) => value && typeof value === "object" && !Array.isArray(value);
+
+export const Range = view(({ path, label, kind = "plain", help, spacing = ["log", "linear"], otherwise = {} }, self) => {
+  const value = state.get(path);
+  const form = isRange(value) ? "range" : Array.isArray(value) && value.length !== 1 ? "list" : "one";
   const read = (text) => units.typed(text, kind);
-  const one = box(path, { label, read, write: (value) => readable(listed(value)[0]) });
-  const list = box(path, {
-    label: `${label}: list, separated by commas`,
-    read: (text) => withUnits(text, kind),
-    write: (value) => listed(value).map(readable).join(", "),
-  });
-  const end = (key, text) => box(`${path}.${key}`, { label: `${label} ${text}`, read, write: readable });
-  const points = box(`${path}.points`, {
-    label: `${label}: number of points`,
-    type: "number",
-    min: 2,
-    step: 1,
-    read: Number,
-    write: (value) => value ?? "",
-  });
-  const gap = h(
-    "select",
-    { "aria-label": `${label}: spacing` },
-    spacing.map((value) => h("option", { value }, value)),
-  );
-  gap.addEventListener("change", () => state.set(`${path}.spacing`, gap.value));
-  const ends = [end("from", "from"), end("to", "to")];
-  const range = h(
-    "span",
-    { class: "range" },
-    h("span", { class: "ends" }, ends[0], h("span", {}, "to"), ends[1]),
-    h("span", { class: "steps" }, points, h("span", {}, "points"), spacing.length > 1 ? gap : null),
-  );
-  const refresh = () => {
-    const now = form();
-    mode.value = now;
-    one.hidden = now !== "one";
-    list.hidden = now !== "list";
-    range.hidden = now !== "range";
-    gap.value = state.get(`${path}.spacing`) ?? spacing[0];
+  const mode = (own) => html`<select class="mode" aria-label="${label}: how to give it" value=${form} ...${own}
+    onChange=${({ target }) => state.set(path, inForm(target.value, state.get(path), { spacing, otherwise }))}>
+    ${FORMS.map(([one, text]) => html`<option value=${one}>${text}</option>`)}
+  </select>`;
+  const end = (key, own) =>
+    html`<${Box} path="${path}.${key}" aria-label="${label} ${key}" read=${read} write=${readable} ...${own} />`;
+  const gap = (own) => html`<select aria-label="${label}: spacing" value=${state.get(`${path}.spacing`) ?? spacing[0]} ...${own}
+    onChange=${({ target }) => state.set(`${path}.spacing`, target.value)}>
+    ${spacing.map((one) => html`<option value=${one}>${one}</option>`)}
+  </select>`;
+  const controls = {
+    one: (own) => html`<${Box} key="one" path=${path} aria-label=${label} read=${read} write=${(now) => readable(listed(now)[0])} ...${own} />`,
+    list: (own) => html`<${Box} key="list" path=${path} aria-label="${label}: list, separated by commas"
+      read=${(text) => withUnits(text, kind)} write=${(now) => listed(now).map(readable).join(", ")} ...${own} />`,
+    range: (own) => html`<span class="range">
+      <span class="ends">${end("from", own)}<span>to</span>${end("to", own)}</span>
+      <span class="steps">
+        <${Box} path="${path}.points" aria-label="${label}: number of points" type="number" min=${2} step=${1} read=${Number}
+          write=${orNothing} ...${own} />
+        <span>points</span>${spacing.length > 1 && gap(own)}
+      </span>
+    </span>`,
   };
-  mode.addEventListener("change", () => state.set(path, inForm(mode.value, state.get(path), { spacing, otherwise })));
-  effect(refresh);
-  return field({ path, label, help, beside: mode }, h("span", { class: "range-field" }, one, list, range), [
-    one,
-    list,
-    ...ends,
-    points,
-    mode,
-    gap,
-  ]);
-}
+  return field(self, { path, label, help, beside: mode }, (own) => html`<span class="range-field">${controls[form](own)}</span>`);
+});
+
+/** A view as a function that returns an element. */
+const placed = (View) => (properties) => {
+  const element = h("div", { class: "placed" });
+  render(html`<${View} ...${properties} />`, element);
+  return element;
+};
+export const quantityField = placed(Quantity);
+export const textField = placed(Text);
+export const numberField = placed(Amount);
+export const choiceField = placed(Choose);
+export const toggleField = placed(Toggle);
+export const rangeField = placed(Range);
 
 /** A list that people typed; a unit at its end is that of all: "30, 60, 90 °C". */
 function withUnits(text, kind) {
@@ -202,8 +174,7 @@ function withUnits(text, kind) {
 
 /** The same quantity in another form: one value, list or range. */
 function inForm(form, value, { spacing, otherwise }) {
-  const isRange = value && typeof value === "object" && !Array.isArray(value);
-  const all = isRange ? [value.from, value.to] : listed(value);
+  const all = isRange(value) ? [value.from, value.to] : listed(value);
   if (form === "one") return all[0] ?? otherwise.one;
   if (form === "list") return all.length > 1 ? all : [all[0], otherwise.to ?? all[0]].filter(Boolean);
   return {

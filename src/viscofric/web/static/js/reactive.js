@@ -1,7 +1,8 @@
 // What follows the state: signals, effects, and views of Preact written as htm templates.
 //
 // html`<p class="help">${text}</p>`     elements of Preact
-// view((properties) => html`…`)         a component that is drawn again when a signal that it read has changed
+// view((properties, self) => html`…`)   a component that is drawn again when a signal that it read has changed; `self` has a
+//                                       number of its own
 // watch(read, act)                      act(value) each time that what `read` gives is another; not at first
 
 import htm from "../vendor/htm.js";
@@ -13,14 +14,18 @@ export { batch, computed, effect, signal, untracked } from "../vendor/signals-co
 
 export const html = htm.bind(h);
 
+let made = 0;
+
 export const view = (draw) =>
   class View extends Component {
+    number = (made += 1);
+
     render(properties) {
       this.stop?.();
       let drawn;
       let first = true;
       this.stop = effect(() => {
-        if (first) drawn = draw(properties);
+        if (first) drawn = draw(properties, this);
         else this.setState({});
         first = false;
       });
