@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import ast
+import math
+import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,6 +15,8 @@ from viscofric.study.make_rubber import make_rubber
 from viscofric.study.run_file.errors import keys
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import TABLES
+from viscofric.web.jobs.context import beside_field
+from viscofric.web.study_text import DocumentError, study_of
 
 _ROWS = [f"{T},{f},{2.0 * f**0.2 * 10 ** (-0.01 * T)},0.3" for T in (20, 30, 40) for f in (0.1, 0.3, 1, 3, 10)]
 _TESTS = ["temperature (degC),disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)", "20,100,90,25,0.4"]
@@ -48,6 +53,54 @@ def test_files_of_the_other_kind_are_sent_to_their_step(tmp_path: Path) -> None:
     with pytest.raises(vf.ViscofricError) as caught:
         vf.read_mtm(written(tmp_path, "T (degC),f (Hz),storage modulus (MPa),loss modulus (MPa)", *_ROWS))
     assert caught.value.words("page").endswith("; drop it at the step “Data”.")
+
+
+_HEATING, _LAYER = {"counterface": "steel"}, {"thickness": "2 mm"}
+_INTERFACE = {"law": "constant", "stress": "1 MPa"}
+
+
+@pytest.mark.parametrize(
+    ("tables", "fields"),
+    [
+        ({"heating": {**_HEATING, "passes": 3}}, ["heating.passes"]),
+        ({"heating": {**_HEATING, "track_radius": "2 cm"}}, ["heating.track_radius"]),
+        ({"heating": _HEATING, "layer": _LAYER}, ["heating"]),
+        (
+            {"heating": {**_HEATING, "coulomb": 0.2, "slip": "1 m/s"}, "interface": _INTERFACE},
+            ["heating.coulomb", "heating.slip"],
+        ),
+        ({"interface": {"law": "best"}}, ["interface"]),
+        ({"interface": {**_INTERFACE, "law": "best"}}, ["interface.law"]),
+        ({"interface": {"law": "power", "stress": "1 MPa"}}, ["interface.exponent", "interface.speed"]),
+        ({"history": {"dwell": "0 s"}}, ["history.dwell"]),
+        ({"history": {"dwell": "1 s", "strokes": 2}}, ["history.strokes"]),
+    ],
+)
+def test_contradictions_are_at_their_fields_without_keys_of_run_files(
+    tables: dict[str, Any], fields: list[str], tmp_path: Path
+) -> None:
+    study = {
+        "material": {"catalogue": "synthetic fluoroelastomer"},
+        "indenter": {"shape": "ball", "radius": "9 mm"},
+        "conditions": {"load": "2 N", "speed": "1 m/s", "temperature": "30 degC"},
+    }
+    with pytest.raises(DocumentError) as caught:
+        study_of({**study, **tables}, tmp_path)
+    found = [beside_field(one) for one in caught.value.mistakes]
+    assert [one["field"] for one in found] == fields
+    assert not any(re.search(r"[\[_=]", one["message"]) for one in found)
+
+
+def test_the_final_state_of_a_track_can_be_asked_for_in_json(tmp_path: Path) -> None:
+    document = {
+        "material": {"catalogue": "synthetic fluoroelastomer"},
+        "indenter": {"shape": "ball", "radius": "9 mm"},
+        "conditions": {"load": "2 N", "speed": "1 m/s", "temperature": "30 degC"},
+        "heating": {**_HEATING, "passes": "inf", "track_radius": "2 cm"},
+    }
+    heating = study_of(document, tmp_path)[1].heating
+    assert heating is not None
+    assert heating.passes == math.inf
 
 
 def test_every_field_of_the_page_that_a_remedy_names_is_there() -> None:

@@ -22,6 +22,7 @@ from viscofric.study.run_file.tables import (
     Speeds,
     Table,
     Temperatures,
+    worded,
 )
 
 if TYPE_CHECKING:
@@ -52,7 +53,8 @@ class AnyIndenterTable(Table, ABC):
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
         if "poisson_ratio" in self.model_fields_set and self.modulus is None:
-            yield "poisson_ratio", "is for an elastic indenter, but modulus is not given; a rigid one has none"
+            said = "is for an elastic indenter, but modulus is not given; a rigid one has none"
+            yield "poisson_ratio", worded(said, "is of an elastic indenter; give its Young's modulus")
 
     @property
     def axes(self) -> dict[str, tuple[float, ...]]:

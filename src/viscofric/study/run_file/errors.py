@@ -62,6 +62,8 @@ def place(parts: Iterable[str | int], values: object) -> str:
 
 def wrong(where: str, words: str, code: str = "contradiction") -> Note:
     """Return a note about a place in the file."""
+    if isinstance(words, Note):
+        return words.at(where)
     return Note(code, words if words.endswith((".", "?")) else f"{words}.", where)
 
 
@@ -113,7 +115,9 @@ def _problem(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]
     }
     if kind in words:
         return wrong(where, words[kind](), kind.replace("_", "-"))
-    code = getattr(limit.get("error"), "code", "") or ("contradiction" if kind == "relation" else "value")
+    if kind == "relation":
+        return wrong(where, limit["words"])
+    code = getattr(limit.get("error"), "code", "") or "value"
     return wrong(where, problem["msg"].removeprefix("Value error, ").removeprefix(f"{VALUE} = "), code)
 
 

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
 
 from viscofric.errors import brief
 from viscofric.heat.heating import Heating
-from viscofric.study.run_file.tables import Length, Number, Speeds, Table, as_written, listed, one_or_more
+from viscofric.study.run_file.tables import Length, Number, Speeds, Table, as_written, listed, one_or_more, worded
 from viscofric.thermal import BODIES, body_of
 
 if TYPE_CHECKING:
@@ -39,13 +39,17 @@ Rubber = Annotated[Any, _body_named("rubber"), _SCHEMA]
 
 
 def _passes(value: object) -> float:
+    if value == "inf":  # JSON has no other
+        value = math.inf
     whole = isinstance(value, int) and not isinstance(value, bool)
     if not (whole or value == math.inf) or float(value) < 0.0:  # type: ignore[arg-type]
         raise ValueError(f"{brief(value)} is no number of passes; give a whole number, or inf for the final state")
     return float(value)  # type: ignore[arg-type]
 
 
-Passes = Annotated[float, PlainValidator(_passes), WithJsonSchema({"type": "number", "minimum": 0})]
+Passes = Annotated[
+    float, PlainValidator(_passes), WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "inf"}]})
+]
 Coefficient = Annotated[Number, Field(ge=0.0)]
 Coefficients = Annotated[
     tuple[Coefficient, ...],
@@ -89,9 +93,9 @@ class HeatingTable(Table):
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
         if self.passes > 0 and self.track_radius is None:
-            yield "passes", "needs track_radius, the radius of the circle"
+            yield "passes", worded("needs track_radius, the radius of the circle", "need the radius of the track")
         if self.track_radius is not None and self.passes == 0:
-            yield "track_radius", "has no effect without passes"
+            yield "track_radius", worded("has no effect without passes", "has no effect without earlier passes")
         for name in ("coulomb", "slip"):
             values = getattr(self, name) or ()
             if len(set(values)) < len(values):

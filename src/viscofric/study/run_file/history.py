@@ -24,6 +24,7 @@ from viscofric.study.run_file.tables import (
     one_or_more,
     schema_of,
     with_unit,
+    worded,
 )
 from viscofric.units import to_si
 
@@ -91,15 +92,17 @@ class HistoryTable(Table):
         if self.file is not None:
             for name in _STAGES:
                 if name in self.model_fields_set:
-                    yield name, "is given besides file, which has the whole history"
+                    said = "is given besides file, which has the whole history"
+                    yield name, worded(said, "is given besides a table, which has the whole history")
             return
         for name in ("columns", "sheet"):
             if getattr(self, name):
                 yield name, "is for a file only"
         if self.slide is None and not self.load_time and min(self.dwell) == 0.0:
-            yield "dwell", "is zero, and nothing else happens; give dwell, load_time or slide"
+            said = "is zero, and nothing else happens; give dwell, load_time or slide"
+            yield "dwell", worded(said, f"{said.partition(';')[0]}; give a dwell, a time to load or a path")
         if self.slide is None and self.strokes > 1:
-            yield "strokes", "needs slide, the length of the path"
+            yield "strokes", worded("needs slide, the length of the path", "need the path of a stroke")
 
     @property
     def inputs(self) -> tuple[Path, ...]:

@@ -9,7 +9,17 @@ from pydantic import BeforeValidator, Field
 
 from viscofric.rheology.interface.fitting import KINDS
 from viscofric.rheology.shifts.laws import Arrhenius
-from viscofric.study.run_file.tables import VALUE, Number, Pressure, Speed, Table, Temperature, as_text, with_unit
+from viscofric.study.run_file.tables import (
+    VALUE,
+    Number,
+    Pressure,
+    Speed,
+    Table,
+    Temperature,
+    as_text,
+    with_unit,
+    worded,
+)
 from viscofric.units import positive
 
 if TYPE_CHECKING:
@@ -55,12 +65,17 @@ class InterfaceTable(Table):
                     yield name, "belongs to a law whose constants are given"
             return
         if self.law == "best":
-            yield "law", f"is missing; constants belong to one of {', '.join(map(repr, CONSTANTS))}"
+            said = f"is missing; constants belong to one of {', '.join(map(repr, CONSTANTS))}"
+            yield (
+                "law",
+                worded(said, "is fitted, and takes no constants; empty them or choose the law that they are of"),
+            )
             return
         for name in _ALL:
             if (name in CONSTANTS[self.law]) != (getattr(self, name) is not None):
                 needed = "is missing" if name in CONSTANTS[self.law] else "is no constant"
-                yield name, f"{needed} of the law {self.law!r}, which has {', '.join(CONSTANTS[self.law])}"
+                said = f"{needed} of the law {self.law!r}, which has {', '.join(CONSTANTS[self.law])}"
+                yield name, worded(said, f"{needed} of this law")
         if (self.activation_energy is None) != (self.reference is None):
             yield "reference", "and activation_energy belong together; give both or neither"
         for name in ("level_error", "area_error"):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.study.cases.sweep import CONDITIONS, MOST_CASES, axes_of, body_of, coordinates, count_cases
 from viscofric.study.run_file.contact import BallTable
-from viscofric.study.run_file.tables import PerLength
+from viscofric.study.run_file.tables import PerLength, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -193,7 +193,9 @@ def _interface(tables: Tables) -> Iterator[Problem]:
     if interface is None:
         return
     if not interface.is_given and tables.get("measurement") is None:
-        yield "interface", "needs a [measurement] with Coulomb friction (of a ball), or a law with its constants"
+        said = "needs a [measurement] with Coulomb friction (of a ball), or a law with its constants"
+        page = "needs measured Coulomb friction of a ball, in the step Measurement, or another law of the shear stress"
+        yield "interface", worded(said, page)
 
 
 def _heating(tables: Tables) -> Iterator[Problem]:
@@ -201,16 +203,21 @@ def _heating(tables: Tables) -> Iterator[Problem]:
     if heating is None:
         return
     if tables.get("surface") is not None:
-        yield "heating", "needs an [indenter], but there is a rough [surface]"
+        page = "friction of rough surfaces is not computed with heating"
+        yield "heating", worded("needs an [indenter], but there is a rough [surface]", page)
     if tables.get("layer") is not None:
-        yield "heating", "needs a half-space, but there is a [layer]"
+        page = "friction on layers is not computed with heating"
+        yield "heating", worded("needs a half-space, but there is a [layer]", page)
     if indenter is not None and indenter.LINE and heating.passes > 0:
         yield "heating.passes", "are of round contacts; a cylinder leaves no circular track"
     if tables.get("interface") is not None:
         if max(heating.coulomb) > 0.0:
-            yield "heating.coulomb", "is given besides [interface], whose shear stress makes this heat; leave it out"
+            said = "is given besides [interface], whose shear stress makes this heat; leave it out"
+            page = "is already that of the dry interface, whose shear stress makes this heat; empty this field"
+            yield "heating.coulomb", worded(said, page)
         if heating.slip is not None:
-            yield "heating.slip", "is given besides [interface]; give interface.slip instead"
+            page = "is already the slip speed of the dry interface; empty this field"
+            yield "heating.slip", worded("is given besides [interface]; give interface.slip instead", page)
 
 
 def _members(tables: Tables) -> Iterator[Problem]:

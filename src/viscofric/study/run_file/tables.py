@@ -26,6 +26,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
 
 from viscofric.errors import InputError, brief
+from viscofric.notes import Note, Remedy
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
@@ -36,6 +37,11 @@ if TYPE_CHECKING:
 
 #: A key within the table, such as "load" or "load.2" ("": the whole table), and a sentence about it.
 Problem: TypeAlias = tuple[str, str]
+
+
+def worded(run_file: str, page: str) -> Note:
+    """Return a problem in the words of a run file, and in those of the page, beside its field."""
+    return Note("contradiction", "", remedy=Remedy(f"{run_file}.", page=f"{page}."))
 
 
 class Table(BaseModel):
