@@ -1,6 +1,13 @@
 // The form of a contact: shape, load, layer, speeds and temperatures, all of them keys of the study's document.
 
-import { effect } from "./reactive.js";
+import { uploadFiles } from "./api.js";
+import { Amount, Choose, Form, Range, Ticks, Toggle, where, within } from "./fields.js";
+import { computed, html, signal, view } from "./reactive.js";
+import { state } from "./state.js";
+import { Card, Drop, Notes } from "./views.js";
+
+const quantity = (path, label, kind, more = {}) => ({ path, label, kind, ...more });
+const number = (path, label, more = {}) => ({ as: Amount, path, label, ...more });
 
 const SHAPES = [
   ["ball", "Ball"],
@@ -10,6 +17,8 @@ const SHAPES = [
   ["made", "Rough surface, generated"],
   ["scan", "Rough surface, measured"],
 ];
+const POINTS = ["ball", "ellipsoid", "cone"];
+const ROUGH = ["made", "scan"];
 
 // What each shape begins with; a study keeps what it had of another shape as long as the page is open.
 const FIRST = {
@@ -18,15 +27,7 @@ const FIRST = {
   ellipsoid: { indenter: { shape: "ellipsoid", radius_x: "5 mm", radius_y: "10 mm" }, load: "25 N" },
   cone: { indenter: { shape: "cone", angle: "10 deg" }, load: "25 N" },
   made: {
-    surface: {
-      hurst: 0.8,
-      rms_slope: 0.2,
-      shortest: "80 um",
-      rolloff: "640 um",
-      points: 128,
-      spacing: "10 um",
-      seed: 1,
-    },
+    surface: { hurst: 0.8, rms_slope: 0.2, shortest: "80 um", rolloff: "640 um", points: 128, spacing: "10 um", seed: 1 },
     pressure: "0.5 MPa",
   },
   scan: { surface: { file: "", prepare: ["fill", "remove tilt", "window"] }, pressure: "0.5 MPa" },
@@ -48,224 +49,116 @@ export function shapeOf(study) {
 }
 
 /** Its name in a sentence. */
-export function nounOf(study) {
-  const shape = shapeOf(study);
-  return shape === "made" || shape === "scan" ? "rough surface" : shape;
+export const nounOf = (study) => (ROUGH.includes(shapeOf(study)) ? "rough surface" : shapeOf(study));
+
+const shape = computed(() => shapeOf(state.study));
+const of = (shapes, ...fields) => where(() => shapes.includes(shape.value), ...fields);
+const left = new Map(); // what the study had of other shapes
+
+function become(next) {
+  const { indenter, surface, conditions } = state.study;
+  const { load, pressure, direction, ...others } = conditions ?? {};
+  left.set(shape.value, { indenter, surface, load, pressure });
+  const begun = left.get(next) ?? FIRST[next];
+  // point contacts share their load; that of a line is per length
+  const shares = [shape.value, next].every((one) => POINTS.includes(one));
+  const loads = { load: (shares && load) || begun.load, pressure: begun.pressure };
+  const kept = Object.fromEntries(Object.entries({ ...others, ...loads }).filter(([, value]) => value !== undefined));
+  state.change({ indenter: begun.indenter, surface: begun.surface, conditions: kept });
 }
 
-/** Build the form; returns its cards. */
-export function contactForm({ state, fields, api, announce }) {
-  const { h, card, rangeField, choiceField, toggleField } = fields;
-  const quantity = (path, label, kind, more = {}) => fields.quantityField({ path, label, kind, ...more });
-  const number = (path, label, min, step, more = {}) => fields.numberField({ path, label, min, step, ...more });
-  const left = new Map(); // what the study had of other shapes
+const load = (label, kind, slider) => ({ path: "conditions.load", label, kind, as: Range, slider });
+const elastic = (table, label) => [
+  {
+    ...{ path: `${table}.modulus`, label, as: Toggle, value: "200 GPa" },
+    onChange: (modulus) =>
+      state.change({
+        [`${table}.modulus`]: modulus,
+        ...(modulus === undefined ? { [`${table}.poisson_ratio`]: undefined } : {}),
+      }),
+  },
+  ...within(
+    `${table}.modulus`,
+    quantity(`${table}.modulus`, "Young's modulus", "modulus"),
+    number(`${table}.poisson_ratio`, "Poisson's ratio", { min: 0, max: 0.5, step: 0.01, placeholder: "0.3" }),
+  ),
+];
 
-  const select = h(
-    "select",
-    { id: "contact-shape" },
-    SHAPES.map(([value, text]) => h("option", { value }, text)),
-  );
-  select.addEventListener("change", () => become(select.value));
-
-  function become(shape) {
-    const { study } = state;
-    const conditions = { ...study.conditions };
-    const { load, pressure } = conditions;
-    left.set(shapeOf(study), { indenter: study.indenter, surface: study.surface, load, pressure });
-    const next = left.get(shape) ?? FIRST[shape];
-    for (const key of ["load", "pressure", "direction"]) delete conditions[key];
-    if (next.load !== undefined) conditions.load = sameLoad(next, load, shapeOf(study), shape);
-    if (next.pressure !== undefined) conditions.pressure = next.pressure;
-    state.change({ indenter: next.indenter, surface: next.surface, conditions });
-  }
-
-  /** Point contacts share their load; that of a line is per length. */
-  function sameLoad(next, load, before, after) {
-    const points = ["ball", "ellipsoid", "cone"];
-    return points.includes(before) && points.includes(after) && load !== undefined ? load : next.load;
-  }
-
-  // Every group is made once, and shown for its shapes.
-  const groups = [];
-  const group = (shapes, ...children) => {
-    const element = h("div", { class: "form" }, ...children);
-    groups.push([shapes, element]);
-    return element;
-  };
-  const indenters = ["ball", "cylinder", "ellipsoid", "cone"];
-  const shape = [
-    group(["ball", "cylinder"], quantity("indenter.radius", "Radius", "length")),
-    group(
-      ["ellipsoid"],
-      quantity("indenter.radius_x", "Radius along the motion", "length"),
-      quantity("indenter.radius_y", "Radius across", "length"),
-    ),
-    group(["cone"], quantity("indenter.angle", "Angle of the flank", "angle", { help: "to the undeformed surface" })),
-    group(
-      ["made"],
-      number("surface.hurst", "Hurst exponent", 0, 0.05, { max: 1 }),
-      number("surface.rms_slope", "Rms slope", 0, 0.01),
-      quantity("surface.rolloff", "Roll-off wavelength", "length"),
-      quantity("surface.shortest", "Shortest wavelength", "length"),
-      number("surface.points", "Points along an edge", 8, 1),
-      quantity("surface.spacing", "Spacing of points", "length"),
-      number("surface.seed", "Seed", 0, 1, { help: "of the random number generator" }),
-    ),
-    group(["scan"], ...scan()),
-  ];
-
-  function scan() {
-    const problem = fields.note([]);
-    const take = async (files) => {
-      try {
-        const [name] = await api.uploadFiles(files.slice(0, 1));
-        state.set("surface.file", name);
-        announce(`${name} was uploaded.`);
-        problem.set([]);
-      } catch (error) {
-        problem.set([error.message], "error");
-      }
-    };
-    const drop = fields.fileDrop({
-      label: "Drop a height map",
-      help: "text matrix, x y z points, or a microscope file",
-      multiple: false,
-      onFiles: take,
-    });
-    const steps = [
+const SHAPE = [
+  { id: "contact-shape", path: "indenter.shape", label: "Shape", as: Choose, options: SHAPES, shown: () => shape.value, onChange: become },
+  ...of(["ball", "cylinder"], quantity("indenter.radius", "Radius", "length", { slider: [1e-4, 1] })),
+  ...of(
+    ["ellipsoid"],
+    quantity("indenter.radius_x", "Radius along the motion", "length"),
+    quantity("indenter.radius_y", "Radius across", "length"),
+  ),
+  ...of(["cone"], quantity("indenter.angle", "Angle of the flank", "angle", { help: "to the undeformed surface" })),
+  ...of(
+    ["made"],
+    number("surface.hurst", "Hurst exponent", { min: 0, max: 1, step: 0.05 }),
+    number("surface.rms_slope", "Rms slope", { min: 0, step: 0.01 }),
+    quantity("surface.rolloff", "Roll-off wavelength", "length"),
+    quantity("surface.shortest", "Shortest wavelength", "length"),
+    number("surface.points", "Points along an edge", { min: 8, step: 1 }),
+    quantity("surface.spacing", "Spacing of points", "length"),
+    number("surface.seed", "Seed", { min: 0, step: 1, help: "of the random number generator" }),
+  ),
+];
+const SCAN = of(
+  ["scan"],
+  { path: "surface.file", label: "File", placeholder: "none yet" },
+  {
+    path: "surface.prepare",
+    label: "Preparation",
+    as: Ticks,
+    options: [
       ["fill", "fill gaps"],
       ["remove tilt", "remove tilt"],
       ["remove curvature", "remove curvature"],
       ["window", "window the edges"],
-    ];
-    const boxes = steps.map(([step, text]) => {
-      const box = h("input", { type: "checkbox" });
-      const show = () => (box.checked = [state.get("surface.prepare") ?? []].flat().includes(step));
-      box.addEventListener("change", () => {
-        const now = [state.get("surface.prepare") ?? []].flat();
-        const next = steps.map(([one]) => one).filter((one) => (one === step ? box.checked : now.includes(one)));
-        state.set("surface.prepare", [...next, ...now.filter((one) => !steps.some(([known]) => known === one))]);
-      });
-      effect(show);
-      return h("label", { class: "row" }, box, text);
-    });
-    return [
-      drop,
-      problem,
-      fields.textField({ path: "surface.file", label: "File", placeholder: "none yet" }),
-      h("fieldset", {}, h("legend", { class: "field-label" }, "Preparation"), boxes),
-      fields.textField({ path: "surface.unit", label: "Unit of heights", placeholder: "from the file" }),
-      quantity("surface.spacing", "Spacing of points", "length", { placeholder: "from the file" }),
-    ];
-  }
+    ],
+  },
+  { path: "surface.unit", label: "Unit of heights", placeholder: "from the file" },
+  quantity("surface.spacing", "Spacing of points", "length", { placeholder: "from the file" }),
+);
+const LOAD = [
+  ...of(POINTS, load("Load", "load", [0.01, 1e4])),
+  ...of(["cylinder"], load("Load per length", "line_load", [10, 1e6])),
+  ...of(
+    ROUGH,
+    { path: "conditions.pressure", label: "Mean pressure", kind: "pressure", as: Range, slider: [1e3, 1e8] },
+    quantity("conditions.direction", "Direction of motion", "angle", { placeholder: "along x" }),
+  ),
+  ...of([...POINTS, "cylinder"], ...elastic("indenter", "Elastic indenter")),
+  ...of(ROUGH, ...elastic("surface", "Elastic surface")),
+  { path: "layer", label: "Layer on a rigid base", as: Toggle, value: { thickness: "2 mm" } },
+  ...within(
+    "layer",
+    quantity("layer.thickness", "Thickness", "length"),
+    {
+      path: "layer.base",
+      label: "Base",
+      as: Choose,
+      otherwise: "bonded",
+      options: ["bonded", ["sliding", "sliding, no friction"]],
+    },
+  ),
+];
 
-  const load = [
-    group(["ball", "ellipsoid", "cone"], rangeField({ path: "conditions.load", label: "Load", kind: "load" })),
-    group(["cylinder"], rangeField({ path: "conditions.load", label: "Load per length", kind: "line_load" })),
-    group(
-      ["made", "scan"],
-      rangeField({ path: "conditions.pressure", label: "Mean pressure", kind: "pressure" }),
-      quantity("conditions.direction", "Direction of motion", "angle", { placeholder: "along x" }),
-    ),
-  ];
-
-  /** Fields that are there only with their table or key. */
-  function optional(path, ...children) {
-    const element = h("div", { class: "form" }, ...children);
-    const show = () => (element.hidden = state.get(path) === undefined);
-    effect(show);
-    return element;
-  }
-
-  const layer = [
-    toggleField({ path: "layer", label: "Layer on a rigid base", value: { thickness: "2 mm" } }),
-    optional(
-      "layer",
-      quantity("layer.thickness", "Thickness", "length"),
-      choiceField({
-        path: "layer.base",
-        label: "Base",
-        otherwise: "bonded",
-        options: [
-          ["bonded", "bonded"],
-          ["sliding", "sliding, no friction"],
-        ],
-      }),
-    ),
-  ];
-  const elastic = ["indenter", "surface"].map((table) =>
-    group(
-      table === "indenter" ? indenters : ["made", "scan"],
-      toggleField({
-        path: `${table}.modulus`,
-        label: table === "indenter" ? "Elastic indenter" : "Elastic surface",
-        value: "200 GPa",
-      }),
-      optional(
-        `${table}.modulus`,
-        quantity(`${table}.modulus`, "Young's modulus", "modulus"),
-        number(`${table}.poisson_ratio`, "Poisson's ratio", 0, 0.01, { max: 0.5, placeholder: "0.3" }),
-      ),
-    ),
-  );
-
-  const becomeLaw = (law) => state.set("interface", { ...LAWS[law], slip: state.get("interface.slip") });
-  const interfaceFields = [
-    toggleField({ path: "interface", label: "Friction of a dry interface", value: LAWS.power }),
-    optional(
-      "interface",
-      choiceField({
-        path: "interface.law",
-        label: "Law of the shear stress",
-        options: [
-          ["constant", "constant"],
-          ["power", "power of the slip speed"],
-          ["eyring", "Eyring"],
-          ["gaussian", "Gaussian (Persson)"],
-          ["best", "fitted to measured Coulomb friction"],
-        ],
-        otherwise: "best",
-        onChange: becomeLaw,
-      }),
-      optional("interface.stress", quantity("interface.stress", "Shear stress", "pressure")),
-      optional("interface.peak", quantity("interface.peak", "Largest shear stress", "pressure")),
-      optional("interface.exponent", number("interface.exponent", "Exponent", -1, 0.01)),
-      optional("interface.width", number("interface.width", "Width in decades", 0, 0.1)),
-      optional(
-        "interface.activation_volume",
-        fields.textField({ path: "interface.activation_volume", label: "Activation volume" }),
-      ),
-      optional("interface.speed", quantity("interface.speed", "At the slip speed", "speed")),
-      quantity("interface.slip", "Slip speed", "speed", { placeholder: "the speed, as in pure sliding" }),
-    ),
-  ];
-  const heating = [
-    toggleField({ path: "heating", label: "Friction heats the contact", value: { counterface: "steel" } }),
-    optional(
-      "heating",
-      fields.textField({
-        path: "heating.counterface",
-        label: "Thermal properties of the indenter",
-        help: "steel, PTFE (typical handbook values), or 46 W/m/K, 7810 kg/m^3, 475 J/kg/K",
-      }),
-      fields.textField({ path: "heating.rubber", label: "Thermal properties of the rubber", placeholder: "filled rubber" }),
-      number("heating.coulomb", "Coulomb friction", 0, 0.01, { placeholder: "0, or that of the interface" }),
-      quantity("heating.slip", "Sliding velocity", "speed", { placeholder: "the speed, or that of the interface" }),
-      choiceField({
-        path: "heating.average",
-        label: "Temperature of the rubber",
-        otherwise: "contact",
-        options: [
-          ["contact", "mean of the face"],
-          ["loss", "where the loss is released"],
-        ],
-      }),
-    ),
-  ];
-
-  const accuracy = choiceField({
+const CONDITIONS = [
+  { path: "conditions.speed", label: "Speed", kind: "speed", as: Range, otherwise: { to: "1 m/s", points: 25 } },
+  {
+    path: "conditions.temperature",
+    label: "Temperature",
+    kind: "temperature",
+    as: Range,
+    spacing: ["linear"],
+    otherwise: { to: "90 degC", points: 3 },
+  },
+  {
     path: "solver.accuracy",
     label: "Accuracy",
+    as: Choose,
     otherwise: 1e-3,
     options: [
       [0.05, "5 %"],
@@ -275,36 +168,130 @@ export function contactForm({ state, fields, api, announce }) {
       [1e-4, "0.01 %, slow"],
     ],
     help: "numerical; the band shows the material's uncertainty",
-  });
+  },
+];
 
-  const show = () => {
-    const now = shapeOf(state.study);
-    select.value = now;
-    for (const [shapes, element] of groups) element.hidden = !shapes.includes(now);
-  };
-  effect(show);
+/** A constant of some laws; also shown where it is left of another law, so that it can be emptied. */
+const ofLaw = (field) => {
+  const key = field.path.split(".")[1];
+  const has = ({ law = "best", ...given }) => (law !== "best" && key in LAWS[law]) || given[key] !== undefined;
+  return where(() => has(state.get("interface") ?? {}), field)[0];
+};
+const INTERFACE = [
+  { path: "interface", label: "Friction of a dry interface", as: Toggle, value: LAWS.power },
+  ...within(
+    "interface",
+    {
+      path: "interface.law",
+      label: "Law of the shear stress",
+      as: Choose,
+      options: [
+        "constant",
+        ["power", "power of the slip speed"],
+        ["eyring", "Eyring"],
+        ["gaussian", "Gaussian (Persson)"],
+        ["best", "fitted to measured Coulomb friction"],
+      ],
+      otherwise: "best",
+      onChange: (law) => state.set("interface", { ...LAWS[law], slip: state.get("interface.slip") }),
+    },
+    ofLaw(quantity("interface.stress", "Shear stress", "pressure")),
+    ofLaw(quantity("interface.peak", "Largest shear stress", "pressure")),
+    ofLaw(number("interface.exponent", "Exponent", { min: -1, step: 0.01 })),
+    ofLaw(number("interface.width", "Width in decades", { min: 0, step: 0.1 })),
+    ofLaw({ path: "interface.activation_volume", label: "Activation volume" }),
+    ofLaw(quantity("interface.speed", "At the slip speed", "speed")),
+    quantity("interface.slip", "Slip speed", "speed", { placeholder: "the speed, as in pure sliding" }),
+  ),
+];
 
-  return [
-    card(
-      "Indenter or surface",
-      h("div", { class: "field" }, h("label", { for: select.id, class: "field-label" }, "Shape"), select),
-      ...shape,
-      ...load,
-      ...elastic,
-      ...layer,
+const passed = () => state.get("heating.track_radius") !== undefined || state.get("heating.passes") !== undefined;
+/** Where an interface makes the heat, Coulomb friction and its slip are those of the interface. */
+const alone = (field) =>
+  where(() => state.get("interface") === undefined || state.get(field.path) !== undefined, field)[0];
+const HEATING = [
+  { path: "heating", label: "Friction heats the contact", as: Toggle, value: { counterface: "steel" } },
+  ...within(
+    "heating",
+    {
+      path: "heating.counterface",
+      label: "Thermal properties of the indenter",
+      help: "steel, PTFE (typical handbook values), or 46 W/m/K, 7810 kg/m^3, 475 J/kg/K",
+    },
+    { path: "heating.rubber", label: "Thermal properties of the rubber", placeholder: "filled rubber" },
+    alone(number("heating.coulomb", "Coulomb friction", { min: 0, step: 0.01, placeholder: "0" })),
+    alone(quantity("heating.slip", "Sliding velocity", "speed", { placeholder: "the speed" })),
+    ...where(() => POINTS.includes(shape.value) || passed(), {
+      path: "heating.track_radius",
+      label: "Circular track",
+      as: Toggle,
+      value: "20 mm",
+      help: "The rubber is passed again and again, as on a disc.",
+      shown: passed,
+      onChange: (radius) =>
+        state.change({ "heating.track_radius": radius, "heating.passes": radius === undefined ? undefined : 100 }),
+    }),
+    ...where(
+      passed,
+      quantity("heating.track_radius", "Radius of the track", "length"),
+      {
+        path: "heating.passes",
+        label: "Earlier passes",
+        read: (text) => (/^\s*\d+\s*$/.test(text) ? Number(text) : text.trim()),
+        help: "A whole number, or inf for the final state.",
+      },
     ),
-    card(
-      "Speeds and temperatures",
-      rangeField({ path: "conditions.speed", label: "Speed", kind: "speed", otherwise: { to: "1 m/s", points: 25 } }),
-      rangeField({
-        path: "conditions.temperature",
-        label: "Temperature",
-        kind: "temperature",
-        spacing: ["linear"],
-        otherwise: { to: "90 degC", points: 3 },
-      }),
-      accuracy,
-    ),
-    card("Interface and heat", ...interfaceFields, ...heating),
-  ];
+    {
+      path: "heating.average",
+      label: "Temperature of the rubber",
+      as: Choose,
+      otherwise: "contact",
+      options: [
+        ["contact", "mean of the face"],
+        ["loss", "where the loss is released"],
+      ],
+    },
+    {
+      path: "heating.branch",
+      label: "Thermal branch",
+      as: Choose,
+      otherwise: "cold",
+      options: [
+        ["cold", "cold: the speed rises"],
+        ["hot", "hot: the speed falls"],
+      ],
+      help: "for contacts that have two states",
+    },
+  ),
+];
+
+const failed = signal(null); // why a height map could not be brought
+
+async function bring(app, files) {
+  try {
+    const [name] = await uploadFiles(files.slice(0, 1));
+    state.set("surface.file", name);
+    app.announce(`${name} was uploaded.`);
+    failed.value = null;
+  } catch (error) {
+    failed.value = error.message;
+  }
 }
+
+export const ContactForm = view(({ app }) => {
+  const help = "text matrix, x y z points, or a microscope file";
+  const take = (files) => bring(app, files);
+  return html`
+    <${Card} title="Indenter or surface">
+      <${Form} of=${SHAPE} />
+      ${
+        shape.value === "scan" &&
+        html`<${Drop} label="Drop a height map" help=${help} multiple=${false} onFiles=${take} />
+          <${Notes} kind="error" list=${[failed.value]} /><${Form} of=${SCAN} />`
+      }
+      <${Form} of=${LOAD} />
+    <//>
+    <${Card} title="Speeds and temperatures"><${Form} of=${CONDITIONS} /><//>
+    <${Card} title="Interface and heat"><${Form} of=${INTERFACE} /><${Form} of=${HEATING} /><//>
+  `;
+});

@@ -1,7 +1,130 @@
-// Numbers and words of one contact: what is found with its errors, and why the pressure leans forward.
+// What is shown of one contact: its numbers with their errors, why the pressure leans forward, the map of the pressure with
+// outline and motion, and cuts along the motion.
+
+import { html, view } from "./reactive.js";
+import * as units from "./units.js";
+import { Figure } from "./views.js";
+
+const EDGE = "#d55e00";
+const MARK = "#8a949e";
+// Viridis, out of nothing where there is no pressure.
+const VIRIDIS =
+  "#440154 #482878 #3e4989 #31688e #26828e #1f9e89 #35b779 #6ece58 #b5de2b #fde725".split(" ");
+const SCALE = [
+  [0, "rgba(68,1,84,0)"],
+  ...VIRIDIS.map((colour, at) => [0.012 + (0.988 * at) / (VIRIDIS.length - 1), colour]),
+];
+const PRESSURE = { label: "pressure", kind: "pressure" };
+const length = (label) => ({ label, kind: "length" });
+const aside = { legend: false, decoration: true };
+
+/** The figures of a result of the job "contact", or their empty frames. */
+export const Pictures = view(({ of, noun, synthetic, children }) => {
+  const shared = { of, synthetic, empty: "Computing the contact.", x: length(of?.kind === "rough" ? "x" : "along the motion") };
+  return html`<div class="grid contact-figures ${of && !of.map ? "without-map" : ""}">
+    ${of?.map !== null && html`<${Figure} id="pressure-map" title="Contact pressure" ...${shared} ...${mapOf(of)} />`}
+    <${Figure} id="pressure-profile" title="Pressure along the motion" y=${PRESSURE} ...${shared} ...${pressureOf(of)} />
+    <${Figure} id="surface-profile" title="Rubber and indenter" y=${length("height")} ...${shared} ...${surfaceOf(of, noun)} />
+    ${children}
+  </div>`;
+});
+
+function mapOf(result) {
+  const rough = result?.kind === "rough";
+  const axes = {
+    x: length(rough ? "x" : "along the motion"),
+    y: { ...length(rough ? "y" : "across"), equal: true },
+    z: PRESSURE,
+  };
+  if (!result) return { x: [], y: [], z: [], axes };
+  const { x, y, pressure: z } = result.map;
+  return {
+    ...{ x, y, z, axes, zero: true, scale: SCALE, smooth: rough ? false : "best" },
+    lines: [...outlines(result), ...axisMarks(result), ...arrow(result)],
+    caption: rough
+      ? "One period of the surface; white is not in contact. The arrow is the surface's motion."
+      : "Top view: outline of the contact, + the indenter's axis, ● the centre of pressure. The indenter moves to the right; the leading edge is on the right.",
+  };
+}
+
+const outlines = ({ outline }) => outline.map(({ x, y }) => ({ x, y, mode: "lines", width: 1.5, colour: MARK, ...aside }));
+
+function axisMarks({ kind, numbers }) {
+  if (kind === "rough") return [];
+  const point = (x, symbol, colour, size) => ({ x: [x], y: [0], mode: "markers", symbol, colour, size, ...aside });
+  return [point(0, "cross-thin", "#ffffff", 12), point(numbers.centre_of_pressure.value, "circle", EDGE, 8)];
+}
+
+/** An arrow along the motion, in a corner of the map. */
+function arrow({ map: { x, y }, direction }) {
+  const [wide, high] = [x.at(-1) - x[0], y.at(-1) - y[0]];
+  const size = 0.14 * Math.min(wide, high);
+  const [cos, sin] = [Math.cos(direction), Math.sin(direction)];
+  const from = [x[0] + 0.05 * wide + (cos < 0 ? size : 0), y.at(-1) - 0.06 * high - (sin > 0 ? size : 0)];
+  const tip = [from[0] + size * cos, from[1] + size * sin];
+  const barb = (turn) => [
+    tip[0] - 0.35 * size * Math.cos(direction + turn),
+    tip[1] - 0.35 * size * Math.sin(direction + turn),
+  ];
+  const places = [from, tip, barb(0.5), tip, barb(-0.5)];
+  const [along, across] = [0, 1].map((axis) => places.map((place) => place[axis]));
+  return [{ x: along, y: across, mode: "lines", width: 2.5, colour: EDGE, ...aside }];
+}
+
+/** On the centre line; symmetric pressure makes no friction: what differs from the mirror image does. */
+function pressureOf(result) {
+  if (!result) return {};
+  const { x, pressure } = result.profile;
+  const { front, rear, centre_of_pressure: centre } = result.numbers;
+  const rough = result.kind === "rough";
+  // the contact and a little more, the same on either side
+  const reach = rough ? 0 : 1.12 * Math.max(Math.abs(front.value), Math.abs(rear.value));
+  const ends = rough ? [x[0], x.at(-1)] : [-reach, reach];
+  const kept = (values) => values.filter((_, at) => x[at] >= ends[0] && x[at] <= ends[1]);
+  const [places, pressures] = [kept(x), kept(pressure)];
+  const trace = { name: "pressure", x: places, y: pressures, fill: "tozeroy", colour: "blue" };
+  const y = { ...PRESSURE, range: [0, 1.15 * Math.max(...pressures, 1e-9)] }; // with room for the words at the top
+  if (rough)
+    return { y, x: { ...length("x"), range: ends }, traces: [trace], title: "Pressure along x, through the highest peak" };
+  const mirrored = {
+    name: "mirror image",
+    x: places.map((place) => -place).reverse(),
+    y: pressures.toReversed(),
+    ...{ dash: "3px,3px", width: 1.3, colour: MARK, decoration: true },
+  };
+  return {
+    y,
+    x: { ...length("along the motion"), range: ends },
+    traces: [trace, mirrored],
+    marks: [{ x: 0 }, { x: centre.value, label: "centre of pressure" }],
+    caption:
+      "On the centre line; motion to the right, the indenter's axis at zero. The difference from the mirror image causes the friction.",
+  };
+}
+
+function surfaceOf(result, noun) {
+  if (!result) return {};
+  const { x, surface: rubber, indenter } = result.profile;
+  const kept = (values) => values.filter((_, at) => indenter[at] !== null);
+  const rough = result.kind === "rough";
+  const heights = rubber.filter((height) => height !== null);
+  const [low, high] = [Math.min(...heights), Math.max(...heights)];
+  const top = rough ? Infinity : high + 0.6 * (high - low);
+  const near = kept(indenter).map((height) => (height <= top ? height : null));
+  return {
+    traces: [
+      { name: noun, x: kept(x), y: near, colour: MARK, width: 2 },
+      { name: "rubber", x, y: rubber, colour: "vermilion", width: 2.5 },
+    ],
+    title: rough ? "Rubber and surface along x" : "Rubber and indenter along the motion",
+    caption: rough
+      ? "Heights are exaggerated; the section goes through the highest pressure."
+      : "Motion to the right; heights are exaggerated. Behind the contact the rubber has not recovered yet (the trail).",
+  };
+}
 
 /** Numbers of a result, {label, value, remark} each: the main ones, and the others. */
-export function numbersOf(result, units) {
+export function numbersOf(result) {
   const of = result.numbers;
   const one = (name, label, kind, digits = 4) => {
     const { value, error } = of[name];
@@ -70,7 +193,7 @@ export function numbersOf(result, units) {
 }
 
 /** The cause of the asymmetric pressure, in sentences that follow the numbers. */
-export function whyItLeans(result, units, noun, radius) {
+export function whyItLeans(result, noun, radius) {
   const of = result.numbers;
   const speed = units.show(result.speed, "speed");
   const loss = of.loss_factor.value;

@@ -1,21 +1,17 @@
 // The card of the friction curve: computed after each change, its points drawn as they are known, till then the one before.
 
-import {
-  QUANTITIES,
-  curveTraces,
-  ghostTraces,
-  hasQuantity,
-  liveTrace,
-  quantityOf,
-  speedsOf,
-  valuesOf,
-} from "./curve_traces.js";
-import { Job, isStale, shows, studyOf } from "./jobs.js";
-import { effect, signal } from "./reactive.js";
+import { QUANTITIES, curveTraces, ghostTraces, hasQuantity, liveTrace, quantityOf, speedsOf, valuesOf } from "./curve_traces.js";
+import { Select } from "./fields.js";
+import { Job, isStale, studyOf } from "./jobs.js";
+import { computed, html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
+import { Button, Card, Figure, Folded, Notes, Progress } from "./views.js";
 
-const VIEWS = { speed: "against speed", shifted: "against reduced speed α(T)·v" };
+const VIEWS = [
+  ["speed", "against speed"],
+  ["shifted", "against reduced speed α(T)·v"],
+];
 const MOST_FAILURES = 5;
 
 const missingOf = (result) => result.friction.filter((value) => value === null).length;
@@ -41,7 +37,7 @@ function predicted() {
   return { study: study.interface ? state.study : study };
 }
 
-const curveJob = new Job("curve", { wait: 350, remember: 6, part: drafted, inputs: predicted });
+export const curve = new Job("curve", { wait: 350, remember: 6, part: drafted, inputs: predicted });
 
 /** What is drawn of the job's result or of its parts: {source, layout, points, result}. */
 function curveOf(source) {
@@ -51,170 +47,149 @@ function curveOf(source) {
   return { source, layout: source, points: { friction, known: friction.map((value) => value !== null) }, result: source };
 }
 
-/**
- * Make the card.  onPick({speed, temperature}) is called for a point that was clicked; `combination` is a signal, the number
- * of the one that is shown; `live` the job of the contact that is marked on the curve.
- */
-export function frictionCard({ figures, fields, announce, waits, isSynthetic }, { combination, onPick, live }) {
-  const { h, button } = fields;
-  const pinned = signal(null); // a curve that is kept for comparison
-  const quantity = signal("friction");
-  let before = null; // the curve that is shown in grey till there is something to show
+/** The newest curve, of whatever inputs. */
+const drawn = computed(() => curveOf(curve.result));
+const pinned = signal(null); // a curve that is kept for comparison
+const asked = { quantity: signal("friction"), combination: signal(0) };
+let before = null; // the curve that is shown in grey till there is something to show
 
-  const pointsOf = ({ friction, speed }) => {
-    const missing = missingOf({ friction });
-    return `${missing ? `${speed.length - missing} of ` : ""}${speed.length} points`;
-  };
-  const bar = fields.progressBar(curveJob, {
-    label: "Solving",
-    ended: ({ cancelled, seconds }) =>
-      cancelled ? "Cancelled." : `${pointsOf(curveJob.result)} in ${units.plainNumber(seconds, 2)} s`,
-  });
-  const warnings = fields.note([], "warning");
-  const failed = fields.note([], "error");
-  const notes = fields.note([]);
-  const checks = fields.note([]);
-  const checked = h("details", { hidden: true }, h("summary", {}, "Checks"), checks, notes);
+/** Which of the combinations of all else that varies is shown. */
+export const combination = computed(() =>
+  Math.min(asked.combination.value, (drawn.value?.layout.combinations.length ?? Infinity) - 1),
+);
+const quantity = computed(() => {
+  const { layout } = drawn.value ?? {};
+  return layout && !hasQuantity(asked.quantity.value, layout) ? "friction" : asked.quantity.value;
+});
+const against = () => state.view("curve.view", "speed");
 
-  const chooser = (label, entries, chosen, onChange) => {
-    const options = entries.map(([value, text]) => h("option", { value }, text));
-    const select = h("select", { "aria-label": label }, options);
-    select.addEventListener("change", () => onChange(select.value));
-    effect(() => void (select.value = chosen()));
-    return select;
-  };
-  const viewed = () => state.view("curve.view", "speed");
-  const view = chooser("Against", Object.entries(VIEWS), viewed, (value) => state.setView("curve.view", value));
-  const quantities = Object.entries(QUANTITIES).map(([value, { label }]) => [value, label]);
-  const shown = chooser(
-    "Shown",
-    quantities,
-    () => quantity.value,
-    (value) => (quantity.value = value),
-  );
-  const which = h("select", { "aria-label": "Combination" });
-  which.addEventListener("change", () => (combination.value = Number(which.value)));
-  const log = h("input", { type: "checkbox", id: "curve-log", checked: state.view("curve.log", false) });
-  log.addEventListener("change", () => state.setView("curve.log", log.checked));
-  const scale = h("label", { class: "row tick", for: log.id }, log, "log scale");
-  const pin = button({
-    label: "Keep for comparison",
-    kind: "small",
-    onClick: () => {
-      pinned.value = pinned.value ? null : curveOf(curveJob.result);
-      announce(pinned.value ? "The curve is kept, in grey." : "The kept curve is removed.");
-    },
-  });
-  const card = fields.card("Friction");
-  const handle = figures.figure(card, {
-    id: "friction-curve",
-    title: "Friction against speed",
-    x: { label: "speed", kind: "speed", log: true },
-    y: { label: QUANTITIES.friction.label },
-    empty: "Computing the first points.",
-    onClick: pick,
-  });
-  const tools = h("div", { class: "row curve-tools" }, view, shown, which, scale, pin);
-  card.append(bar, tools, failed, warnings, checked);
+const pointsOf = ({ friction, speed }) => {
+  const missing = missingOf({ friction });
+  return `${missing ? `${speed.length - missing} of ` : ""}${speed.length} points`;
+};
+const endOf = ({ cancelled, seconds }) =>
+  cancelled ? "Cancelled." : `${pointsOf(curve.result)} in ${units.plainNumber(seconds, 2)} s`;
 
-  function pick(point) {
-    const at = point?.customdata;
-    const { layout } = curveOf(curveJob.result) ?? {};
-    if (layout && Number.isInteger(at)) onPick({ speed: layout.speed[at], temperature: layout.temperature[at] });
-  }
-
-  function draw(curve) {
-    const look = { view: viewed(), quantity: quantity.value, combination: combination.value };
-    const { label, kind } = quantityOf(look.quantity, curve.layout);
-    const shifted = look.view === "shifted";
-    const traces = [
-      ...ghostTraces(pinned.value, look, "kept", "6px,4px"),
-      ...(hasPoints(curve) ? [] : ghostTraces(before, look, "before", "solid")),
-      ...curveTraces(curve, look, { units, figures }),
-      ...liveTrace(isStale(live.result) ? null : live.result, look, units),
-    ];
-    const speed = shifted ? `α(T)·v at ${units.show(curve.layout.reference, "temperature")}` : "speed";
-    handle.update({
-      of: curve.source,
-      title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
-      caption: curveJob.error ? "Previous curve." : caption(curve, shifted),
-      x: { label: speed, kind: "speed", log: true, range: speedsOf(curve, look) },
-      y: state.view("curve.log", false) ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
-      temperatures: curve.layout.temperature,
-      synthetic: isSynthetic(studyOf(curve.source)),
-      traces,
-    });
-  }
-
-  function caption(curve, shifted) {
-    if (!hasPoints(curve)) return before ? "Grey: previous curve." : "";
-    const { result } = curve;
-    const parts = [];
-    if (shifted)
-      parts.push("Each temperature is shifted by its shift factor: where the curves coincide, time–temperature superposition holds.");
-    if (!result)
-      parts.push("Filled points have the requested accuracy; open ones are interpolated and may still be refined.");
-    else if (result.lower?.some((value) => value !== null))
-      parts.push("Bands: 95 %, from the material's uncertainty.");
-    if (result?.doubts.some((words) => words.length > 0)) parts.push("Ringed points are doubtful; hover to see why.");
-    parts.push("Click a point to see its contact below.");
-    return parts.join(" ");
-  }
-
-  /** Offer what there is: quantities of this kind of contact, and combinations of all else that varies. */
-  function offer(layout) {
-    combination.value = Math.min(combination.value, layout.combinations.length - 1);
-    which.hidden = layout.combinations.length < 2;
-    which.replaceChildren(...layout.combinations.map((words, at) => h("option", { value: String(at) }, words)));
-    which.value = String(combination.value);
-    for (const option of shown.options) {
-      option.hidden = option.disabled = !hasQuantity(option.value, layout);
-      option.textContent = quantityOf(option.value, layout).label;
-    }
-    if (!hasQuantity(quantity.value, layout)) quantity.value = "friction";
-  }
-
-  function warningsOf({ doubts, speed, warnings: found }) {
-    const unresolved = doubts.filter((words) => words.includes("unresolved")).length;
-    const said =
-      `At ${unresolved} of ${speed.length} points the grid does not resolve friction to the requested accuracy; ` +
-      "the error bars show its accuracy.";
-    return [...found, ...(unresolved ? [said] : [])];
-  }
-
-  function failuresOf(result) {
-    const missing = missingOf(result);
-    if (!missing) return [];
-    const more = missing > MOST_FAILURES ? ` The first ${MOST_FAILURES}:` : "";
-    const said = `${missing} of ${result.speed.length} conditions have no solution.${more}`;
-    return [said, ...result.failures.slice(0, MOST_FAILURES)];
-  }
-
-  curveJob.done = (result) => announce(`The friction curve is complete, ${pointsOf(result)}.`);
-  curveJob.start();
-  effect(() => {
-    const { result } = curveOf(curveJob.result) ?? {};
-    const current = curveJob.current;
-    failed.set(curveJob.error ? [waits("the friction curve", curveJob.error)] : current && result ? failuresOf(result) : []);
-    warnings.set(result ? warningsOf(result) : []);
-    notes.set(result?.notes ?? []);
-    const marks = { passed: "✓ ", warning: "Warning: ", noted: "Unknown: " };
-    checks.set(result?.checks.map((one) => `${marks[one.verdict]}${one.words}`) ?? []);
-    checked.hidden = !result || result.checks.length + result.notes.length === 0;
-    for (const one of [warnings, checked]) shows(one, curveJob.result);
-    pin.disabled = !pinned.value && !result;
-    pin.textContent = pinned.value ? "Remove the kept curve" : "Keep for comparison";
-  });
-  effect(() => {
-    const curve = curveOf(curveJob.result);
-    if (curve) offer(curve.layout);
-  });
-  effect(() => {
-    const curve = curveOf(curveJob.result);
-    handle.update({ empty: curveJob.error ? "No curve yet." : "Computing the first points." });
-    if (curve) draw(curve);
-    if (hasPoints(curve)) before = curve;
-  });
-
-  return card;
+function caption({ result, ...shownCurve }, shifted) {
+  if (!hasPoints(shownCurve)) return before ? "Grey: previous curve." : "";
+  const known = result
+    ? result.lower?.some((value) => value !== null) && "Bands: 95 %, from the material's uncertainty."
+    : "Filled points have the requested accuracy; open ones are interpolated and may still be refined.";
+  const parts = [
+    shifted &&
+      "Each temperature is shifted by its shift factor: where the curves coincide, time–temperature superposition holds.",
+    known,
+    result?.doubts.some((words) => words.length > 0) && "Ringed points are doubtful; hover to see why.",
+    "Click a point to see its contact below.",
+  ];
+  return parts.filter(Boolean).join(" ");
 }
+
+/** What the figure shows of a curve and of the live contact. */
+function drawing(shownCurve, live, app) {
+  const look = { view: against(), quantity: quantity.value, combination: combination.value };
+  const { label, kind } = quantityOf(look.quantity, shownCurve.layout);
+  const shifted = look.view === "shifted";
+  const traces = [
+    ...ghostTraces(pinned.value, look, "kept", "6px,4px"),
+    ...(hasPoints(shownCurve) ? [] : ghostTraces(before, look, "before", "solid")),
+    ...curveTraces(shownCurve, look, { units, figures: app.figures }),
+    ...liveTrace(isStale(live.result) ? null : live.result, look, units),
+  ];
+  const speed = shifted ? `α(T)·v at ${units.show(shownCurve.layout.reference, "temperature")}` : "speed";
+  return {
+    of: shownCurve.source,
+    title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
+    caption: curve.error ? "Previous curve." : caption(shownCurve, shifted),
+    x: { label: speed, kind: "speed", log: true, range: speedsOf(shownCurve, look) },
+    y: state.view("curve.log", false) ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
+    temperatures: shownCurve.layout.temperature,
+    synthetic: app.isSynthetic(studyOf(shownCurve.source)),
+    traces,
+  };
+}
+
+const Curve = view(({ app, live, onPick }) => {
+  const pick = (point) => {
+    const at = point?.customdata;
+    const { layout } = drawn.peek() ?? {};
+    if (layout && Number.isInteger(at)) onPick({ speed: layout.speed[at], temperature: layout.temperature[at] });
+  };
+  const x = { label: "speed", kind: "speed", log: true };
+  const shownCurve = drawn.value;
+  const found = shownCurve && drawing(shownCurve, live, app);
+  if (hasPoints(shownCurve)) before = shownCurve;
+  return html`<${Figure} id="friction-curve" title="Friction against speed" x=${x} y=${{ label: QUANTITIES.friction.label }}
+    empty=${curve.error ? "No curve yet." : "Computing the first points."} onClick=${pick} ...${found} />`;
+});
+
+/** What is shown, of what there is of this kind of contact and this study. */
+const Tools = view(({ app }) => {
+  const layout = drawn.value?.layout ?? { kind: "point" };
+  const of = Object.keys(QUANTITIES).filter((name) => hasQuantity(name, layout));
+  const combinations = layout.combinations ?? [];
+  const { result } = drawn.value ?? {};
+  const pin = () => {
+    pinned.value = pinned.value ? null : drawn.value;
+    app.announce(pinned.value ? "The curve is kept, in grey." : "The kept curve is removed.");
+  };
+  return html`<div class="row curve-tools">
+    <${Select} aria-label="Against" options=${VIEWS} value=${against()} onChange=${(one) => state.setView("curve.view", one)} />
+    <${Select} aria-label="Shown" options=${of.map((name) => [name, quantityOf(name, layout).label])}
+      value=${quantity.value} onChange=${(one) => (asked.quantity.value = one)} />
+    ${
+      combinations.length > 1 &&
+      html`<${Select} aria-label="Combination" options=${combinations.map((words, at) => [at, words])}
+        value=${combination.value} onChange=${(one) => (asked.combination.value = one)} />`
+    }
+    <label class="row tick">
+      <input type="checkbox" checked=${state.view("curve.log", false)}
+        onChange=${({ target }) => state.setView("curve.log", target.checked)} />log scale
+    </label>
+    <${Button} kind="small" disabled=${!pinned.value && !result} onClick=${pin}>
+      ${pinned.value ? "Remove the kept curve" : "Keep for comparison"}
+    <//>
+  </div>`;
+});
+
+function warningsOf({ doubts, speed, warnings }) {
+  const unresolved = doubts.filter((words) => words.includes("unresolved")).length;
+  const said =
+    `At ${unresolved} of ${speed.length} points the grid does not resolve friction to the requested accuracy; ` +
+    "the error bars show its accuracy.";
+  return [...warnings, unresolved && said];
+}
+
+function failuresOf(result) {
+  const missing = missingOf(result);
+  if (!missing) return [];
+  const more = missing > MOST_FAILURES ? ` The first ${MOST_FAILURES}:` : "";
+  const said = `${missing} of ${result.speed.length} conditions have no solution.${more}`;
+  return [said, ...result.failures.slice(0, MOST_FAILURES)];
+}
+
+const MARKS = { passed: "✓ ", warning: "Warning: ", noted: "Unknown: " };
+const Words = view(({ app }) => {
+  const { source: of, result } = drawn.value ?? {};
+  const failures = curve.current && result ? failuresOf(result) : [];
+  const { checks = [], notes = [] } = result ?? {};
+  return html`
+    <${Notes} kind="error" list=${curve.error ? [app.waits("the friction curve", curve.error)] : failures} />
+    <${Notes} of=${of} kind="warning" list=${result ? warningsOf(result) : []} />
+    <${Folded} title="Checks" hidden=${checks.length + notes.length === 0}>
+      <${Notes} of=${of} list=${checks.map(({ verdict, words }) => `${MARKS[verdict]}${words}`)} />
+      <${Notes} of=${of} list=${notes} />
+    <//>
+  `;
+});
+
+/** The card; onPick({speed, temperature}) is called for a point that was clicked, `live` is the job of the marked contact. */
+export const FrictionCard = ({ app, live, onPick }) => {
+  curve.done = (result) => app.announce(`The friction curve is complete, ${pointsOf(result)}.`);
+  return html`<${Card} title="Friction">
+    <${Curve} app=${app} live=${live} onPick=${onPick} />
+    <${Progress} job=${curve} label="Solving" ended=${endOf} />
+    <${Tools} app=${app} />
+    <${Words} app=${app} />
+  <//>`;
+};

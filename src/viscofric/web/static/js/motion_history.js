@@ -1,7 +1,6 @@
 // A history of load and motion: presets of the page's contact, a table of its points, and a sketch to drag them in.
 
 import { h } from "./parts.js";
-import { endsOf } from "./steps/contact.js";
 import * as units from "./units.js";
 
 /** What may be prescribed, by kind of contact: its label and the kind of its unit. */
@@ -31,8 +30,8 @@ export function presetRows(preset, study, control) {
   const contact = contactOf(study);
   const { conditions = {}, indenter, surface } = study;
   const [, kind] = Object.values(CONTROLS[contact])[0];
-  const F = BASES[control] ?? endsOf(conditions.load ?? conditions.pressure, kind, units)?.[0] ?? BASES[contact];
-  const [slow, fast] = endsOf(conditions.speed, "speed", units) ?? [0.1, 0.1];
+  const F = BASES[control] ?? units.ends(conditions.load ?? conditions.pressure, kind)?.[0] ?? BASES[contact];
+  const [slow, fast] = units.ends(conditions.speed, "speed") ?? [0.1, 0.1];
   const V = rounded(Math.sqrt(slow * fast) || 0.1);
   const first = (value) => units.parse([value].flat()[0], "length");
   const size = surface

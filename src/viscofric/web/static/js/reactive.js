@@ -2,7 +2,7 @@
 //
 // html`<p class="help">${text}</p>`     elements of Preact
 // view((properties, self) => html`…`)   a component that is drawn again when a signal that it read has changed; `self` has a
-//                                       number of its own
+//                                       number of its own; its gone(), if set, is called when it is taken away
 // watch(read, act)                      act(value) each time that what `read` gives is another; not at first
 
 import htm from "../vendor/htm.js";
@@ -34,6 +34,7 @@ export const view = (draw) =>
 
     componentWillUnmount() {
       this.stop?.();
+      this.gone?.();
     }
   };
 

@@ -6,6 +6,7 @@
 //                                   and a key of a list of tables, such as several [[material]], is that of the first
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
 // state.change({path: value, …})    changes several keys as one step of undo
+// state.slide(path, value)          the same as set, for a slider: until state.settle() it is one step of undo
 // state.replace(document)           another document altogether
 // state.renew(names)                files of these names have other contents: results of them are outdated
 // state.renewals(name)              how often that happened
@@ -85,6 +86,7 @@ const views = signal(stored(VIEW) ?? {});
 const renewed = signal({}); // name of a file -> how often it got other contents
 const step = signal(null);
 const values = new Map(); // path -> its computed value
+let slid = null; // path of the value that a slider is changing
 const viewed = new Map(); // key of a view -> its computed value
 
 effect(() => store(KEY, { study: study.value, past: past.value, future: future.value }));
@@ -151,6 +153,15 @@ export const state = {
   get: (path) => held(values, path, () => valueAt(study.value, path)),
   set: (path, value) => become(changed({ [path]: value })),
   change: (values) => become(changed(values)),
+  slide(path, value) {
+    if (slid === path) study.value = frozen(changed({ [path]: value }));
+    else become(changed({ [path]: value }));
+    slid = path;
+  },
+  settle: () => (slid = null),
+  get slides() {
+    return slid !== null;
+  },
   replace: (document) => become(structuredClone(document)),
   renew(names) {
     const more = Object.fromEntries(names.map((name) => [name, (renewed.peek()[name] ?? 0) + 1]));

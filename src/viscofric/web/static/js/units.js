@@ -6,6 +6,7 @@
 // show(0.02, "speed") -> "20 mm/s"          number(0.02, "speed") -> 20         label("speed") -> "mm/s"
 // si(20, "speed") -> 0.02                   words(0.02, "speed") -> "20 mm/s", as run files write it ("30 degC")
 // parse("9.525 mm", "length") -> 0.009525   (null if it cannot be read; the run file's own check says why)
+// read("20", "speed") -> 0.02                the same of what people type, where a bare number has the user's unit
 // typed("20", "speed") -> "20 mm/s"          what people type, as run files write it
 // What is chosen is a signal: an effect or view that shows a unit follows it.
 
@@ -158,6 +159,21 @@ export function parse(text, kind) {
     .replace(/^deg$/, "°");
   const [factor, offset = 0] = (kind === "plain" && !unit ? [1] : UNITS[kind]?.[unit]) ?? [null];
   return factor === null ? null : Number((factor * Number(found[1]) + offset).toPrecision(14));
+}
+
+/** The SI value of a number in the user's unit, or of a quantity with its own; null where it is neither. */
+export function read(text, kind) {
+  const plain = text.trim().replace("−", "-");
+  return PLAIN_NUMBER.test(plain) ? si(Number(plain), kind) : parse(plain, kind);
+}
+
+/** The ends of the quantities that the document gives as one value, a list or a range; null where they cannot be read. */
+export function ends(given, kind) {
+  const range = given && typeof given === "object" && !Array.isArray(given);
+  const all = (range ? [given.from, given.to] : [given].flat())
+    .map((one) => parse(one, kind))
+    .filter((one) => one !== null);
+  return all.length ? [Math.min(...all), Math.max(...all)] : null;
 }
 
 const PLAIN_NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;

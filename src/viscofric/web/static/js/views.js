@@ -33,6 +33,41 @@ export const Pick = ({ label, options, value, onChange }) =>
     })}
   </div>`;
 
+/** A choice among a few by radio buttons: options are [[value, what stands beside it], …]. */
+export const Radios = ({ name, value, options, onChange, children, ...rest }) =>
+  html`<div class="choices" role="radiogroup" ...${rest}>
+    ${children}
+    ${options.map(
+      ([one, text]) => html`<label class="choice">
+        <input type="radio" name=${name} value=${one} checked=${one === value} onChange=${() => onChange(one)} /><span>${text}</span>
+      </label>`,
+    )}
+  </div>`;
+
+/** A place to drop files, which opens the file chooser when it is clicked: onFiles([File, …]). */
+export const Drop = view(({ label, help, accept, multiple = true, onFiles }, self) => {
+  const id = `files-${self.number}`;
+  const take = (files) => files.length > 0 && onFiles([...files]);
+  const chosen = ({ target }) => {
+    take(target.files);
+    target.value = "";
+  };
+  const over = (is) => (event) => {
+    event.preventDefault();
+    event.currentTarget.classList.toggle("over", is);
+  };
+  const dropped = (event) => {
+    over(false)(event);
+    take(event.dataTransfer.files);
+  };
+  return html`<div class="drop-field">
+    <input type="file" class="hidden-input" id=${id} accept=${accept} multiple=${multiple} onChange=${chosen} />
+    <label class="drop" for=${id} onDragEnter=${over(true)} onDragOver=${over(true)} onDragLeave=${over(false)} onDrop=${dropped}>
+      <${Icon} name="file" /><strong>${label}</strong>${help && html`<span class="help">${help}</span>`}
+    </label>
+  </div>`;
+});
+
 /** A card with a heading, for figures and forms that belong together. */
 export const Card = ({ title, children, ...rest }) =>
   html`<section class="card" ...${rest}><h2>${title}</h2>${children}</section>`;
