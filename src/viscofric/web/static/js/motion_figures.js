@@ -1,5 +1,9 @@
 // Figures and numbers of a contact over time: load, indentation, friction, contact, energy, and the friction loop.
 
+import { html, view } from "./reactive.js";
+import * as units from "./units.js";
+import { Figure } from "./views.js";
+
 const CONTACT = {
   contact_radius: "radius",
   front: "ahead of the axis",
@@ -16,60 +20,70 @@ const along = ({ position_x, position_y, direction }) =>
 
 const stepsOf = (values) => values.slice(1).map((value, at) => value - values[at]);
 
-/** The figures in a grid; show(result, synthetic) draws a result of the job "motion". */
-export function motionFigures({ figures, fields }) {
-  const grid = fields.h("div", { class: "grid contact-figures" });
-  const made = ["load", "indentation", "friction", "contact", "loop", "energy"].map((id) => {
-    const empty = "Not solved yet.";
-    const title = `${id[0].toUpperCase()}${id.slice(1)} over time`;
-    return [id, figures.figure(grid, { id: `motion-${id}`, title, x: { label: "time", kind: "time" }, y: {}, empty })];
+/** What the figures show of a result of the job "motion": {id: {title, x, y, traces, caption}}, null for one without sense. */
+function figuresOf(result) {
+  const force = FORCES[result.geometry];
+  const line = (name, words = "", error = result[`${name}_error`]) => ({
+    name: words,
+    x: result.time,
+    y: result[name],
+    lower: error?.map((one, at) => result[name][at] - one),
+    upper: error?.map((one, at) => result[name][at] + one),
   });
-  const handles = Object.fromEntries(made);
-  for (const id of ["friction", "loop", "energy"]) handles[id].element.hidden = true;
-
-  function show(result, synthetic) {
-    const force = FORCES[result.geometry];
-    const time = { label: "time", kind: "time" };
-    const line = (name, words = "", error = result[`${name}_error`]) => ({
-      name: words,
-      x: result.time,
-      y: result[name],
-      lower: error?.map((one, at) => result[name][at] - one),
-      upper: error?.map((one, at) => result[name][at] + one),
-    });
-    const put = (id, there, title, x, y, traces, caption = "") => {
-      handles[id].element.hidden = !there;
-      if (there) handles[id].update({ of: result, synthetic, title, x, y, traces, caption });
-    };
-    const path = along(result);
-    const steps = stepsOf(path);
-    const slides = steps.some((one) => one !== 0);
-    const returns = steps.some((one) => one > 0) && steps.some((one) => one < 0);
-    const edges = Object.entries(CONTACT).filter(([name]) => known(result[name]));
-    const mean = result.geometry === "periodic" ? "mean pressure" : "normal load";
-    const range = [0, 1.08 * Math.max(...result.load) || 1]; // a constant load has no range of its own
-    put("load", true, "Load", time, { label: mean, kind: force, range }, [line("load")]);
-    put("indentation", true, "Indentation", time, { label: "indentation", kind: "length" }, [line("indentation")]);
-    const relative = result.friction_force_error.map((one, at) => (result.load[at] > 0 ? one / result.load[at] : 0));
-    const friction = line("friction_coefficient", "", relative);
-    put("friction", slides, "Friction coefficient", time, { label: "friction coefficient" }, [friction]);
-    const area = { label: "contact area fraction" };
-    const size = { label: "size of the contact", kind: "length" };
-    const contact = edges.length ? edges.map(([name, words]) => line(name, words)) : [line("contact_area")];
-    put("contact", true, "Contact", time, edges.length ? size : area, contact);
-    const loop = [{ x: path, y: result.friction_force }];
-    const position = { label: "position along the motion", kind: "length" };
-    const work = "Its area is the work of friction.";
-    put("loop", returns, "Friction loop", position, { label: "friction force", kind: force }, loop, work);
-    const energies = Object.entries(ENERGIES).map(([name, words]) => line(name, words, null));
-    put("energy", true, "Energy", time, { label: `energy (${result.units.work.replace("m2", "m²")})` }, energies);
-  }
-
-  return { grid, show };
+  const path = along(result);
+  const steps = stepsOf(path);
+  const slides = steps.some((one) => one !== 0);
+  const returns = steps.some((one) => one > 0) && steps.some((one) => one < 0);
+  const edges = Object.entries(CONTACT).filter(([name]) => known(result[name]));
+  const relative = result.friction_force_error.map((one, at) => (result.load[at] > 0 ? one / result.load[at] : 0));
+  return {
+    load: {
+      // a constant load has no range of its own
+      y: {
+        label: result.geometry === "periodic" ? "mean pressure" : "normal load",
+        kind: force,
+        range: [0, 1.08 * Math.max(...result.load) || 1],
+      },
+      traces: [line("load")],
+    },
+    indentation: { y: { label: "indentation", kind: "length" }, traces: [line("indentation")] },
+    friction: slides && {
+      title: "Friction coefficient",
+      y: { label: "friction coefficient" },
+      traces: [line("friction_coefficient", "", relative)],
+    },
+    contact: {
+      y: edges.length ? { label: "size of the contact", kind: "length" } : { label: "contact area fraction" },
+      traces: edges.length ? edges.map(([name, words]) => line(name, words)) : [line("contact_area")],
+    },
+    loop: returns && {
+      title: "Friction loop",
+      x: { label: "position along the motion", kind: "length" },
+      y: { label: "friction force", kind: force },
+      traces: [{ x: path, y: result.friction_force }],
+      caption: "Its area is the work of friction.",
+    },
+    energy: {
+      y: { label: `energy (${result.units.work.replace("m2", "m²")})` },
+      traces: Object.entries(ENERGIES).map(([name, words]) => line(name, words, null)),
+    },
+  };
 }
 
-/** The main numbers of a result, as keyNumbers takes them. */
-export function numbersOf(result, units) {
+/** The figures of a result, or empty frames of those that there are always. */
+export const Figures = view(({ of, synthetic }) => {
+  const shared = { of, synthetic, x: { label: "time", kind: "time" }, y: {}, empty: "Not solved yet." };
+  const found = of ? figuresOf(of) : { load: {}, indentation: {}, contact: {} };
+  const title = (id) => `${id[0].toUpperCase()}${id.slice(1)}${of ? "" : " over time"}`;
+  return html`<div class="grid contact-figures">
+    ${Object.entries(found).map(
+      ([id, one]) => one && html`<${Figure} key=${id} ...${shared} id="motion-${id}" title=${title(id)} ...${one} />`,
+    )}
+  </div>`;
+});
+
+/** The main numbers of a result, [{label, value, remark}]. */
+export function numbersOf(result) {
   const { load, friction_coefficient: friction, contacts } = result;
   const force = FORCES[result.geometry];
   const exact = (value, error, kind) => ({

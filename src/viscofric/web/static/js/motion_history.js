@@ -1,7 +1,9 @@
 // A history of load and motion: presets of the page's contact, a table of its points, and a sketch to drag them in.
 
-import { h } from "./parts.js";
+import { Box } from "./fields.js";
+import { html, signal, view } from "./reactive.js";
 import * as units from "./units.js";
+import { Button } from "./views.js";
 
 /** What may be prescribed, by kind of contact: its label and the kind of its unit. */
 export const CONTROLS = {
@@ -74,174 +76,130 @@ export function converted(rows, path) {
   });
 }
 
-/** A number in the user's unit, or a quantity with its own; null where it is neither. */
-export function read(text, kind) {
-  const plain = text.trim().replace("−", "-");
-  return /^[+-]?[\d.]+(e[+-]?\d+)?$/i.test(plain) ? units.si(Number(plain), kind) : units.parse(plain, kind);
+/** Rows with another one after a row: half-way to the next, or beyond the last. */
+function added(rows, row) {
+  const inside = row + 1 < rows.length;
+  const [from, to] = inside ? [rows[row], rows[row + 1]] : [rows[row - 1], rows[row]];
+  return rows.toSpliced(row + 1, 0, [from[0] + (inside ? 0.5 : 2) * (to[0] - from[0]), rows[row][1], rows[row][2]]);
 }
 
-/** The table of points; columns are [label, kind], onChange gets the changed rows, refuse an error message. */
-export function pointTable({ onChange, refuse }) {
-  const head = h("tr");
-  const body = h("tbody");
-  const element = h(
-    "table",
-    { class: "history-table" },
-    h("caption", { class: "unseen" }, "Points of the history"),
-    h("thead", {}, head),
-    body,
-  );
-  function show(rows, columns, wrong = null) {
-    head.replaceChildren(
-      ...columns.map(([label, kind]) => h("th", { scope: "col" }, `${label} (${units.label(kind)})`)),
-      h("th", {}, h("span", { class: "unseen" }, "Change")),
-    );
-    const cell = (value, row, at) => {
-      const [label, kind] = columns[at];
-      const text = String(rounded(units.number(value, kind), 7));
-      const input = h("input", {
-        type: "text",
-        value: text,
-        "aria-label": `${label} of point ${row + 1}`,
-        autocomplete: "off",
-      });
-      if (row === wrong) input.setAttribute("aria-invalid", "true");
-      input.addEventListener("change", () => {
-        const found = read(input.value, kind);
-        if (found !== null && Number.isFinite(found))
-          return onChange(rows.with(row, rows[row].with(at, found)), [row, at]);
-        refuse(
-          `Point ${row + 1}: enter a number in ${units.label(kind)}, or a quantity such as ${units.words(value || 1, kind)}.`,
-        );
-        input.setAttribute("aria-invalid", "true");
-      });
-      return h("td", {}, input);
+/**
+ * The table of points; columns are [label, kind], onChange gets the changed rows.  What cannot be read is `refused`,
+ * {row, at, text, sentence}; `wrong` is the number of a row that was refused when it was solved.
+ */
+export const PointTable = view(({ rows, columns, wrong, refused, onChange, onRefuse }) => {
+  const cell = (value, row, at) => {
+    const [label, kind] = columns[at];
+    const here = refused?.row === row && refused.at === at;
+    const take = (text = "") => {
+      const found = units.read(text, kind);
+      if (found !== null && Number.isFinite(found)) return onChange(rows.with(row, rows[row].with(at, found)));
+      const example = `enter a number in ${units.label(kind)}, or a quantity such as ${units.words(value || 1, kind)}.`;
+      onRefuse({ row, at, text, sentence: `Point ${row + 1}: ${example}` });
     };
-    const tool = (label, text, row, disabled, next) => {
-      const button = h(
-        "button",
-        { type: "button", class: "button quiet small", disabled, title: label, "aria-label": `${label} ${row + 1}` },
-        text,
-      );
-      button.addEventListener("click", () => onChange(next(), [row, 0]));
-      return button;
+    return html`<td>
+      <${Box} aria-label="${label} of point ${row + 1}" aria-invalid=${here || row === wrong ? "true" : undefined} take=${take}
+        value=${() => (here ? refused.text : rounded(units.number(value, kind), 7))} />
+    </td>`;
+  };
+  const tool = (label, text, row, next, disabled = false) => {
+    const act = ({ currentTarget }) => {
+      const changed = next();
+      currentTarget.closest("tbody").rows[Math.min(row, changed.length - 1)].querySelector("input").focus();
+      onChange(changed);
     };
-    const after = (row) => {
-      const [from, to] = row + 1 < rows.length ? [rows[row], rows[row + 1]] : [rows[row - 1], rows[row]];
-      const share = row + 1 < rows.length ? 0.5 : 2;
-      const added = [from[0] + share * (to[0] - from[0]), rows[row][1], rows[row][2]];
-      return rows.toSpliced(row + 1, 0, added);
-    };
-    body.replaceChildren(
-      ...rows.map((values, row) =>
-        h(
-          "tr",
-          {},
-          ...values.map((value, at) => cell(value, row, at)),
-          h(
-            "td",
-            {},
-            tool("Add a point after point", "+", row, false, () => after(row)),
-            tool("Remove point", "×", row, rows.length < 3, () => rows.toSpliced(row, 1)),
-          ),
-        ),
-      ),
-    );
-  }
-  const focus = ([row, at]) => body.rows[Math.min(row, body.rows.length - 1)]?.cells[at]?.firstChild.focus();
-  return { element, show, focus };
+    return html`<${Button} kind="quiet small" disabled=${disabled} title=${label} aria-label="${label} ${row + 1}" onClick=${act}>${text}<//>`;
+  };
+  return html`<table class="history-table">
+    <caption class="unseen">Points of the history</caption>
+    <thead>
+      <tr>
+        ${columns.map(([label, kind]) => html`<th scope="col">${label} (${units.label(kind)})</th>`)}
+        <th><span class="unseen">Change</span></th>
+      </tr>
+    </thead>
+    <tbody>
+      ${rows.map(
+        (values, row) => html`<tr>
+          ${values.map((value, at) => cell(value, row, at))}
+          <td>
+            ${tool("Add a point after point", "+", row, () => added(rows, row))}
+            ${tool("Remove point", "×", row, () => rows.toSpliced(row, 1), rows.length < 3)}
+          </td>
+        </tr>`,
+      )}
+    </tbody>
+  </table>`;
+});
+
+/** The ranges of the sketch: of the time, and of each lane. */
+function scalesOf(rows, columns) {
+  const times = rows.map((row) => row[0]);
+  const lanes = [1, 2].map((at) => {
+    const values = rows.map((row) => row[at]);
+    const [low, most] = [Math.min(0, ...values), Math.max(0, ...values)];
+    const span = most - low || { load: 10, speed: 0.1 }[columns[at][1]] || 1e-3;
+    return [low - (low < 0 ? 0.12 * span : 0), low + 1.12 * span];
+  });
+  return { time: [times[0], times.at(-1) > times[0] ? times.at(-1) : times[0] + 1], lanes };
 }
 
-const svg = (tag, properties, ...children) => {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(properties)) element.setAttribute(name, value);
-  element.append(...children);
-  return element;
-};
+/** The rows with a point moved to where a pointer is, in coordinates of the sketch. */
+function moved({ row, lane, rows, scales }, at) {
+  const [low, most] = scales.lanes[lane];
+  const value = low + (1 - (at.y - GAP - lane * (LANE + GAP)) / LANE) * (most - low);
+  const snapped = Math.round((100 * value) / (most - low)) * ((most - low) / 100);
+  const least = lane === 0 ? 0 : -Infinity; // no negative loads
+  const [from, to] = scales.time;
+  const time = from + ((at.x - EDGE) / (WIDE - 2 * EDGE)) * (to - from);
+  const step = 10 ** Math.floor(Math.log10((to - from) / 100));
+  const [earliest, latest] = [rows[row - 1]?.[0] ?? 0, rows[row + 1]?.[0] ?? Infinity];
+  const within = Math.min(Math.max(Math.round(time / step) * step, earliest), latest);
+  return rows.with(row, rows[row].with(0, rounded(within, 9)).with(lane + 1, rounded(Math.max(snapped, least), 3)));
+}
+
+const held = signal(null); // {row, lane, rows, scales} of the point that is dragged
 
 /** The sketch of the rows over time, one lane for each column but the first; its points can be dragged. */
-export function sketch({ onChange }) {
-  const high = 2 * (LANE + GAP) + EDGE;
-  const element = svg("svg", { class: "history-sketch", viewBox: `0 0 ${WIDE} ${high}`, role: "img" });
-  let [rows, columns, scales, held] = [[], [], null, null];
-
-  function scaled() {
-    const times = rows.map((row) => row[0]);
-    const lanes = [1, 2].map((at) => {
-      const values = rows.map((row) => row[at]);
-      const [low, most] = [Math.min(0, ...values), Math.max(0, ...values)];
-      const span = most - low || { load: 10, speed: 0.1 }[columns[at][1]] || 1e-3;
-      return [low - (low < 0 ? 0.12 * span : 0), low + 1.12 * span];
-    });
-    return { time: [times[0], times.at(-1) > times[0] ? times.at(-1) : times[0] + 1], lanes };
-  }
+export const Sketch = view(({ rows: given, columns, onChange }) => {
+  const { rows, scales } = held.value ?? { rows: given, scales: scalesOf(given, columns) };
   const x = (time) => EDGE + ((time - scales.time[0]) / (scales.time[1] - scales.time[0])) * (WIDE - 2 * EDGE);
   const y = (value, lane) => {
     const [low, most] = scales.lanes[lane];
     return GAP + lane * (LANE + GAP) + (1 - (value - low) / (most - low)) * LANE;
   };
-
-  function draw() {
-    const parts = [0, 1].flatMap((lane) => {
-      const points = rows.map((row) => [x(row[0]), y(row[lane + 1], lane)]);
-      const base = y(0, lane);
-      const [label, kind] = columns[lane + 1];
-      const largest = rows.reduce((most, row) => Math.max(most, Math.abs(row[lane + 1])), 0);
-      const words = `${label}, largest ${units.show(largest, kind)}`;
-      return [
-        svg("text", { x: EDGE, y: lane * (LANE + GAP) + GAP - 12 }, words),
-        svg("line", { class: "base", x1: EDGE, x2: WIDE - EDGE, y1: base, y2: base }),
-        svg("polyline", { points: points.map((one) => one.join(",")).join(" ") }),
-        ...points.map(([cx, cy], row) => svg("circle", { cx, cy, r: 6, "data-row": row, "data-lane": lane })),
-      ];
-    });
-    const end = svg(
-      "text",
-      { x: WIDE - EDGE, y: GAP - 12, "text-anchor": "end" },
-      `to ${units.show(rows.at(-1)[0], "time")}`,
-    );
-    element.replaceChildren(...parts, end);
-    element.setAttribute(
-      "aria-label",
-      `Sketch of the history: ${columns.map(([label]) => label).join(", ")}. Its points are in the table.`,
-    );
-  }
-
-  function moved(event) {
-    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(element.getScreenCTM().inverse());
-    const { row, lane } = held;
-    const [low, most] = scales.lanes[lane];
-    const value = low + (1 - (at.y - GAP - lane * (LANE + GAP)) / LANE) * (most - low);
-    const snapped = Math.round((100 * value) / (most - low)) * ((most - low) / 100);
-    const least = lane === 0 ? 0 : -Infinity; // no negative loads
-    const [from, to] = scales.time;
-    const time = from + ((at.x - EDGE) / (WIDE - 2 * EDGE)) * (to - from);
-    const step = 10 ** Math.floor(Math.log10((to - from) / 100));
-    const within = Math.min(
-      Math.max(Math.round(time / step) * step, rows[row - 1]?.[0] ?? 0),
-      rows[row + 1]?.[0] ?? Infinity,
-    );
-    rows = rows.with(row, rows[row].with(0, rounded(within, 9)).with(lane + 1, rounded(Math.max(snapped, least), 3)));
-    draw();
-  }
-
-  element.addEventListener("pointerdown", (event) => {
+  const hold = (event) => {
     const { row, lane } = event.target.dataset;
     if (event.button !== 0 || row === undefined) return;
-    held = { row: Number(row), lane: Number(lane) };
-    element.setPointerCapture(event.pointerId);
+    event.currentTarget.setPointerCapture(event.pointerId);
     event.preventDefault();
+    held.value = { row: Number(row), lane: Number(lane), rows, scales };
+  };
+  const move = ({ clientX, clientY, currentTarget }) => {
+    if (!held.peek()) return;
+    const at = new DOMPoint(clientX, clientY).matrixTransform(currentTarget.getScreenCTM().inverse());
+    held.value = { ...held.peek(), rows: moved(held.peek(), at) };
+  };
+  const leave = () => {
+    if (held.peek()) onChange(held.peek().rows);
+    held.value = null;
+  };
+  const lanes = [0, 1].map((lane) => {
+    const points = rows.map((row) => [x(row[0]), y(row[lane + 1], lane)]);
+    const [label, kind] = columns[lane + 1];
+    const largest = rows.reduce((most, row) => Math.max(most, Math.abs(row[lane + 1])), 0);
+    return html`
+      <text x=${EDGE} y=${lane * (LANE + GAP) + GAP - 12}>${label}, largest ${units.show(largest, kind)}</text>
+      <line class="base" x1=${EDGE} x2=${WIDE - EDGE} y1=${y(0, lane)} y2=${y(0, lane)} />
+      <polyline points=${points.map((one) => one.join(",")).join(" ")} />
+      ${points.map(([cx, cy], row) => html`<circle cx=${cx} cy=${cy} r="6" data-row=${row} data-lane=${lane} />`)}
+    `;
   });
-  element.addEventListener("pointermove", (event) => held && moved(event));
-  for (const kind of ["pointerup", "pointercancel"])
-    element.addEventListener(kind, () => {
-      if (held) onChange(rows);
-      held = null;
-    });
-  function show(next, described) {
-    [rows, columns] = [next, described];
-    scales = scaled();
-    draw();
-  }
-  return { element, show };
-}
+  const words = columns.map(([label]) => label).join(", ");
+  return html`<svg class="history-sketch" viewBox="0 0 ${WIDE} ${2 * (LANE + GAP) + EDGE}" role="img"
+    aria-label="Sketch of the history: ${words}. Its points are in the table."
+    onPointerDown=${hold} onPointerMove=${move} onPointerUp=${leave} onPointerCancel=${leave}>
+    ${lanes}
+    <text x=${WIDE - EDGE} y=${GAP - 12} text-anchor="end">to ${units.show(rows.at(-1)[0], "time")}</text>
+  </svg>`;
+});
