@@ -14,6 +14,7 @@ from viscofric.motion.solve import checked_problem
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
 CYLINDER = vf.Cylinder("10 mm")
 SPACING = 1e-5
+TIMES = [0.05, 0.15, 0.25, 0.5, 1.0]
 
 
 def ridges(points: int = 64) -> vf.PeriodicSurface:
@@ -68,6 +69,43 @@ def test_friction_of_a_start_within_one_cell_relaxes(relaxations):
     run = vf.solve_transient(rubber, CYLINDER, history, times=[first, 0.3], accuracy=1e-2)
     expected = run.friction_force[1] * -np.expm1(-relaxations)
     assert abs(run.friction_force[0] - expected) < run.errors.friction_force.sum() < 0.02 * run.friction_force[1]
+
+
+@pytest.mark.parametrize(("indenter", "power"), [(vf.Ball("10 mm"), 2.0 / 3.0), (vf.Cone(0.1), 0.5)])
+def test_the_first_steps_of_a_ramp_from_zero_load_are_within_their_errors(indenter, power):
+    """δ ∝ (r ∫J dt)^(2/3 or 1/2) of a growing contact (Lee–Radok)."""
+    spectrum = vf.RetardationSpectrum(1e6, 4e7, [0.975e-6 / 2] * 2, [1e-4, 1.0])
+    history = vf.History([0.0, 1.0], load=[0.0, 0.05])
+    run = vf.solve_transient(vf.Material(spectrum), indenter, history, accuracy=3e-3)
+    time, C, tau = run.time[1:, None], spectrum.C, spectrum.tau
+    creep = (time[:, 0] / 4e7) + (time - tau * -np.expm1(-time / tau)) @ C
+    depth = run.indentation[-1] * (creep / creep[-1]) ** power
+    off = np.abs(run.indentation[1:] - depth)
+    assert depth[0] < 1e-2 * depth[-1]
+    assert np.all(off <= run.errors.indentation[1:] + run.errors.indentation[-1] * depth / depth[-1])
+    assert np.all(off <= 5e-3 * depth)
+
+
+def test_a_contact_that_returns_into_its_dent_is_within_its_errors():
+    """Steps were long while the contact shrank: the dent around it must not depend on them."""
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="343 MPa", tau=0.2)
+    history = vf.History([0.0, 0.13, 0.13, 0.8, 1.0], indentation=[0.0, 2.2e-5, 2.2e-5, 1.2e-5, 3.2e-5])
+    times = [0.801, 0.803, 0.81]
+    one, two = (
+        vf.solve_transient(rubber, vf.Cone(0.1), history, times=times, accuracy=accuracy) for accuracy in (2.5e-2, 1e-3)
+    )
+    assert np.all(np.abs(one.load - two.load) <= one.errors.load + two.errors.load)
+
+
+def test_the_stated_error_of_an_energy_is_not_below_its_imbalance():
+    """Springs touched within steps that are longer than they relax in: errors of the loss of first order."""
+    rubber = vf.Material(vf.RetardationSpectrum(1e6, 1e8, [0.5e-6, 0.49e-6], [0.24, 0.56]))
+    one, two = (
+        vf.solve_transient(rubber, vf.Ball("10 mm"), vf.History([0.0, 1.0], load=0.08), times=TIMES, accuracy=accuracy)
+        for accuracy in (5e-3, 2e-4)
+    )
+    assert np.all(one.errors.energy >= np.abs(one.errors.balance))
+    assert np.all(np.abs(one.dissipated - two.dissipated) <= one.errors.energy + two.errors.energy)
 
 
 @pytest.mark.slow

@@ -13,9 +13,8 @@ if TYPE_CHECKING:
 
 #: Energies are so many times as accurate as the rest, for a balance of a tenth of the accuracy.
 _ENERGIES = 3.0
-#: Error of the fine chain over the difference of the chains: a third, and a margin for higher orders; part of a
-#: difference that counts after the next step.
-_OF_STEPS, _FADING = 0.4, 0.7
+#: Part of a difference that counts after the next step.
+_FADING = 0.7
 
 
 class Errors(NamedTuple):
@@ -25,6 +24,12 @@ class Errors(NamedTuple):
     depth: float
     friction: float
     energy: float
+
+
+#: Errors of the fine chain over the difference of the chains: a third, and a margin.  The margin is larger for load and
+#: depth, whose order is nearer to the first where springs or cells are touched within a step; friction is judged by it
+#: on grids as well, energies by their balance.
+_OF_STEPS = Errors(0.8, 0.8, 0.4, 0.4)
 
 
 class Link(NamedTuple, Generic[State]):
@@ -159,9 +164,9 @@ def moment_of(
     coarse, fine = pair
     left_out = tuple(early * one for one in fine.seen.left_out)
     off = difference(pair)
-    steps = [_OF_STEPS * one for one in spread]
-    each = steps[0], steps[1], math.hypot(*steps[2:4]), max(steps[4:])
-    errors = Errors(*(sum(parts) for parts in zip(each, left_out, floor, strict=True)))
+    each = spread.load, spread.depth, math.hypot(spread.along, spread.across), max(spread.work, spread.dissipated)
+    steps = (part * one for part, one in zip(_OF_STEPS, each, strict=True))
+    errors = Errors(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))
     # Sums over all steps are smooth enough to be extrapolated.
     stored, dissipated, work, rubbed = (
         two + (two - one) / 3.0

@@ -27,8 +27,8 @@ from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import quickest_time, recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
-from viscofric.motion.springs import both_sides, disc_profile, elastic_radius
-from viscofric.motion.steps import step_parts
+from viscofric.motion.springs import both_sides, elastic_radius, graded_row
+from viscofric.motion.steps import StepParts, step_parts
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask
@@ -39,12 +39,11 @@ if TYPE_CHECKING:
 SPRINGS, MOST_SPRINGS = 400, 2000
 #: Margin beyond the edge of the elastic contact at E0.
 _MARGIN = 1.05
-_FAR, _FARTHEST = 60, 4.0
 #: Points of a pressure, roughly.
 _POINTS = 230
 #: Error of the load by the trapezoidal rule, over the largest difference of neighbouring forces times their
-#: distance; smallest load, relative to the largest one, with which it is compared.
-_LEFT_OUT, _LEAST_LOAD = 0.5, 0.01
+#: distance.
+_LEFT_OUT = 0.5
 #: Parts of a period in contact that are distinguished.
 _LEVELS = 16
 #: Retardation times without steps of their own, in the duration of the history, whose digits end at 1e-16.
@@ -76,6 +75,7 @@ class NormalMotion:
     s: Array
     g: Array
     weights: Array  # of ∫ over both sides
+    spacing: float  # largest distance of springs up to the edge, m
     share: ClassVar[float] = SHARE
 
     @classmethod
@@ -97,9 +97,11 @@ class NormalMotion:
         else:
             radius = elastic_radius(indenter, largest, None, soft)
         edge = _MARGIN * radius if not indenter.has_walls else radius
+        count = min(max(SPRINGS, round(SPRINGS * math.sqrt(1e-3 / problem.accuracy))), MOST_SPRINGS)
         return cls(
-            indenter, schedule, glassy, compliances, spectrum.tau[keep], radius, *_row(indenter, edge, problem.accuracy)
-        )
+            indenter, schedule, glassy, compliances, spectrum.tau[keep], radius, *graded_row(indenter, edge, count),
+            spacing=edge / count,
+        )  # fmt: skip
 
     @cached_property
     def _quick(self) -> Mask:
@@ -144,20 +146,29 @@ class NormalMotion:
         return SpringState(depth, self._carried(force, first), force, memory, 0.0, self.g)
 
     def step(self, state: SpringState, start: Instant, end: Instant) -> SpringState:
-        """Return the springs after a step in which their forces are linear."""
-        parts, c = step_parts((end.clock - start.clock) / self.tau), self.compliances
+        """Return the springs after a step in which their forces are linear, up to where springs are left."""
+        steps, c = (end.clock - start.clock) / self.tau, self.compliances
+        parts = step_parts(steps)
         known = state.memory @ (c * parts.decay) + state.force * float(c @ parts.start)
         compliance = self.glassy + float(c @ parts.end)
         threshold = self.g + known
         depth, force = self._pressed(threshold, compliance, end)
         memory = state.memory * parts.decay + state.force[:, None] * parts.start + force[:, None] * parts.end
         away, change = state.force[:, None] - state.memory, force - state.force
-        dissipated = float(
-            self.weights @ (np.square(away) @ (c * parts.own))
-            + 2.0 * (self.weights * change) @ (away @ (c * parts.mixed))
-            + float(c @ parts.new) * (self.weights @ np.square(change))
-        )
-        return SpringState(depth, self._carried(force, end), force, memory, state.dissipated + dissipated, threshold)
+        lost = np.square(away) @ (c * parts.own) + float(c @ parts.new) * np.square(change)
+        lost += 2.0 * change * (away @ (c * parts.mixed))
+        left = np.flatnonzero((state.force > 0.0) & (force == 0.0))
+        if len(left) and end.clock > start.clock:
+            # Else the dent outside a shrinking contact would have errors of first order, seen only on its return.
+            first, none = state.force[left], np.zeros(len(left))
+            until = (first / (first + (threshold[left] - depth) / compliance))[:, None]
+            both = step_parts(np.stack([until, 1.0 - until]) * steps)
+            early, late = (StepParts(*(one[place] for one in both)) for place in (0, 1))
+            held = state.memory[left] * early.decay + first[:, None] * early.start
+            memory[left] = held * late.decay
+            lost[left] = _lost(first, none, state.memory[left], early, c) + _lost(none, none, held, late, c)
+        dissipated = state.dissipated + float(self.weights @ lost)
+        return SpringState(depth, self._carried(force, end), force, memory, dissipated, threshold)
 
     def settle(self, state: SpringState, instant: Instant) -> SpringState:
         """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
@@ -190,11 +201,18 @@ class NormalMotion:
         """Return the discretisation errors of the springs, caused by a force that is not smooth at the contact edge."""
         if self.indenter.has_walls:
             return 0.0, 0.0, 0.0, 0.0
-        least = _LEFT_OUT * float(self.s[1] / self.radius) ** 2
+        least = _LEFT_OUT * (self.spacing / self.radius) ** 2
         load = _LEFT_OUT * float(np.max(np.abs(np.diff(state.force)) * np.diff(self.s)))
-        part = max(least, load / max(state.load, _LEAST_LOAD * self.scales.load))
-        depth, energy = part * abs(state.depth), 2.0 * least * state.dissipated
-        return (0.0, depth, 0.0, energy) if self.schedule.control == "load" else (load, 0.0, 0.0, energy)
+        energy = 2.0 * least * state.dissipated
+        if self.schedule.control != "load":
+            return load, 0.0, 0.0, energy
+        depth = least * abs(state.depth)
+        if load > 0.0:
+            # Where a load has nearly gone, its error moves only the few springs that touch.
+            soft = self.glassy + float(self.compliances.sum())
+            now = load * soft / float(self.weights @ (state.force > 0.0))
+            depth = max(depth, min(load / state.load * abs(state.depth), now))
+        return 0.0, depth, 0.0, energy
 
     def pressure(self, state: SpringState) -> Field:
         """Return p(r) between the springs, of forces that nowhere rise outwards."""
@@ -320,10 +338,7 @@ class NormalMotion:
         return float(self.s[last] + (self.s[last + 1] - self.s[last]) * inside / (inside + outside))
 
 
-def _row(indenter: Indenter, edge: float, accuracy: float) -> tuple[Array, Array, Array]:
-    """Return places, profile and weights of the springs: even up to the edge, wider beyond it."""
-    count = min(max(SPRINGS, round(SPRINGS * math.sqrt(1e-3 / accuracy))), MOST_SPRINGS)
-    s = np.linspace(0.0, edge, count + 1)
-    if not indenter.has_walls:
-        s = np.append(s, edge * np.geomspace(1.0, _FARTHEST, _FAR + 1)[1:])
-    return s, disc_profile(indenter, s, edge), both_sides(s)
+def _lost(first: Array, last: Array, memory: Array, parts: StepParts, compliances: Array) -> Array:
+    """Return the energy that springs (n,) dissipate in a step in which their forces are linear, J/m."""
+    away, change = first[:, None] - memory, (last - first)[:, None]
+    return np.asarray((parts.own * away**2 + 2.0 * parts.mixed * away * change + parts.new * change**2) @ compliances)

@@ -240,8 +240,7 @@ def _heights(indenter: Indenter, length: float) -> Array:
 
 def _extended(kept: Array, fresh: NormalMotion) -> Array:
     """Return places of springs: those that were touched, and beyond them as many as a larger contact needs."""
-    spacing = float(fresh.s[1])
-    beyond = fresh.s[fresh.s > kept[-1] + 0.5 * spacing]
+    beyond = fresh.s[fresh.s > kept[-1] + 0.5 * fresh.spacing]
     return np.concatenate([kept, beyond])
 
 

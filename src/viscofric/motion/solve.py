@@ -329,13 +329,15 @@ def assemble(
     x, y = history.direction
     stored, dissipated = column(lambda one: one.seen.stored), column(lambda one: one.seen.dissipated)
     work = column(lambda one: one.work)
+    balance = work - (stored - track.stored) - dissipated
     errors = TransientErrors(
         load=column(lambda one: one.errors.load),
         indentation=column(lambda one: one.errors.depth),
         friction_force=column(lambda one: one.errors.friction),
-        # Errors of an energy accumulate, even where the difference of the chains changes sign.
-        energy=np.maximum.accumulate(column(lambda one: one.errors.energy)),
-        balance=work - (stored - track.stored) - dissipated,
+        # Errors of an energy accumulate, even where the difference of the chains changes sign.  The balance shows those
+        # of the dissipated energy that are not of second order: of springs and cells touched within a step.
+        energy=np.maximum.accumulate(column(lambda one: one.errors.energy) + np.abs(balance)),
+        balance=balance,
     )
     times = column(lambda one: one.instant.time)
     kelvin = None

@@ -35,6 +35,10 @@ _DIRECTIONS = np.array([0.3, 0.9, 1.5707963267948966, 2.2, 3.141592653589793, 4.
 #: Rounding error of heights that should be the same in all directions.
 _ROUND = 1e-9
 _BISECTIONS = 200
+#: Springs near the axis are as many times their own distance apart from it; the first one, in the common distance.
+_GRADING, _FIRST = 8, 1e-3
+#: Springs beyond the edge, and how far.
+_FAR, _FARTHEST = 60, 4.0
 
 
 def is_body_of_revolution(indenter: Indenter) -> bool:
@@ -120,6 +124,21 @@ def impact_radius(indenter: Indenter, energy: float, weight: float, modulus: flo
 def row(indenter: Indenter, edge: float, count: int) -> tuple[Array, Array, Array]:
     """Return places, profile (`disc_profile`) and weights (of ∫ over both sides) of springs, evenly up to an edge."""
     s = np.linspace(0.0, edge, count + 1)
+    return s, disc_profile(indenter, s, edge), both_sides(s)
+
+
+def graded_row(indenter: Indenter, edge: float, count: int) -> tuple[Array, Array, Array]:
+    """Return places, profile and weights of springs: `count` evenly up to an edge, closer near the axis, wider beyond.
+
+    Near the axis the distances are in proportion to the place: a contact that begins there is resolved as well as one
+    that has grown.
+    """
+    s = np.linspace(0.0, edge, count + 1)
+    if not indenter.has_walls:
+        more = math.ceil(math.log(_GRADING / _FIRST) / math.log1p(1.0 / _GRADING))
+        near = np.geomspace(_FIRST * s[1], s[_GRADING], more + 1)[:-1]
+        beyond = edge * np.geomspace(1.0, _FARTHEST, _FAR + 1)[1:]
+        s = np.concatenate([[0.0], near, s[_GRADING:], beyond])
     return s, disc_profile(indenter, s, edge), both_sides(s)
 
 
