@@ -1,7 +1,7 @@
 // Parts of the page as views of Preact: what shows a result is grey with a word while its inputs are others than those of now.
 //
 // Every part that shows something takes `of`, the result of a job that it is of.
-// <${Figure} of=${result} id="…" title="…" … />     a figure; its properties are those of figures.js
+// <${Figure} of=${result} id="…" title="…" … />     a figure; its properties are those of figures.js, and onMade(handle)
 // <${Dom} of=${element} />                          an element that something else has made
 
 import { figure } from "./figures.js";
@@ -171,6 +171,7 @@ export class Figure extends Component {
   }
   componentDidMount() {
     this.handle = figure(this.place, this.props).update(this.props);
+    this.props.onMade?.(this.handle);
   }
   componentWillUnmount() {
     this.handle.remove();

@@ -1,10 +1,13 @@
 // The amplitude sweep of the material: Kraus's law, the linear range, and the strain that the moduli are scaled to.
 
-import { Job, shows } from "../jobs.js";
-import { effect } from "../reactive.js";
+import { Amount } from "../fields.js";
+import { Job } from "../jobs.js";
+import { html, view } from "../reactive.js";
 import { state } from "../state.js";
+import * as units from "../units.js";
+import { Button, Card, Figure, Notes } from "../views.js";
 
-const amplitude = new Job("amplitude", {
+export const amplitude = new Job("amplitude", {
   wait: 0,
   remember: 2,
   inputs: () => {
@@ -16,82 +19,47 @@ const amplitude = new Job("amplitude", {
 const atContact = new Job("amplitude", {
   name: "amplitude-contact",
   inputs: () => amplitude.inputs.value && { study: { ...state.study, ...amplitude.inputs.value.study }, options: { contact: true } },
+  done: ({ contact: { strain } }) => state.set("material.strain", Number(strain.toPrecision(2))),
 });
 
-/** The card, hidden without an amplitude sweep. */
-export function amplitudeCard(app) {
-  const { fields, figures, units } = app;
-  const { h, card, button, note } = fields;
-  const words = note([]);
-  const problem = note([], "error");
-  const contact = h("p", { class: "help", "aria-live": "polite" });
-  const place = h("div", {});
-  const handle = figures.figure(place, { id: "amplitude-sweep", title: "Amplitude sweep", x: {}, y: {}, traces: [] });
-  const strain = fields.numberField({
-    path: "material.strain",
-    label: "Scale the moduli to this tensile strain",
-    min: 0,
-    max: 10,
-    placeholder: "not scaled",
-    help: "A fraction: 0.05 is 5 %. An approximation by Kraus’s law, without 95 % bands.",
-  });
-  const small = fields.numberField({
-    path: "material.measured_at",
-    label: "Tensile strain of the frequency sweeps",
-    min: 0,
-    max: 10,
-    placeholder: "small",
-  });
-  const use = button({ label: "Use the strain of the contact", onClick: () => atContact.run() });
-  const remove = () =>
-    state.change({
-      "material.amplitude_sweep": undefined,
-      "material.strain": undefined,
-      "material.measured_at": undefined,
-    });
-  const away = button({ label: "Remove the amplitude sweep", kind: "quiet small", onClick: remove });
-  const element = card("Amplitude sweep", problem, words, place, strain, small, contact, h("div", { class: "row" }, use, away));
+const KEYS = ["amplitude_sweep", "strain", "measured_at"].map((key) => `material.${key}`);
+const remove = () => state.change(Object.fromEntries(KEYS.map((key) => [key, undefined])));
 
-  const ofContact = ({ strain: of, friction, linear, speed, temperature }) =>
-    `At ${units.show(speed, "speed")}, ${units.show(temperature, "temperature")} the strain of the contact is ` +
-    `${(100 * of).toPrecision(2)} %: friction ${friction.toPrecision(3)} instead of ${linear.toPrecision(3)} (small strain).`;
+const ofContact = ({ strain, friction, linear, speed, temperature }) =>
+  `At ${units.show(speed, "speed")}, ${units.show(temperature, "temperature")} the strain of the contact is ` +
+  `${(100 * strain).toPrecision(2)} %: friction ${friction.toPrecision(3)} instead of ${linear.toPrecision(3)} (small strain).`;
 
-  atContact.done = ({ contact: { strain: of } }) => state.set("material.strain", Number(of.toPrecision(2)));
-  amplitude.start();
-  effect(() => {
-    const error = amplitude.error ?? atContact.error;
-    problem.set(error ? [app.explain(error, "amplitude")] : []);
-  });
-  effect(() => {
-    const found = atContact.current?.contact;
-    contact.textContent = atContact.progress ? "Solving the contact" : found ? ofContact(found) : "";
-  });
-  effect(() => {
-    element.hidden = state.get("material.amplitude_sweep") === undefined;
-    if (amplitude.result) draw(amplitude.result);
-  });
-
-  function draw(found) {
-    const letter = found.deformation === "shear" ? "G" : "E";
-    const percent = found.strain_amplitude.map((one) => 100 * one);
-    const both = [
-      ["storage", `${letter}′`, "square", "blue"],
-      ["loss", `${letter}″`, "circle", "vermilion"],
-    ];
-    shows(words, found);
-    words.set([found.words, ...found.linear, ...found.notes]);
-    handle.update({
-      of: found,
-      x: { label: "strain amplitude (%)", log: true },
-      y: { label: "modulus", kind: "modulus", log: true },
-      caption: "Points: as measured; lines: Kraus’s law.",
-      synthetic: state.get("data_origin") === "synthetic",
-      traces: both.flatMap(([key, name, symbol, colour]) => [
-        { name, mode: "markers", symbol, colour, size: 5, x: percent, y: found[`${key}_modulus`] },
-        { name: `${name}, Kraus`, colour, legend: false, x: percent, y: found[`${key}_fitted`] },
-      ]),
-    });
-  }
-
-  return element;
+function traces(found) {
+  const letter = found.deformation === "shear" ? "G" : "E";
+  const x = found.strain_amplitude.map((one) => 100 * one);
+  return [
+    ["storage", `${letter}′`, "square", "blue"],
+    ["loss", `${letter}″`, "circle", "vermilion"],
+  ].flatMap(([key, name, symbol, colour]) => [
+    { name, mode: "markers", symbol, colour, size: 5, x, y: found[`${key}_modulus`] },
+    { name: `${name}, Kraus`, colour, legend: false, x, y: found[`${key}_fitted`] },
+  ]);
 }
+
+/** The card; nothing without an amplitude sweep. */
+export const Amplitude = view(({ app }) => {
+  if (state.get("material.amplitude_sweep") === undefined) return null;
+  const of = amplitude.result;
+  const error = amplitude.error ?? atContact.error;
+  const found = atContact.current?.contact;
+  return html`<${Card} title="Amplitude sweep">
+    <${Notes} kind="error" list=${[error && app.explain(error, "amplitude")]} />
+    <${Notes} of=${of} list=${of ? [of.words, ...of.linear, ...of.notes] : []} />
+    <${Figure} id="amplitude-sweep" title="Amplitude sweep" of=${of} x=${{ label: "strain amplitude (%)", log: true }}
+      y=${{ label: "modulus", kind: "modulus", log: true }} caption="Points: as measured; lines: Kraus’s law."
+      synthetic=${state.get("data_origin") === "synthetic"} traces=${of ? traces(of) : []} />
+    <${Amount} path="material.strain" label="Scale the moduli to this tensile strain" min=${0} max=${10} placeholder="not scaled"
+      help="A fraction: 0.05 is 5 %. An approximation by Kraus’s law, without 95 % bands." />
+    <${Amount} path="material.measured_at" label="Tensile strain of the frequency sweeps" min=${0} max=${10} placeholder="small" />
+    <p class="help" aria-live="polite">${atContact.progress ? "Solving the contact" : found ? ofContact(found) : ""}</p>
+    <div class="row">
+      <${Button} onClick=${() => atContact.run()}>Use the strain of the contact<//>
+      <${Button} kind="quiet small" onClick=${remove}>Remove the amplitude sweep<//>
+    </div>
+  <//>`;
+});

@@ -3,6 +3,7 @@
 
 import { Job } from "../jobs.js";
 import { state } from "../state.js";
+import * as units from "../units.js";
 
 export const SOURCES = [
   ["dma", "Sweeps of a DMA or rheometer"],
@@ -24,6 +25,9 @@ export const FIRST_REFERENCE = "30 degC";
 export const sourceOf = (material) =>
   SOURCES.map(([key]) => key).find((key) => [material].flat()[0]?.[key] !== undefined) ?? null;
 
+/** Whether the rubber is made of measurements; a predefined one has its own shift factors and spectrum. */
+export const isMade = () => ![null, "catalogue", "file"].includes(sourceOf(state.get("material")));
+
 /** The job that makes the material; its part is the material without its bands. */
 export const rubber = new Job("rubber", {
   remember: 6,
@@ -38,41 +42,34 @@ export const rubber = new Job("rubber", {
 export const shownRubber = () => (rubber.error ? null : rubber.result);
 
 /** "60 °C", as the user's units have it. */
-export const named = (kelvin, { units }) => units.show(kelvin, "temperature");
+export const named = (kelvin) => units.show(kelvin, "temperature");
 
 /** A temperature as a run file writes it, near enough to name one isotherm. */
 export const worded = (kelvin) => `${Number((kelvin - 273.15).toFixed(2))} degC`;
 
 /** What is said below a figure whose curves are coloured by temperature. */
-export function byTemperature(temperatures, { units }) {
+export function byTemperature(temperatures) {
   if (temperatures.length < 2) return "";
   const [low, high] = [Math.min(...temperatures), Math.max(...temperatures)];
-  return `Colours show the temperature: blue is ${units.show(low, "temperature")}, red ${units.show(high, "temperature")}.`;
+  return `Colours show the temperature: blue is ${named(low)}, red ${named(high)}.`;
 }
 
-/** Whether so few temperatures are drawn that a legend can name them. */
-export const fewEnough = (temperatures) => temperatures.length <= 8;
-
-/** A row of buttons of which one is pressed: pick({label, options: [[value, text]], value, onChange}). */
-export function pick({ label, options, value, onChange }, { h }) {
-  const buttons = options.map(([one, text]) =>
-    h("button", { type: "button", class: "button small", onclick: () => choose(one, true) }, text),
-  );
-  const choose = (wanted, byUser) => {
-    options.forEach(([one], at) => {
-      buttons[at].setAttribute("aria-pressed", String(one === wanted));
-      buttons[at].classList.toggle("main", one === wanted);
-    });
-    if (byUser) onChange(wanted);
-  };
-  const element = h("div", { class: "row", role: "group", "aria-label": label }, buttons);
-  element.choose = choose;
-  choose(value, false);
-  return element;
-}
+/** Traces of curves at one temperature each; `read(curve)` gives x and y, and what is other than usual. */
+export const isothermTraces = (curves, read) =>
+  curves.map((one) => ({
+    name: named(one.temperature),
+    legend: curves.length <= 8,
+    temperature: one.temperature,
+    mode: "lines+markers",
+    dash: "solid",
+    symbol: "circle",
+    size: 5,
+    width: 1.2,
+    ...read(one),
+  }));
 
 /** Whether figures of a result say that it is made up. */
-export const synthetic = (result, { state }) => result.synthetic || state.get("data_origin") === "synthetic";
+export const synthetic = (result) => result.synthetic || state.get("data_origin") === "synthetic";
 
 /** "0.12 decades" */
 export const decades = (value, digits = 2) => `${value.toFixed(digits).replace("-", "−")} decades`;

@@ -2,7 +2,7 @@
 
 import { html, signal, view } from "../reactive.js";
 import { Card, Figure, Pick } from "../views.js";
-import { byTemperature, fewEnough, named, synthetic } from "./made.js";
+import { byTemperature, isothermTraces, synthetic } from "./made.js";
 
 const DIAGRAMS = {
   van_gurp_palmen: [
@@ -49,23 +49,12 @@ function causalTraces(found) {
 }
 
 /** van Gurp–Palmen and its like, distances of neighbours, and E′ against E″. */
-export const Quality = view(({ app, of }) => {
+export const Quality = view(({ of }) => {
   const { check } = of;
   const [title, x, y] = DIAGRAMS[diagram.value];
   const curves = check.diagrams[diagram.value];
   const temperatures = curves.map((one) => one.temperature);
-  const traces = curves.map((one) => ({
-    name: named(one.temperature, app),
-    legend: fewEnough(temperatures),
-    temperature: one.temperature,
-    x: one.x,
-    y: one.y,
-    mode: "lines+markers",
-    dash: "solid",
-    symbol: "circle",
-    size: 5,
-    width: 1,
-  }));
+  const traces = isothermTraces(curves, ({ x, y }) => ({ x, y, width: 1 }));
   const pairs = {
     name: "distance",
     legend: false,
@@ -75,12 +64,12 @@ export const Quality = view(({ app, of }) => {
     error: check.neighbours.map((pair) => pair.error95),
   };
   const causal = check.kramers_kronig;
-  const shared = { of, synthetic: synthetic(of, app) };
+  const shared = { of, synthetic: synthetic(of) };
   return html`
     <${Card} title="Validity of superposition">
       <${Pick} label="Diagram" options=${TITLES} value=${diagram.value} onChange=${(key) => (diagram.value = key)} />
       <${Figure} id="superposition-diagram" ...${{ ...shared, title, x, y, temperatures, traces }}
-        caption="No shift along the frequency changes these points. ${byTemperature(temperatures, app)}" />
+        caption="No shift along the frequency changes these points. ${byTemperature(temperatures)}" />
     <//>
     <${Card} title="Distance of neighbouring isotherms">
       <${Figure} id="neighbour-distances" title="Distance of neighbouring isotherms" ...${shared}

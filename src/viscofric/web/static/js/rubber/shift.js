@@ -1,10 +1,13 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
-import { effect, html, render, view } from "../reactive.js";
-import { Card, Dom, Figure, Notes, Numbers, Progress, shown } from "../views.js";
-import { decades, rubber, shownRubber, sourceOf, synthetic } from "./made.js";
+import { Choose, Quantity } from "../fields.js";
+import { html, render, view } from "../reactive.js";
+import { state } from "../state.js";
+import { Button, Card, Drop, Figure, Notes, Numbers, Progress, shown } from "../views.js";
+import { decades, isMade, rubber, shownRubber, synthetic } from "./made.js";
 import { Quality } from "./quality.js";
-import { shiftedCard } from "./shifted.js";
+import { Shifted, startShifted } from "./shifted.js";
+import { failed, takeFactors } from "./source.js";
 import { stepFigure } from "./sweeps_figures.js";
 import { LawTable, alphaFigure, limitsInWords, residualTraces, verticalFigure } from "./shift_figures.js";
 
@@ -33,9 +36,8 @@ const KIND = {
 };
 
 export function mount(section, app) {
-  const form = settings(app);
-  const shifted = shiftedCard(app);
   rubber.start();
+  startShifted(app);
   const Shift = view(() => {
     const of = shownRubber();
     const none = of && !of.shift && "This material has no shift factors: it is valid at one temperature only.";
@@ -45,20 +47,20 @@ export function mount(section, app) {
       <${Notes} kind="error" list=${[rubber.error && app.explain(rubber.error, "shift")]} />
       <${Notes} list=${[none]} />
       <div class="columns">
-        <div><${Dom} of=${form} /></div>
+        <div><${Settings} /></div>
         <div>${of?.check && html`<${Verdict} of=${of} />`}<${Notes} of=${of} kind="warning" list=${of?.notes} /></div>
       </div>
-      <div class="columns"><div><${Dom} of=${shifted.controls} /></div><div><${Dom} of=${shifted} /></div></div>
-      ${of?.shift && html`<${Factors} app=${app} of=${of} />`}
+      ${of?.shift?.isotherms?.length > 0 && html`<${Shifted} app=${app} of=${of} />`}
+      ${of?.shift && html`<${Factors} of=${of} />`}
     `;
   });
   render(html`<${Shift} />`, section);
 }
 
 /** Shift factors, their laws, and whether superposition holds. */
-const Factors = view(({ app, of }) => {
+const Factors = view(({ of }) => {
   const { shift, check } = of;
-  const made = synthetic(of, app);
+  const made = synthetic(of);
   const temperature = { label: "temperature", kind: "temperature" };
   const laws = shift.laws.length > 0;
   return html`
@@ -67,13 +69,13 @@ const Factors = view(({ app, of }) => {
         shift.steps &&
         html`<div class="card">
           <${Figure} id="shifted-steps" title="Creep and relaxation tests over reduced time" of=${of}
-            ...${stepFigure(shift.steps, made, app)} />
+            ...${stepFigure(shift.steps, made)} />
         </div>`
       }
       <${Card} title="Shift factors">
         <${Figure} id="shift-factors" title="Shift factor against temperature" of=${of} x=${temperature}
-          y=${{ label: "log₁₀ α" }} ...${alphaFigure(of, app)} />
-        <p ...${shown(of, "help")}>${limitsInWords(shift, app)}</p>
+          y=${{ label: "log₁₀ α" }} ...${alphaFigure(of)} />
+        <p ...${shown(of, "help")}>${limitsInWords(shift)}</p>
       <//>
       ${
         laws &&
@@ -86,15 +88,15 @@ const Factors = view(({ app, of }) => {
     </div>
     ${
       laws &&
-      html`<${Card} title="Laws"><p class="help">${shift.explanation}</p><div class="words"><${LawTable} app=${app} of=${of} /></div><//>`
+      html`<${Card} title="Laws"><p class="help">${shift.explanation}</p><div class="words"><${LawTable} of=${of} /></div><//>`
     }
     <div class="grid thirds">
-      ${check?.diagrams && html`<${Quality} app=${app} of=${of} />`}
+      ${check?.diagrams && html`<${Quality} of=${of} />`}
       ${
         shift.vertical &&
         html`<${Card} title="Vertical shift">
           <${Figure} id="vertical-shift" title="Vertical shift b(T)" of=${of} x=${temperature} y=${{ label: "b" }}
-            ...${verticalFigure(shift.vertical, of, app)} />
+            ...${verticalFigure(shift.vertical, of)} />
         <//>`
       }
     </div>
@@ -102,79 +104,32 @@ const Factors = view(({ app, of }) => {
 });
 
 /** How sweeps are shifted; nothing of it holds for a rubber that is ready. */
-function settings(app) {
-  const { state, fields, api } = app;
-  const { h, card, button } = fields;
-  const problem = fields.note([], "error");
-  const given = h("div", { class: "row" });
-  const takeFactors = async (files) => {
-    try {
-      const [name] = await api.uploadFiles(files);
-      state.change({ "material.shift_factors": name, "material.fixed_shift_factors": undefined });
-      problem.set([]);
-    } catch (error) {
-      problem.set([error.message]);
-    }
-  };
-  const ofSweeps = h(
-    "div",
-    { class: "panel" },
-    fields.quantityField({
-      path: "material.reference_temperature",
-      label: "Reference temperature",
-      kind: "temperature",
-      help: "The shift factor is 1 at this temperature.",
-    }),
-    fields.choiceField({
-      path: "material.shift",
-      label: "α(T) used",
-      options: SHIFTS,
-      otherwise: "measured",
-      help: "Measured factors are valid between the isotherms only; a law extrapolates.",
-    }),
-    fields.choiceField({
-      path: "material.vertical_shift",
-      label: "Vertical shift b(T)",
-      options: VERTICALS,
-      otherwise: "none",
-    }),
-    given,
-    h(
-      "details",
-      {},
-      h("summary", {}, "Use shift factors from a file"),
-      fields.fileDrop({
-        label: "Drop shift factors",
-        help: "Temperature and α or log₁₀ α, as written by the instrument's software.",
-        multiple: false,
-        onFiles: takeFactors,
-      }),
-    ),
-    problem,
-  );
-  const ready = h("p", { class: "help" }, "A predefined material has its own shift factors.");
-  const element = card("Shift", ofSweeps, ready);
-  const refresh = () => {
-    const source = sourceOf(state.get("material"));
-    ofSweeps.hidden = source === "catalogue" || source === "file" || source === null;
-    ready.hidden = !ofSweeps.hidden;
-    const name = state.get("material.shift_factors");
-    given.replaceChildren(
-      ...(name
-        ? [
-            h("span", {}, `Shift factors of ${name}`),
-            button({
-              label: "Fit them to the sweeps",
-              kind: "small",
-              onClick: () => state.set("material.shift_factors", undefined),
-            }),
-          ]
-        : []),
-    );
-  };
-  effect(refresh);
-  return element;
-}
+const Settings = view(() => {
+  if (!isMade()) return html`<${Card} title="Shift"><p class="help">A predefined material has its own shift factors.</p><//>`;
+  const given = state.get("material.shift_factors");
+  return html`<${Card} title="Shift">
+    <div class="panel">
+      <${Quantity} path="material.reference_temperature" label="Reference temperature" kind="temperature"
+        help="The shift factor is 1 at this temperature." />
+      <${Choose} path="material.shift" label="α(T) used" options=${SHIFTS} otherwise="measured"
+        help="Measured factors are valid between the isotherms only; a law extrapolates." />
+      <${Choose} path="material.vertical_shift" label="Vertical shift b(T)" options=${VERTICALS} otherwise="none" />
+      ${
+        given &&
+        html`<div class="row">
+          <span>Shift factors of ${given}</span>
+          <${Button} kind="small" onClick=${() => state.set("material.shift_factors", undefined)}>Fit them to the sweeps<//>
+        </div>`
+      }
+      <details>
+        <summary>Use shift factors from a file</summary>
+        <${Drop} label="Drop shift factors" multiple=${false} onFiles=${takeFactors}
+          help="Temperature and α or log₁₀ α, as written by the instrument's software." />
+      </details>
+      <${Notes} kind="error" list=${[failed.value?.message]} />
+    </div>
+  <//>`;
+});
 
 const Verdict = view(({ of }) => {
   const { check, shift } = of;

@@ -5,7 +5,7 @@ import { state } from "../state.js";
 import { Button, Table } from "../views.js";
 import { TESTS, named, synthetic } from "./made.js";
 
-export function alphaFigure(result, app) {
+export function alphaFigure(result) {
   const { shift } = result;
   const { factors, material } = shift;
   const traces = [];
@@ -49,7 +49,7 @@ export function alphaFigure(result, app) {
     caption:
       "Bars and bands are 95 %. Dotted lines are extrapolated; they end at the limits of validity.",
     marks: [{ x: shift.reference, label: "reference" }],
-    synthetic: synthetic(result, app),
+    synthetic: synthetic(result),
     traces,
   };
 }
@@ -80,20 +80,20 @@ function lineTraces({ line, limits }, look) {
   ];
 }
 
-export function limitsInWords({ material }, app) {
+export function limitsInWords({ material }) {
   const { limits, words } = material;
   if (!limits) return words;
   const [low, high] = limits.valid;
   const span =
     low === null || high === null
       ? high === null && low > 0
-        ? `above ${named(low, app)}`
+        ? `above ${named(low)}`
         : "at every temperature"
-      : `from ${named(low, app)} to ${named(high, app)}`;
+      : `from ${named(low)} to ${named(high)}`;
   return `Used: ${words}. Valid ${span}.`;
 }
 
-export const LawTable = view(({ app, of }) => {
+export const LawTable = view(({ of }) => {
   const rows = of.shift.laws.map((row) => {
     const words = row.refusal || row.words;
     const mark = row.used
@@ -110,7 +110,7 @@ export const LawTable = view(({ app, of }) => {
         ? null
         : html`<${Button} kind="small" onClick=${() => state.set("material.shift", row.kind)}>Use ${row.title}<//>`;
     const valid = row.limits
-      ? row.limits.valid.map((kelvin) => (kelvin === null ? "∞" : named(kelvin, app))).join(" to ")
+      ? row.limits.valid.map((kelvin) => (kelvin === null ? "∞" : named(kelvin))).join(" to ")
       : "–";
     return [
       row.title,
@@ -157,14 +157,14 @@ export function residualTraces({ laws, factors }) {
   ];
 }
 
-export function verticalFigure({ temperature, b, upper }, result, app) {
+export function verticalFigure({ temperature, b, upper }, result) {
   const trace = upper
     ? { mode: "markers", x: temperature, y: b, error: upper.map((one, at) => one - b[at]) }
     : { mode: "lines+markers", x: temperature, y: b };
   return {
     traces: [{ name: "b", legend: false, ...trace }],
     marks: [{ y: 1 }],
-    synthetic: synthetic(result, app),
+    synthetic: synthetic(result),
     caption: upper
       ? "Fitted with the shift factors; bars are 95 %."
       : "ρT/(ρ₀T₀), from rubber elasticity.",

@@ -3,9 +3,9 @@
 import { Job } from "../jobs.js";
 import { html, render, signal, view } from "../reactive.js";
 import * as units from "../units.js";
-import { Button, Card, Dom, Figure, Notes, Numbers, Pick, Progress } from "../views.js";
+import { Button, Card, Figure, Notes, Numbers, Pick, Progress } from "../views.js";
 import { named, rubber, shownRubber, synthetic, worded } from "./made.js";
-import { settings } from "./spectrum_form.js";
+import { Settings } from "./spectrum_form.js";
 import { ModesTable, caption, keyNumbers, modesFigure, modulusTraces, residualTraces, tangentTraces } from "./spectrum_figures.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
@@ -31,7 +31,6 @@ const kind = signal("retardation");
 const FREQUENCY = { label: "frequency", kind: "angular_frequency", log: true };
 
 export function mount(section, app) {
-  const form = settings(app);
   for (const job of [rubber, moduli]) job.start();
   const ended = () => (rubber.result?.no_band ? `No 95 % band: ${rubber.result.no_band}.` : "");
   const Step = view(() => {
@@ -41,39 +40,39 @@ export function mount(section, app) {
       <p>Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors.</p>
       <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} ended=${ended} /></div>
       <${Notes} kind="error" list=${[rubber.error && app.explain(rubber.error, "spectrum")]} />
-      <${Numbers} of=${of} list=${of ? keyNumbers(of, app) : []} />
+      <${Numbers} of=${of} list=${of ? keyNumbers(of) : []} />
       <${Notes} of=${of} kind="warning" list=${of ? [...(fit?.notes ?? []), ...notes, ...(of.band?.notes ?? [])] : []} />
       <div class="columns">
-        <div><${Dom} of=${form} /></div>
-        <div>${of && html`<${Modulus} app=${app} of=${of} />`}</div>
+        <div><${Settings} /></div>
+        <div>${of && html`<${Modulus} of=${of} />`}</div>
       </div>
-      ${of && html`<div class="grid thirds"><${Others} app=${app} of=${of} /></div>`}
+      ${of && html`<div class="grid thirds"><${Others} of=${of} /></div>`}
     `;
   });
   render(html`<${Step} />`, section);
 }
 
 /** The moduli at the chosen temperature, or at the reference; and what the figures of them share. */
-function shownModuli(of, app) {
+function shownModuli(of) {
   const { reference, modulus, measured } = of.spectrum;
   const moved = moduli.result;
   const here = moved ?? { temperature: reference, modulus, band: of.band ?? null, moved: measured, isotherm: null };
-  const at = here.temperature === null ? "" : ` at ${named(here.temperature, app)}`;
-  return { here, at, shared: { of: moved ?? of, synthetic: synthetic(of, app), x: FREQUENCY } };
+  const at = here.temperature === null ? "" : ` at ${named(here.temperature)}`;
+  return { here, at, shared: { of: moved ?? of, synthetic: synthetic(of), x: FREQUENCY } };
 }
 
-const Modulus = view(({ app, of }) => {
-  const { here, at, shared } = shownModuli(of, app);
+const Modulus = view(({ of }) => {
+  const { here, at, shared } = shownModuli(of);
   return html`<${Card} title="Modulus against frequency">
     ${of.shift && html`<${Temperature} of=${of} />`}
     <${Figure} id="modulus" title="E′ and E″${at}" height=${430} y=${{ label: "modulus", kind: "modulus", log: true }}
-      ...${shared} caption=${caption(of, here, app)} traces=${modulusTraces(here)} />
+      ...${shared} caption=${caption(of, here)} traces=${modulusTraces(here)} />
   <//>`;
 });
 
-const Others = view(({ app, of }) => {
+const Others = view(({ of }) => {
   const { spectrum } = of;
-  const { here, at, shared } = shownModuli(of, app);
+  const { here, at, shared } = shownModuli(of);
   return html`
     <${Card} title="Loss tangent">
       <${Figure} id="loss-tangent" title="tan δ${at}" y=${{ label: "tan δ", log: true }} ...${shared} traces=${tangentTraces(here)} />

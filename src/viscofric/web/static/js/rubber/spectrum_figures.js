@@ -1,12 +1,13 @@
 // What the figures and the table of the spectrum and the modulus show.
 
 import { html, view } from "../reactive.js";
+import * as units from "../units.js";
 import { Table } from "../views.js";
 import { named } from "./made.js";
 
 const SHOWN = 1e-10; // modes weaker than the strongest by more change nothing that can be seen
 
-export function keyNumbers({ spectrum, band }, { units }) {
+export function keyNumbers({ spectrum, band }) {
   if (!spectrum.modes) return [{ label: "material", value: "a table of moduli", remark: "without modes" }];
   const error = (value) => (band && value ? `± ${units.show(value, "modulus", 2)} (95 %)` : "");
   const { fit } = spectrum;
@@ -35,12 +36,12 @@ export function keyNumbers({ spectrum, band }, { units }) {
   return all;
 }
 
-export function caption(result, here, app) {
+export function caption(result, here) {
   const parts = [];
   if (here.band) parts.push(`95 % bands of each modulus (${here.band.draws} bootstrap samples).`);
   if (here.moved) parts.push("Points: all measurements, shifted to this temperature.");
   if (here.isotherm)
-    parts.push(`Filled points: the sweep measured at ${named(here.isotherm.temperature, app)}.`);
+    parts.push(`Filled points: the sweep measured at ${named(here.isotherm.temperature)}.`);
   const range = result.spectrum.fit?.frequency_range;
   if (range) parts.push("Beyond the points the spectrum is extrapolated.");
   return parts.join(" ");

@@ -1,7 +1,10 @@
 // What the user says of the spectrum.
 
-import { effect } from "../reactive.js";
-import { sourceOf } from "./made.js";
+import { Amount, Choose } from "../fields.js";
+import { html, view } from "../reactive.js";
+import { state } from "../state.js";
+import { Card } from "../views.js";
+import { isMade } from "./made.js";
 
 const KINDS = [
   ["non-negative", "non-negative: smallest misfit"],
@@ -9,54 +12,28 @@ const KINDS = [
   ["sparse", "sparse: few modes"],
 ];
 
-export function settings(app) {
-  const { state, fields } = app;
-  const { h, card } = fields;
-  const few = fields.numberField({
-    path: "material.modes",
-    label: "Largest number of modes",
-    min: 1,
-    max: 200,
-    step: 1,
-    placeholder: "automatic",
+const choose = (kind) =>
+  state.change({
+    "material.spectrum": kind === "non-negative" ? undefined : kind,
+    [kind === "sparse" ? "material.tau_ratio" : "material.modes"]: undefined,
   });
-  const ratio = fields.numberField({
-    path: "material.tau_ratio",
-    label: "Ratio of neighbouring times",
-    min: 1.1,
-    max: 100,
-    placeholder: "e = 2.718",
-  });
-  const kind = fields.choiceField({
-    path: "material.spectrum",
-    label: "Fit method",
-    options: KINDS,
-    otherwise: "non-negative",
-    onChange: (value) =>
-      state.change({
-        "material.spectrum": value === "non-negative" ? undefined : value,
-        ...(value === "sparse" ? { "material.tau_ratio": undefined } : { "material.modes": undefined }),
-      }),
-    help: "Non-negative modes have the smallest misfit; regularised ones make a smooth spectrum; sparse ones are few, for finite elements.",
-  });
-  const draws = fields.numberField({
-    path: "uncertainty.draws",
-    label: "Bootstrap samples for the 95 % band",
-    min: 0,
-    max: 10000,
-    step: 1,
-    placeholder: "200",
-    help: "Refits to resampled data; 0 for no band.",
-  });
-  const fitted = h("div", { class: "panel" }, kind, few, ratio, draws);
-  const ready = h("p", { class: "help" }, "A predefined material has its own spectrum.");
-  const refresh = () => {
-    const source = sourceOf(state.get("material"));
-    fitted.hidden = source === "catalogue" || source === "file" || source === null;
-    ready.hidden = !fitted.hidden;
-    few.hidden = state.get("material.spectrum") !== "sparse";
-    ratio.hidden = !few.hidden;
-  };
-  effect(refresh);
-  return card("Spectrum", fitted, ready);
-}
+
+export const Settings = view(() => {
+  const sparse = state.get("material.spectrum") === "sparse";
+  if (!isMade()) return html`<${Card} title="Spectrum"><p class="help">A predefined material has its own spectrum.</p><//>`;
+  return html`<${Card} title="Spectrum">
+    <div class="panel">
+      <${Choose} path="material.spectrum" label="Fit method" options=${KINDS} otherwise="non-negative" onChange=${choose}
+        help="Non-negative modes have the smallest misfit; regularised ones make a smooth spectrum; sparse ones are few, for finite elements." />
+      ${
+        sparse
+          ? html`<${Amount} key="modes" path="material.modes" label="Largest number of modes" min=${1} max=${200} step=${1}
+              placeholder="automatic" />`
+          : html`<${Amount} key="ratio" path="material.tau_ratio" label="Ratio of neighbouring times" min=${1.1} max=${100}
+              placeholder="e = 2.718" />`
+      }
+      <${Amount} path="uncertainty.draws" label="Bootstrap samples for the 95 % band" min=${0} max=${10000} step=${1}
+        placeholder="200" help="Refits to resampled data; 0 for no band." />
+    </div>
+  <//>`;
+});

@@ -1,138 +1,161 @@
-// What the figures and tables of sweeps show, as they were read.
+// What the figures, numbers and tables of the data show, as they were read.
 
-import { byTemperature, fewEnough, named } from "./made.js";
+import { html, view } from "../reactive.js";
+import { state } from "../state.js";
+import * as units from "../units.js";
+import { Folded, Table } from "../views.js";
+import { byTemperature, isothermTraces, named } from "./made.js";
 
 const MOST_ROWS = 200;
-export const OVER_FREQUENCY = { label: "frequency", kind: "angular_frequency", log: true };
+const OVER_FREQUENCY = { label: "frequency", kind: "angular_frequency", log: true };
+const MODULI = [
+  ["storage_modulus", "storage modulus", "′"],
+  ["loss_modulus", "loss modulus", "″"],
+  ["loss_tangent", "loss tangent tan δ", ""],
+];
+const capital = (words) => words[0].toUpperCase() + words.slice(1);
+const madeUp = () => state.get("data_origin") === "synthetic";
 
-export function keyNumbers(result, app) {
-  const { units } = app;
-  const curves = result.ramps ?? result.steps?.curves;
-  if (result.source !== "dma" && curves) return numbersOfOther(result, curves, app);
-  if (result.source !== "dma") {
+/** "20 °C to 90 °C"; one of them where both are the same, and a dash without any. */
+function span(values, kind) {
+  if (!values?.length) return "–";
+  return [...new Set([Math.min(...values), Math.max(...values)])].map((end) => units.show(end, kind)).join(" to ");
+}
+
+/** The main numbers of what was read. */
+export function numbersOf(result) {
+  const { source, isotherms, ramps, steps, left_open: open } = result;
+  if (source !== "dma" && !ramps && !steps) {
+    const { name, synthetic, reference } = result;
+    const none = reference === null;
     return [
-      {
-        label: "material",
-        value: result.name || "unnamed",
-        remark: result.synthetic ? "synthetic, not measured" : "",
-      },
-      {
-        label: "reference",
-        value: result.reference === null ? "none" : named(result.reference, app),
-        remark: result.reference === null ? "valid at one temperature only" : "",
-      },
+      { label: "material", value: name || "unnamed", remark: synthetic ? "synthetic, not measured" : "" },
+      { label: "reference", value: none ? "none" : named(reference), remark: none ? "valid at one temperature only" : "" },
     ];
   }
-  const kelvin = result.isotherms.map((one) => one.temperature);
-  const omega = result.isotherms.flatMap((one) => one.angular_frequency);
-  const points = result.isotherms.reduce((sum, one) => sum + one.angular_frequency.length, 0);
-  const outliers = result.flagged.filter((one) => one.why !== "left out").length;
-  const span = (values, kind) => `${units.show(Math.min(...values), kind)} to ${units.show(Math.max(...values), kind)}`;
-  return [
-    {
-      label: "measured in",
-      ...(result.left_open.includes("deformation") && !app.state.get("material.deformation")
-        ? { value: "?", remark: "please select tension or shear" }
-        : { value: result.deformation, remark: result.left_open.includes("deformation") ? "as given" : "from the file" }),
-    },
-    { label: "isotherms", value: String(result.isotherms.length), remark: span(kelvin, "temperature") },
-    { label: "points", value: String(points), remark: span(omega, "angular_frequency") },
-    {
-      label: "flagged",
-      value: String(result.left_out + outliers),
-      remark: `${result.left_out} left out, ${outliers} outliers`,
-    },
-  ];
-}
-
-/** Of temperature ramps, creep or relaxation tests alone. */
-function numbersOfOther({ source, ramps, steps, deformation, left_open }, curves, { units }) {
-  const span = (values, kind) => [...new Set([Math.min(...values), Math.max(...values)])].map((end) => units.show(end, kind)).join(" to ");
+  const asked = open.includes("deformation");
+  const deformation =
+    asked && !state.get("material.deformation")
+      ? { value: "?", remark: "please select tension or shear" }
+      : { value: result.deformation, remark: asked ? "as given" : "from the file" };
+  const curves = source === "dma" ? isotherms : (ramps ?? steps.curves);
   const kelvin = curves.flatMap((one) => one.temperature);
-  const remark = left_open.includes("deformation") ? "as given" : "from the file";
-  return [
-    { label: "measured in", value: deformation, remark },
-    { label: source === "ramps" ? "frequencies" : "tests", value: String(curves.length), remark: span(kelvin, "temperature") },
+  const over = ramps || source === "dma" ? "angular_frequency" : "time";
+  const values = curves.flatMap((one) => one[over]);
+  const numbers = [
+    { label: "measured in", ...deformation },
+    {
+      label: { dma: "isotherms", ramps: "frequencies" }[source] ?? "tests",
+      value: String(curves.length),
+      remark: span(kelvin, "temperature"),
+    },
     {
       label: "points",
-      value: String(steps?.points ?? kelvin.length),
-      remark: ramps
-        ? span(ramps.map((one) => one.angular_frequency), "angular_frequency")
-        : span(curves.flatMap((one) => one.time), "time"),
+      value: String(source === "dma" ? values.length : (steps?.points ?? kelvin.length)),
+      remark: span(values, over),
     },
   ];
+  if (source !== "dma") return numbers;
+  const outliers = result.flagged.filter((one) => one.why !== "left out").length;
+  const flagged = { value: String(result.left_out + outliers), remark: `${result.left_out} left out, ${outliers} outliers` };
+  return [...numbers, { label: "flagged", ...flagged }];
 }
 
-const COMPLIANCE = 1e6; // shown in 1/MPa
 const RESPONSES = {
-  creep: { symbol: { shear: "J" }, otherwise: "D", word: "creep compliance", label: " (1/MPa)" },
-  relaxation: { symbol: { shear: "G" }, otherwise: "E", word: "relaxation modulus", label: "", kind: "modulus" },
+  creep: { symbol: { shear: "J" }, otherwise: "D", word: "creep compliance", label: " (1/MPa)", scale: 1e6 },
+  relaxation: { symbol: { shear: "G" }, otherwise: "E", word: "relaxation modulus", label: "", kind: "modulus", scale: 1 },
 };
 
 /** Creep or relaxation tests: as measured, or with `fit` over reduced time. */
-export function stepFigure({ kind, deformation, curves, fit }, madeUp, app) {
-  const { symbol, otherwise, word, label, kind: quantity } = RESPONSES[kind];
-  const scaled = (values) => (kind === "creep" ? values.map((one) => COMPLIANCE * one) : values);
+export function stepFigure({ kind, deformation, curves, fit }, synthetic) {
+  const { symbol, otherwise, word, label, kind: quantity, scale } = RESPONSES[kind];
+  const scaled = (values) => values.map((one) => scale * one);
   const temperatures = curves.map((one) => one.temperature);
-  const line = fit
-    ? [{ name: "fitted", x: fit.time, y: scaled(fit.response), colour: "vermilion", width: 1.5 }]
-    : [];
+  const mode = fit ? "markers" : "lines+markers";
+  const line = fit && { name: "fitted", x: fit.time, y: scaled(fit.response), colour: "vermilion", width: 1.5 };
   return {
-    caption: byTemperature(temperatures, app),
-    synthetic: madeUp,
+    caption: byTemperature(temperatures),
+    synthetic,
     temperatures,
     x: { label: fit ? "reduced time t/α" : "time", kind: "time", log: true },
     y: { label: `${word} ${symbol[deformation] ?? otherwise}${label}`, kind: quantity, log: true },
     traces: [
-      ...curves.map((one) => ({
-        name: named(one.temperature, app),
-        legend: fewEnough(temperatures),
-        temperature: one.temperature,
-        x: one.time,
-        y: scaled(one.response),
-        mode: fit ? "markers" : "lines+markers",
-        symbol: "circle",
-        dash: "solid",
-        size: 4,
-        width: 1.2,
-      })),
-      ...line,
+      ...isothermTraces(curves, ({ time, response }) => ({ x: time, y: scaled(response), mode, size: 4 })),
+      ...(line ? [line] : []),
     ],
   };
 }
 
-/** One modulus of temperature ramps. */
-export function rampFigure(result, { key, label, primes }, app) {
-  const symbol = result.deformation === "shear" ? "G" : "E";
+/** One of the moduli of sweeps or ramps; of another rubber, at its reference. */
+function modulusFigure(result, made, [key, label, primes]) {
   const modulus = key !== "loss_tangent";
-  return {
-    title: label[0].toUpperCase() + label.slice(1),
-    caption: "",
-    synthetic: app.state.get("data_origin") === "synthetic",
-    x: { label: "temperature", kind: "temperature" },
-    y: { label: modulus ? `${label} ${symbol}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true },
-    temperatures: undefined,
-    traces: result.ramps.map((one) => ({
-      name: app.units.show(one.angular_frequency, "angular_frequency"),
+  const axis = (letter) => ({ label: modulus ? `${label} ${letter}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true });
+  const shared = {
+    title: capital(label),
+    of: result,
+    synthetic: madeUp(),
+    x: OVER_FREQUENCY,
+    y: axis(result.deformation === "shear" ? "G" : "E"),
+  };
+  if (result.source === "ramps") {
+    const traces = result.ramps.map((one) => ({
+      name: units.show(one.angular_frequency, "angular_frequency"),
       x: one.temperature,
       y: one[key],
       mode: "lines+markers",
       size: 4,
       width: 1.2,
-    })),
-  };
+    }));
+    return { ...shared, x: { label: "temperature", kind: "temperature" }, traces };
+  }
+  if (result.source === "dma") {
+    const temperatures = result.isotherms.map((one) => one.temperature);
+    const curves = isothermTraces(result.isotherms, (one) => ({ x: one.angular_frequency, y: one[key] }));
+    const traces = [...curves, ...flags(result, key, true), ...flags(result, key, false)];
+    return { ...shared, caption: byTemperature(temperatures), temperatures, traces };
+  }
+  if (!made) return { ...shared, of: null, traces: [] };
+  const { modulus: line, reference } = made.spectrum;
+  const traces = [{ name: label, x: line.angular_frequency, y: line[key], legend: false }];
+  const title = `${capital(label)}${reference === null ? "" : ` at ${named(reference)}`}`;
+  return { ...shared, of: made, synthetic: made.synthetic, title, y: axis("E"), traces };
 }
 
-export function fileTable(result, app) {
-  if (!result?.files?.length) return [];
-  const { units, fields } = app;
-  const span = (range, kind) =>
-    range
-      ? range[0] === range[1]
-        ? units.show(range[0], kind)
-        : `${units.show(range[0], kind)} to ${units.show(range[1], kind)}`
-      : "–";
-  const rows = result.files
+/** Readings that were left out, or are far from their neighbours. */
+function flags({ flagged }, key, left) {
+  const tangent = key === "loss_tangent";
+  const value = (one) => (tangent ? (one.storage_modulus > 0 ? one.loss_modulus / one.storage_modulus : null) : one[key]);
+  const some = flagged.filter((one) => (one.why === "left out") === left && one.angular_frequency > 0 && value(one) > 0);
+  const points = {
+    name: left ? "left out" : "far from its neighbours",
+    mode: "markers",
+    symbol: left ? "x" : "circle",
+    colour: "red",
+    size: 9,
+    open: !left,
+    x: some.map((one) => one.angular_frequency),
+    y: some.map(value),
+    text: some.map((one) => `${one.place}: ${one.why}`),
+  };
+  return some.length ? [points] : [];
+}
+
+/** The figures of what was read; `made` is the rubber, for those that have no measurement to show. */
+export function figuresOf(result, made) {
+  const measured = ["dma", "ramps"].includes(result.source);
+  const moduli = MODULI.filter(([key]) => measured || key !== "loss_tangent").map((modulus) => ({
+    id: `isotherms-${modulus[0].replace("_", "-")}`,
+    ...modulusFigure(result, made, modulus),
+  }));
+  const steps = { id: "step-tests", title: "Creep and relaxation tests", of: result };
+  return result.steps ? [{ ...steps, ...stepFigure(result.steps, madeUp()) }, ...moduli] : moduli;
+}
+
+/** What each file was taken for. */
+export const FileTable = view(({ of }) => {
+  const { files = [] } = of ?? {};
+  if (files.length === 0) return null;
+  const rows = files
     .slice(0, MOST_ROWS)
     .map((one) => [
       one.name,
@@ -142,25 +165,16 @@ export function fileTable(result, app) {
       span(one.temperature, "temperature"),
       span(one.angular_frequency, "angular_frequency"),
     ]);
-  const table = fields.table(
-    ["file", "format", "deformation", "readings", "temperatures", "frequencies"],
-    rows,
-    "Files as read",
-  );
-  return [
-    app.fields.h(
-      "details",
-      { open: result.files.length <= 3 },
-      app.fields.h("summary", {}, result.files.length === 1 ? "The file" : `${result.files.length} files`),
-      app.fields.h("div", { class: "words" }, table),
-    ),
-  ];
-}
+  const head = ["file", "format", "deformation", "readings", "temperatures", "frequencies"];
+  return html`<${Folded} title=${files.length === 1 ? "The file" : `${files.length} files`} open=${files.length <= 3}>
+    <div class="words"><${Table} of=${of} head=${head} rows=${rows} caption="Files as read" /></div>
+  <//>`;
+});
 
-export function flaggedTable(result, app) {
-  if (!result?.flagged?.length) return [];
-  const { units, fields } = app;
-  const rows = result.flagged
+export const FlaggedTable = view(({ of }) => {
+  const { flagged = [] } = of ?? {};
+  if (flagged.length === 0) return null;
+  const rows = flagged
     .slice(0, MOST_ROWS)
     .map((one) => [
       one.place,
@@ -170,58 +184,6 @@ export function flaggedTable(result, app) {
       units.show(one.storage_modulus, "modulus"),
       units.show(one.loss_modulus, "modulus"),
     ]);
-  const table = fields.table(
-    ["location", "reason", "temperature", "frequency", "storage modulus", "loss modulus"],
-    rows,
-    "Flagged readings",
-  );
-  return [fields.h("details", {}, fields.h("summary", {}, "Flagged readings"), table)];
-}
-
-export function isothermFigure(result, { key, label, primes }, app) {
-  const temperatures = result.isotherms.map((one) => one.temperature);
-  const symbol = result.deformation === "shear" ? "G" : "E";
-  const modulus = key !== "loss_tangent";
-  const traces = result.isotherms.map((one) => ({
-    name: named(one.temperature, app),
-    legend: fewEnough(temperatures),
-    temperature: one.temperature,
-    x: one.angular_frequency,
-    y: one[key],
-    mode: "lines+markers",
-    size: 5,
-    width: 1.3,
-    dash: "solid",
-    symbol: "circle",
-  }));
-  const flags = (left, name, symbol_) => {
-    const value = (one) => (modulus ? one[key] : one.storage_modulus > 0 ? one.loss_modulus / one.storage_modulus : null);
-    const some = result.flagged.filter(
-      (one) => (one.why === "left out") === left && one.angular_frequency > 0 && value(one) > 0,
-    );
-    return some.length
-      ? [
-          {
-            name,
-            mode: "markers",
-            symbol: symbol_,
-            colour: "red",
-            size: 9,
-            open: !left,
-            x: some.map((one) => one.angular_frequency),
-            y: some.map(value),
-            text: some.map((one) => `${one.place}: ${one.why}`),
-          },
-        ]
-      : [];
-  };
-  return {
-    title: label[0].toUpperCase() + label.slice(1),
-    caption: byTemperature(temperatures, app),
-    synthetic: app.state.get("data_origin") === "synthetic",
-    x: OVER_FREQUENCY,
-    y: { label: modulus ? `${label} ${symbol}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true },
-    temperatures,
-    traces: [...traces, ...flags(true, "left out", "x"), ...flags(false, "far from its neighbours", "circle")],
-  };
-}
+  const head = ["location", "reason", "temperature", "frequency", "storage modulus", "loss modulus"];
+  return html`<${Folded} title="Flagged readings"><${Table} of=${of} head=${head} rows=${rows} caption="Flagged readings" /><//>`;
+});

@@ -1,7 +1,7 @@
 // Where measured friction comes from: files, what was recognised in them, and how they are separated.
 
-import { columnsForm } from "../columns_form.js";
-import { effect, html, signal, view } from "../reactive.js";
+import { Columns } from "../columns_form.js";
+import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Dom, Folded, Notes, shown } from "../views.js";
 import { Checks, Facts, Run, measured, shownMeasured } from "./measurement_parts.js";
@@ -82,17 +82,10 @@ async function take(bring) {
   }
 }
 
-function columnsOf(app) {
-  const columns = columnsForm(app, {
-    choose: (named) => {
-      const { curves, ...before } = state.get("measurement") ?? {};
-      const files = dropped?.length === 1 ? dropped[0] : dropped;
-      state.set("measurement", { ...before, mtm: files ?? before.mtm, columns: named });
-    },
-    chosen: () => state.get("measurement.columns"),
-  });
-  effect(() => columns.offer(measured.error?.values));
-  return columns;
+function takeColumns(named) {
+  const { curves, ...before } = state.get("measurement") ?? {};
+  const files = dropped?.length === 1 ? dropped[0] : dropped;
+  state.set("measurement", { ...before, mtm: files ?? before.mtm, columns: named });
 }
 
 /** The view of the measurement's files, with its fields. */
@@ -103,7 +96,6 @@ export function source(app) {
     help: "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.",
     onFiles: (files) => take(() => app.api.uploadFiles(files)),
   });
-  const columns = columnsOf(app);
   const form = separationFields(app.fields);
   const example = () => take(() => app.api.useExample().then(() => ["mtm.csv"]));
   const refusalOf = (result) => result?.refusal && `The friction cannot be separated: ${result.refusal}`;
@@ -128,7 +120,7 @@ export function source(app) {
       </div>
       <${Run} app=${app} job=${measured} label="Reading and separating" />
       <${Notes} kind="error" list=${[unread.value]} />
-      <${Dom} of=${columns} />
+      <${Columns} values=${measured.error?.values} chosen=${state.get("measurement.columns")} choose=${takeColumns} />
       <${Notes} of=${of} kind="error" list=${[refusalOf(of)]} />
       ${of?.synthetic && html`<span class="badge">synthetic data</span>`}
       <${Facts} of=${of} list=${of ? [...of.recognised, ...(of.lines ?? [])] : []} />

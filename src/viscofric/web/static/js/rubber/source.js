@@ -1,0 +1,121 @@
+// What becomes of [material] when files are brought, chosen or removed.
+
+import * as api from "../api.js";
+import { signal } from "../reactive.js";
+import { state } from "../state.js";
+import { FIRST_REFERENCE, SOURCES, TESTS, sourceOf } from "./made.js";
+
+const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "assumed_shift"];
+const OF_SHIFTS = ["fixed_shift_factors", "shift_factors", "shift_factor_columns", "shift_factor_sheet"];
+
+/** [material] of other files: what says how a rubber is made stays, what belonged to the old files goes. */
+function materialOf(source, value, before = {}) {
+  const kept = Object.entries(before).filter(
+    ([key]) => !SOURCES.some(([source_]) => source_ === key) && ![...OF_FILES, ...OF_SHIFTS].includes(key),
+  );
+  if (source === "catalogue" || source === "file") {
+    const stays = ["name", "amplitude_sweep", "strain", "measured_at"];
+    return { [source]: value, ...Object.fromEntries(kept.filter(([key]) => stays.includes(key))) };
+  }
+  const rest = Object.fromEntries(kept);
+  const gone = [
+    ...(source === "master_curve" || source === "ramps" ? ["vertical_shift", "shift"] : []),
+    ...(source === "dma" ? [] : ["shift_by", "shift_weights"]),
+  ];
+  for (const key of gone) delete rest[key];
+  return { reference_temperature: FIRST_REFERENCE, ...rest, [source]: value };
+}
+
+const one = (names) => (Array.isArray(names) && names.length === 1 ? names[0] : names);
+const first = () => [state.get("material") ?? {}].flat()[0];
+const inOrder = new Intl.Collator("en", { numeric: true }).compare;
+
+/** What a study calls the rubber of some files: the first one's name without its ending. */
+const named = (value) => {
+  const names = [value].flat();
+  return names.length > 1 ? `${names.length} sweep files` : names[0].replace(/\.[A-Za-z0-9]{1,9}$/, "");
+};
+
+/** The source that is looked at: the one chosen last, or that of the material. */
+export const shownSource = () => state.view("sweeps.source", sourceOf(state.get("material")) ?? "dma");
+
+/** What went wrong with files that were brought. */
+export const failed = signal(null);
+
+async function attempt(work) {
+  failed.value = null;
+  try {
+    await work();
+  } catch (error) {
+    failed.value = error;
+  }
+}
+
+/** Have another source; with it `beside`, other keys. */
+export function choose(app, source, value, { origin, ...beside } = {}) {
+  const single = one(value);
+  const [before, ...others] = [state.get("material")].flat();
+  const material = { ...materialOf(source, single, before), ...beside };
+  // The title that the page began with is not that of another rubber.
+  const title = state.get("title") === app.start.study.title ? `Friction of ${named(single)}` : state.get("title");
+  state.change({ material: others.length ? [material, ...others] : material, data_origin: origin, title });
+}
+
+/** Names of all files of a key of [material]. */
+export const filesOf = (key) => [first()[key] ?? []].flat();
+
+/** Upload files of tests; {key of [material]: names}.  A file that is not recognised belongs to the source that is chosen. */
+async function sorted(files) {
+  const names = (await api.uploadFiles(files)).sort(inOrder);
+  let kinds;
+  try {
+    ({ kinds } = await api.runJob("recognise", { options: { files: names } }));
+  } catch {
+    kinds = { [TESTS.includes(shownSource()) ? shownSource() : "dma"]: names }; // reading it says what is wrong
+  }
+  // an amplitude sweep is no source: it stays with the material, which may be scaled to a strain by it
+  const { amplitude, ...others } = kinds;
+  if (amplitude) state.set("material.amplitude_sweep", one(amplitude));
+  return others;
+}
+
+/** Tests of another rubber. */
+export const takeTests = (app, files) =>
+  attempt(async () => {
+    const kinds = await sorted(files);
+    const [source, ...others] = TESTS.filter((key) => kinds[key]);
+    if (source) choose(app, source, kinds[source], Object.fromEntries(others.map((key) => [key, one(kinds[key])])));
+  });
+
+/** More tests of the same specimen. */
+export const addTests = (files) =>
+  attempt(async () => {
+    const more = Object.entries(await sorted(files)).map(([key, names]) => [
+      `material.${key}`,
+      one([...new Set([...filesOf(key), ...names])].sort(inOrder)),
+    ]);
+    if (more.length) state.change(Object.fromEntries(more));
+  });
+
+/** The one file of a source. */
+export const takeFile = (app, source, files) =>
+  attempt(async () => choose(app, source, (await api.uploadFiles(files.slice(0, 1)))[0]));
+
+/** Shift factors from a file. */
+export const takeFactors = (files) =>
+  attempt(async () => {
+    const [name] = await api.uploadFiles(files.slice(0, 1));
+    state.change({ "material.shift_factors": name, "material.fixed_shift_factors": undefined });
+  });
+
+export const useExample = (app) =>
+  attempt(async () => {
+    await api.useExample();
+    choose(app, "dma", "dma.csv", { origin: "synthetic" });
+  });
+
+/** Have one file less. */
+export function remove(key, name) {
+  const left = filesOf(key).filter((other) => other !== name);
+  state.change({ [`material.${key}`]: left.length ? one(left) : undefined, "material.temperature": undefined });
+}
