@@ -11,6 +11,7 @@ from viscofric.contact.heating import face_temperature
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ViscofricError
 from viscofric.friction.prediction import predict_friction
+from viscofric.heat.result import COLUMNS as HEAT_COLUMNS
 from viscofric.notes import note_of
 from viscofric.study.cases.record import Column, HistoryRecord
 
@@ -21,21 +22,17 @@ if TYPE_CHECKING:
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
 
+#: Names in the results of columns that are called otherwise in heated friction curves.
+_OWN_NAMES = {
+    "isothermal": "isothermal_friction",
+    "cold_viscoelastic": "cold_friction",
+    "hot_viscoelastic": "hot_friction",
+}
 #: Column of the results -> that of heated friction curves, unit, and meaning.
 COLUMNS = {
     "friction_coefficient": ("viscoelastic", "1", "viscoelastic friction coefficient with heating"),
     "friction_error": ("viscoelastic_error", "1", "numerical error estimate of the friction coefficient"),
-    "isothermal_friction": ("isothermal", "1", "viscoelastic friction coefficient without heating"),
-    "temperature_rise": ("temperature_rise", "K", "mean rise of temperature that the rubber responds to"),
-    "coulomb_rise": ("coulomb_rise", "K", "rise of temperature due to Coulomb friction"),
-    "loss_rise": ("loss_rise", "K", "rise of temperature due to the viscoelastic loss"),
-    "track_rise": ("track_rise", "K", "rise of temperature by earlier passes"),
-    "face_rise": ("face_rise", "K", "mean rise of temperature of the face"),
-    "loss_weighted_rise": ("loss_weighted_rise", "K", "mean rise of temperature where the loss is released"),
-    "cold_friction": ("cold_viscoelastic", "1", "viscoelastic friction coefficient as the speed rises"),
-    "cold_rise": ("cold_rise", "K", "rise of temperature as the speed rises"),
-    "hot_friction": ("hot_viscoelastic", "1", "viscoelastic friction coefficient as the speed falls"),
-    "hot_rise": ("hot_rise", "K", "rise of temperature as the speed falls"),
+    **{_OWN_NAMES.get(name, name): (name, *meaning) for name, meaning in HEAT_COLUMNS.items()},
     "mean_pressure": ("mean_pressure", "Pa", "load over contact area"),
     "interface_friction": ("coulomb", "1", "friction coefficient of the interface with heating"),
     "interface_error": ("coulomb_error", "1", "standard error of the friction coefficient of the interface"),
