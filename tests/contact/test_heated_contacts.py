@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -169,7 +170,33 @@ def test_what_has_no_heated_state_is_refused(given: dict[str, Any], code: str) -
         vf.solve_steady(WARM, CYLINDER, **{**STATE, "heating": HEATING, **given})
 
 
+def test_a_search_for_states_ends_where_the_law_of_the_interface_does() -> None:
+    """Fitted up to 302 K, it holds some 20 K farther: a state below is found, with a note; one above is refused."""
+    ends = (298.0, 302.0)
+    shift = vf.Arrhenius("90 kJ/mol", 300.0, covariance=[[1e6]], fitted_range=ends)
+    heating = vf.Heating(rubber=RUBBER, counterface=PTFE, slip="0.5 m/s")
+    asked = {"speeds": [0.5, 1.0], "load": 100.0, "temperatures": 300.0, "accuracy": 0.1, "heating": heating}
+
+    def friction(stress: str) -> vf.FrictionCurves:
+        law = vf.PowerShearStress(stress=stress, exponent=0.1, speed="0.5 m/s", shift=shift)
+        return vf.predict_friction(WARM, CYLINDER, interface=law, **asked)
+
+    mild, unbounded = friction("20 kPa"), shift.unbounded()
+    law = vf.PowerShearStress(stress="20 kPa", exponent=0.1, speed="0.5 m/s", shift=unbounded)
+    free = vf.predict_friction(WARM, CYLINDER, interface=law, **asked)
+    assert isinstance(mild, vf.HeatedFrictionCurves)
+    assert isinstance(free, vf.HeatedFrictionCurves)
+    np.testing.assert_allclose(mild.temperature_rise, free.temperature_rise, rtol=1e-2)
+    assert "states-beyond" not in codes(mild.notes)
+    with refused("beyond-interface"):
+        friction("5 MPa")
+
+
 def test_a_contact_hotter_than_the_shift_is_known_is_refused() -> None:
     known = vf.ShiftFactors([295.0, 300.0, 301.0], [0.3, 0.0, -0.06], 300.0)
+    rubber = vf.Material(SOLID.spectrum, shift=known)
+    mild = vf.solve_steady(rubber, CYLINDER, **STATE, heating=HEATING)
+    assert mild.heating is not None
+    assert mild.heating.temperature_rise == pytest.approx(0.49, abs=0.01)  # below the end
     with refused("beyond-shift"):
-        vf.solve_steady(vf.Material(SOLID.spectrum, shift=known), CYLINDER, **STATE, heating=HEATING)
+        vf.solve_steady(rubber, CYLINDER, **STATE, heating=replace(HEATING, coulomb=3.0))

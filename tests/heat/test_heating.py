@@ -55,12 +55,32 @@ def test_a_state_is_settled_in_few_solves() -> None:
         solved.append(rise)
         return 10.0 + 2.0 * math.tanh(rise - 11.0)
 
-    rise, excess = settled(State(11.3, 0.5), produced, lambda _: 1e-8)
+    rise, excess = settled(State(11.3, 0.5), produced, lambda _: 1e-8, (0.0, 30.0))
     assert excess == pytest.approx(produced(rise) - rise)
     assert abs(excess) < 1e-8
-    assert len(solved) < 10
+    assert len(solved) <= 12
     with pytest.raises(ConvergenceError):
         settled(State(1.0, 0.0), lambda rise: 2.0 * rise + 1.0, lambda _: 1e-12)
+
+
+def test_a_state_at_a_jump_is_between_its_sides() -> None:
+    """G falls from 12 to 8 at ΔT = 10, between the solves that come nearest to it."""
+    rise, excess = settled(State(3.0, 0.0), lambda rise: 12.0 if rise < 10.0 else 8.0, lambda _: 1e-3)
+    assert rise == pytest.approx(10.0, abs=1e-3)
+    assert abs(excess) == pytest.approx(2.0, abs=1e-3)
+
+
+def test_no_contact_is_solved_beyond_the_bounds() -> None:
+    solved = []
+
+    def produced(rise: float) -> float:
+        solved.append(rise)
+        return 10.0 - 20.0 * (rise - 10.0)
+
+    assert settled(State(9.8, 0.89), produced, lambda _: 1e-6, (0.0, 11.0))[0] == pytest.approx(10.0, abs=1e-6)
+    assert max(solved) <= 11.0
+    with pytest.raises(ConvergenceError):
+        settled(State(1.0, 0.0), lambda _: 5.0, lambda _: 1e-6, (0.0, 3.0))
 
 
 def test_resistance_of_a_track_is_that_of_its_passes() -> None:

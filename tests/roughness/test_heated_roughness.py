@@ -59,6 +59,23 @@ def test_every_contact_is_that_at_its_own_temperature() -> None:
 
 
 @pytest.mark.slow
+def test_contact_spots_may_be_colder_than_the_mean_of_the_surface() -> None:
+    """At a high speed the loss is released beside and behind them; the state is below zero, to 1 % of its rise."""
+    rubber = vf.catalogue_material("synthetic tread rubber")
+    track = vf.self_affine(
+        0.8, shape=(64, 64), spacing="1 um", rolloff="64 um", shortest="8 um", rms_slope=0.25, seed=0
+    )
+    heating = vf.Heating(rubber=RUBBER, counterface=STONE)
+    found = vf.predict_rough_friction(
+        rubber, track, speeds=[1.0, 10.0], temperatures="20 degC", pressure="0.4 MPa", heating=heating
+    )
+    assert isinstance(found, vf.HeatedRoughFriction)
+    assert found.temperature_rise[0, 0, 0] > 0.0 > found.temperature_rise[0, 1, 0]
+    assert found.loss_rise == pytest.approx(found.temperature_rise, rel=1.1e-2)
+    assert np.array_equal(found.cold_rise, found.hot_rise)
+
+
+@pytest.mark.slow
 def test_one_state_is_cold_and_hot_and_a_data_set_holds_all() -> None:
     found, _ = friction()
     assert np.array_equal(found.cold_viscoelastic, found.friction_coefficient)

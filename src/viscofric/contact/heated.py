@@ -36,6 +36,11 @@ _DECADES, _KELVIN = 0.4, 10.0
 _LEAST, _BEYOND = 30.0, 2.0
 #: Share of the rise that may be left; its effect on friction may be half of the accuracy.
 _LEFT = 0.01
+#: Temperatures at which laws end are found to this, K.
+_END = 1e-3
+#: Laws that end at some temperature, as codes and sentences call them.
+SHIFT, INTERFACE = "shift", "interface"
+_NAMES = {SHIFT: "α(T) of the rubber", INTERFACE: "the law of the interface"}
 #: Below it, over the contact radius, the heat of a passing contact is in a skin.
 THIN = 0.5
 
@@ -119,13 +124,45 @@ class ThermalContact:
         friction = solution.friction_coefficient
         return Warmed(rise, friction, self.kept(solution), heat, self.heating.rise(heat.balance))
 
-    def next_rise(self, rise: float) -> float:
-        """Return a rise at which α is noticeably smaller; raise InputError where α ends before."""
-        kelvin = self.kelvin + rise
-        slope = self.log10_shift(kelvin) - self.log10_shift(kelvin + 1.0)
-        step = min(_KELVIN, _DECADES / max(slope, 1e-6))
-        self.log10_shift(kelvin + step)
-        return rise + step
+    def ended_by(self, rise: float) -> str:
+        """Return the name of the law that is not known at a rise of temperature; empty if all are."""
+        try:
+            self.log10_shift(self.kelvin + rise)
+        except InputError:
+            return SHIFT
+        slip = self.heating.sliding(self.speed)
+        if self.interface is not None and slip > 0.0:
+            try:
+                self.interface(slip, self.kelvin + rise)
+            except InputError:
+                return INTERFACE
+        return ""
+
+    def reach(self, rise: float, wanted: float) -> tuple[float, str]:
+        """Return the largest rise up to a wanted one at which all laws are known, and which one ends there.
+
+        They are known at `rise`.
+        """
+        ended = self.ended_by(wanted)
+        if not ended:
+            return wanted, ""
+        low, high = rise, wanted
+        while high - low > _END:
+            middle = 0.5 * (low + high)
+            by = self.ended_by(middle)
+            low, high, ended = (low, middle, by) if by else (middle, high, ended)
+        return low, ended
+
+    def next_rise(self, rise: float) -> tuple[float, str]:
+        """Return a rise at which α is noticeably smaller, or the largest one at which all laws are known.
+
+        And the law that ends there, if one does.
+        """
+        near, ended = self.reach(rise, rise + 1.0)
+        if ended:
+            return near, ended
+        slope = self.log10_shift(self.kelvin + rise) - self.log10_shift(self.kelvin + near)
+        return self.reach(near, rise + min(_KELVIN, _DECADES / max(slope, 1e-6)))
 
 
 def coulomb_heat(
@@ -151,21 +188,19 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
     """
     isothermal = contact.at(0.0, accuracy)
     scanned = [isothermal]
-    ended: InputError | None = None
-    while not enough(scanned[-1].rise, [one.produced for one in scanned]):
-        try:
-            rise = contact.next_rise(scanned[-1].rise)
-        except InputError as error:
-            ended = error
-            break
-        scanned.append(contact.at(rise, max(LOOSE, accuracy)))
+    ended = ""
+    while not ended and not enough(scanned[-1].rise, [one.produced for one in scanned]):
+        rise, ended = contact.next_rise(scanned[-1].rise)
+        if rise > scanned[-1].rise:
+            scanned.append(contact.at(rise, max(LOOSE, accuracy)))
     curve = HeatCurve.of(scanned)
     states = curve.states()
     if not states:
-        raise beyond_shift(contact.kelvin + scanned[-1].rise) from ended
+        raise beyond(ended, contact.kelvin + scanned[-1].rise)
     found = [settle(contact, curve, one, accuracy) for one in dict.fromkeys((states[0], states[-1]))]
     order = found if contact.heating.branch == "cold" else found[::-1]
-    return finished(contact, order[0].solution, *described(contact, order, isothermal.friction))
+    heating, notes = described(contact, order, isothermal.friction)
+    return finished(contact, order[0].solution, heating, (*notes, *sought(curve, ended, contact.kelvin)))
 
 
 def finished(contact: ThermalContact, solution: Any, heating: ContactHeating, notes: tuple[Note, ...]) -> Any:
@@ -173,14 +208,28 @@ def finished(contact: ThermalContact, solution: Any, heating: ContactHeating, no
     return replace(solution, temperature=contact.kelvin, heating=heating, warnings=(*solution.warnings, *notes))
 
 
-def beyond_shift(kelvin: float) -> InputError:
-    """Return the error of a contact that is hotter than α is known."""
+def beyond(law: str, kelvin: float) -> InputError:
+    """Return the error of a contact that is hotter than a law is known, or than states are looked for."""
+    said = f"The contact heats beyond {shown_celsius(kelvin)} °C"
+    values = {"temperature": kelvin}
+    if not law:
+        return InputError(f"{said}, up to which a state is looked for; reduce the heat.", code="too-hot", values=values)
     return InputError(
-        f"The contact heats beyond {shown_celsius(kelvin)} °C, up to which α(T) is known; reduce the heat, or give a "
-        "shift law that is valid at higher temperatures.",
-        code="beyond-shift",
-        values={"temperature": kelvin},
+        f"{said}, up to which {_NAMES[law]} is known; reduce the heat, or give one that is valid at higher "
+        "temperatures.",
+        code=f"beyond-{law}",
+        values=values,
     )
+
+
+def sought(curve: HeatCurve, ended: str, kelvin: float) -> tuple[Note, ...]:
+    """Return a note if a law ends before a hotter state of a contact can be excluded; its temperature without heat."""
+    last = float(curve.rise[-1])
+    if not ended or last >= _BEYOND * float(curve.produced.max()):
+        return ()
+    end = kelvin + last
+    said = f"Thermal states were looked for up to {shown_celsius(end)} °C only, where {_NAMES[ended]} ends."
+    return (Note("states-beyond", said, values={"temperature": end}),)
 
 
 class HeatCurve(NamedTuple):
@@ -207,9 +256,14 @@ class HeatCurve(NamedTuple):
 
     def states(self) -> list[State]:
         """Return the stable states, ascending."""
-        if not np.any(self.produced > 0.0):
-            return [State(0.0, 0.0)]
-        return stable_states(self.rise, self.produced)
+        # Spots of a rough surface may be colder than its mean, where the loss is released beside them.
+        cold = [State(float(self.produced[0]), 0.0)] if self.produced[0] <= 0.0 else []
+        return [*cold, *stable_states(self.rise, self.produced)]
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Between which rises its states lie, K."""
+        return 0.0 if self.produced[0] > 0.0 else -math.inf, float(self.rise[-1])
 
     def tolerance(self, rise: float, accuracy: float) -> float:
         """Return the residual, K, that neither friction nor the rise itself feels."""
@@ -218,7 +272,7 @@ class HeatCurve(NamedTuple):
         if row:
             change = self.log_friction[row] - self.log_friction[row - 1]
             per_kelvin = abs(change / (self.rise[row] - self.rise[row - 1]))
-        return min(_LEFT * rise + 1e-9, 0.5 * accuracy / max(per_kelvin, 1e-300))
+        return min(_LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(per_kelvin, 1e-300))
 
 
 def settle(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: float) -> Warmed:
@@ -229,7 +283,7 @@ def settle(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: fl
         last[:] = [contact.at(rise, accuracy)]
         return last[0].produced
 
-    settled(state, produced, lambda rise: curve.tolerance(rise, accuracy))
+    settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
     return last[0]
 
 

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heated import LOOSE, HeatCurve, beyond_shift, described, enough, settle
-from viscofric.errors import InputError
+from viscofric.contact.heated import LOOSE, HeatCurve, beyond, described, enough, settle, sought
 from viscofric.heat.heating import HeatBalance
 from viscofric.heat.result import RISES
 from viscofric.processes import call_all
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
 
 #: Rises per decade of α at which states are looked for, and speeds per decade below the slowest one.
 _FINE, _BELOW = 40.0, 2.5
+_PLACES = np.linspace(0.0, 1.0, 1 + int(_FINE * 10)) ** 2
 #: States are looked for up to this rise, K, at first; then up to this many times more.
 _FIRST, _FARTHER, _MOST = 30.0, 1.6, 1000.0
 
@@ -61,12 +61,13 @@ def solve_states(
     calls: list[dict[str, Any]] = [{"contact": one, "accuracy": accuracy} for one in contacts]
     cold = call_all(_isothermal, calls, workers=workers, progress=report)
     starts: list[tuple[int, HeatCurve, State]] = []
+    said: dict[int, tuple[Note, ...]] = {}
     first = 0
     for each in curves:
         rows = range(first, first + len(each))
         curve = _Curve(each[0], [cold[row] for row in rows], [one.speed for one in each], accuracy)
         for row in rows:
-            found, states = curve.states(contacts[row], cold[row])
+            found, states, said[row] = curve.states(contacts[row], cold[row])
             starts += [(row, found, one) for one in dict.fromkeys((states[0], states[-1]))]
         first += len(each)
     solved = call_all(
@@ -78,7 +79,7 @@ def solve_states(
     states_of: dict[int, list[Warmed]] = {}
     for (row, _, _), one in zip(starts, solved, strict=True):
         states_of.setdefault(row, []).append(one)
-    return [_chosen(contact, cold[row], states_of[row]) for row, contact in enumerate(contacts)]
+    return [_chosen(contact, cold[row], states_of[row], said[row]) for row, contact in enumerate(contacts)]
 
 
 def heat_columns(states: Sequence[States]) -> dict[str, Array]:
@@ -97,10 +98,10 @@ def _isothermal(contact: ThermalContact, accuracy: float) -> Warmed:
     return contact.at(0.0, accuracy)
 
 
-def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed]) -> States:
+def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed], said: tuple[Note, ...]) -> States:
     order = found if contact.heating.branch == "cold" else found[::-1]
     heating, notes = described(contact, order, isothermal.friction)
-    return States(contact, isothermal, found[0], found[-1], order[0], heating, notes)
+    return States(contact, isothermal, found[0], found[-1], order[0], heating, (*notes, *said))
 
 
 class _Curve:
@@ -117,36 +118,20 @@ class _Curve:
         assert shift is not None
         return np.asarray(shift.log10(kelvin + rise)) - float(shift.log10(kelvin))
 
-    def states(self, contact: ThermalContact, cold: Warmed) -> tuple[HeatCurve, list[State]]:
-        """Return the curve of one contact over its rise, and its stable states."""
+    def states(self, contact: ThermalContact, cold: Warmed) -> tuple[HeatCurve, list[State], tuple[Note, ...]]:
+        """Return the curve of one contact over its rise, its stable states, and where a law ends the search."""
         last = _FIRST
         while True:
-            rise, ended = self._rises(last)
+            reached, ended = contact.reach(0.0, last)
+            rise = _PLACES * reached
             curve = self._produced(contact, cold, rise)
             states = curve.states()
-            if ended or enough(float(rise[-1]), curve.produced.tolist()) or last > _MOST:
+            if ended or enough(reached, curve.produced.tolist()) or last > _MOST:
                 break
             last *= _FARTHER
         if not states:
-            raise beyond_shift(contact.kelvin + float(rise[-1]))
-        return curve, states
-
-    def _rises(self, last: float) -> tuple[Array, bool]:
-        """Return rises up to a last one, or up to the last at which α is known, and whether it ended before."""
-        rise = np.linspace(0.0, 1.0, 1 + int(_FINE * 10)) ** 2 * last
-        try:
-            self.log10_drop(rise)
-        except InputError:
-            low, high = 0.0, last
-            for _ in range(40):
-                middle = 0.5 * (low + high)
-                try:
-                    self.log10_drop(np.array([middle]))
-                    low = middle
-                except InputError:
-                    high = middle
-            return rise * (low / last), True
-        return rise, False
+            raise beyond(ended, contact.kelvin + reached)
+        return curve, states, sought(curve, ended, contact.kelvin)
 
     def _produced(self, contact: ThermalContact, cold: Warmed, rise: Array) -> HeatCurve:
         from scipy.interpolate import PchipInterpolator

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import Backend
     from viscofric.contact.bodies import Layer
     from viscofric.heat.heating import Heating
+    from viscofric.notes import Note
     from viscofric.rheology.interface.law import InterfaceLaw
 
 
@@ -139,6 +140,7 @@ def predict_rough_friction(
 
     report(0)
     columns: dict[str, Any] = {}
+    doubts: tuple[Note, ...] = ()
     with tempfile.TemporaryDirectory(prefix="viscofric-") as folder:
         each: list[tuple[str, PeriodicSurface | OnDisk]] = list(named)
         if (workers.number if isinstance(workers, Workers) else workers) != 1:
@@ -152,7 +154,7 @@ def predict_rough_friction(
         if heating is None:
             found = call_all(solve_one, [call | one for one in contacts], workers=workers, progress=report)
         else:
-            found, columns = predict_heated(call, contacts, heating, interface, workers, report)
+            found, columns, doubts = predict_heated(call, contacts, heating, interface, workers, report)
     shape = len(kelvins), len(velocities), len(named)
     numbers: dict[str, Any] = {name: np.array([getattr(one, name) for one in found]) for name in Numbers._fields}
     numbers = {name: column.reshape(shape) for name, column in (numbers | columns).items()}
@@ -161,8 +163,9 @@ def predict_rough_friction(
         warm = kelvin_or_nan[:, None, None] + numbers.get("temperature_rise", np.zeros(shape))
         slip = velocities if heating is None else np.array([heating.sliding(float(one)) for one in velocities])
         numbers |= friction_on_area(interface, slip, warm, load, numbers["corrected_area_fraction"])
-    if heating is not None and heating.nominal_radius is None:
-        numbers["notes"] = (*numbers.get("notes", ()), MEAN_LEFT_OUT)
+    if heating is not None:
+        left_out = () if heating.nominal_radius is not None else (MEAN_LEFT_OUT,)
+        numbers["notes"] = (*numbers.get("notes", ()), *doubts, *left_out)
     result = RoughFriction if heating is None else HeatedRoughFriction
     return result(
         temperature=kelvin_or_nan,

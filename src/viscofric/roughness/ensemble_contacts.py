@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.heat.heating import Heating
+    from viscofric.notes import Note
     from viscofric.processes import Workers
     from viscofric.rheology.interface.law import InterfaceLaw
 
@@ -108,8 +109,8 @@ def predict_heated(
     interface: InterfaceLaw | None,
     workers: int | Workers,
     report: Callable[[int], None],
-) -> tuple[list[Numbers], dict[str, Array]]:
-    """Return numbers of all contacts at the temperature that they heat to, and the columns of the heat.
+) -> tuple[list[Numbers], dict[str, Array], tuple[Note, ...]]:
+    """Return numbers of all contacts at the temperature that they heat to, the columns of the heat, and notes.
 
     `contacts` have name, surface, speed and temperature each; `call` has the other arguments of `solve_periodic`.
     """
@@ -124,4 +125,5 @@ def predict_heated(
     found = solve_states([[every[row] for row in rows] for rows in curves.values()], ACCURACY, workers, report)
     order = np.argsort([row for rows in curves.values() for row in rows])
     states = [found[row] for row in order]
-    return [one.wanted.solution for one in states], heat_columns(states)
+    notes = dict.fromkeys(note for one in states for note in one.notes if note.code == "states-beyond")
+    return [one.wanted.solution for one in states], heat_columns(states), tuple(notes)
