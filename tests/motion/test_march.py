@@ -25,7 +25,7 @@ class Unsteady:
     marked: tuple[float, ...] | None = None  # ticks
 
     scales = Scales(1.0, 1.0, 1.0, 1.0)
-    share, tolerance, quickest = 0.05, 0.0, 1e-2
+    share, tolerance, quickest, can_tighten = 0.05, 0.0, 1e-2, False
 
     def begin(self):
         return 0, 0.0
@@ -69,6 +69,25 @@ def test_a_march_by_ticks_whose_errors_never_fall_takes_every_tick():
     track = march(Unsteady(alternating=2e-4, marked=marked), SCHEDULE, accuracy=1e-3)
     assert (track.steps, track.rejected) == (50, 0)
     assert max(one.errors.depth for one in track.moments) == pytest.approx(0.8 * 2e-4)
+
+
+def test_a_tolerance_whose_noise_shorter_steps_do_not_reduce_is_lowered():
+    class Loose(Unsteady):
+        noise = 2e-4
+
+        @property
+        def can_tighten(self):
+            return self.noise > 1e-6
+
+        def tighten(self):
+            Loose.noise *= 0.1
+
+        def observe(self, state):
+            depth = 1.0 + self.noise * (state[0] % 2)
+            return Observation(1.0, depth, (0.0, 0.0), 1.0, 0.0, 0.0, {})
+
+    march(Loose(), SCHEDULE, accuracy=1e-3)
+    assert Loose.noise == pytest.approx(2e-6)  # energies count three times: 2e-5 is too much
 
 
 def test_a_jump_of_the_response_takes_one_least_step():

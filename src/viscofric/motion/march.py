@@ -49,8 +49,13 @@ _SHRINK, _GROW, _SAFETY = 0.1, 3.0, 0.85
 #: First step of an interval, as a part of it; after a jump, in the time in which the response changes.
 _FIRST, _FIRST_AFTER_JUMP = 1.0 / 32.0, 0.2
 #: Least step, as a part of an interval, and of the time, of which rounding is a hundredth.  Most least steps in an
-#: interval with too large a difference: contact conditions are met to a tolerance, so that a few may be by chance.
-_LEAST, _INSTANT, _MOST_LEAST = 1e-10, 1e-14, 100
+#: interval with too large a difference: contact conditions are met to a tolerance, so that a few may be by chance;
+#: where they can be met more closely, they are after fewer.
+_LEAST, _INSTANT, _MOST_LEAST, _FEW_LEAST = 1e-10, 1e-14, 100, 4
+
+
+class _NoisyError(Exception):
+    """The tolerance of the contact conditions causes differences that do not fall with shorter steps."""
 
 
 class _TooLargeError(Exception):
@@ -103,6 +108,8 @@ def march(
             return _March(mover, schedule, accuracy, share, times, fields, progress, extrapolate).run(begin)
         except _TooLargeError as error:
             share *= max(0.05, 0.5 * error.args[0] ** -1.5)
+        except _NoisyError:
+            mover.tighten()
     raise ConvergenceError(
         f"the accuracy {accuracy:g} was not reached with steps that each add {share:.2g} of it; ask for less.",
         code="steps-not-converged",
@@ -252,6 +259,8 @@ class _March(Generic[State]):
                 step *= _growth(ratio)
                 continue
             failed += ratio > 1.0
+            if failed > _FEW_LEAST and self.mover.can_tighten:
+                raise _NoisyError
             if failed > _MOST_LEAST:
                 raise ConvergenceError(
                     f"at time {time:.6g} s the error does not fall with shorter steps; ask for less accuracy.",

@@ -122,6 +122,15 @@ class Mover(Protocol[State]):
         ...
 
     @property
+    def can_tighten(self) -> bool:
+        """Whether the contact conditions can be met more closely."""
+        ...
+
+    def tighten(self) -> None:
+        """Meet the contact conditions more closely from now on."""
+        ...
+
+    @property
     def quickest(self) -> float:
         """Time in which the response to a jump changes noticeably, s of the clock."""
         ...

@@ -77,6 +77,7 @@ class NormalMotion:
     weights: Array  # of ∫ over both sides
     spacing: float  # largest distance of springs up to the edge, m
     share: ClassVar[float] = SHARE
+    can_tighten: ClassVar[bool] = False
 
     @classmethod
     def of(cls, problem: Problem) -> NormalMotion:
@@ -113,6 +114,9 @@ class NormalMotion:
     def tolerance(self) -> float:
         """Zero: the contact conditions are met to rounding."""
         return 0.0
+
+    def tighten(self) -> None:
+        """Do nothing: the contact conditions are met to rounding."""
 
     @property
     def quickest(self) -> float:

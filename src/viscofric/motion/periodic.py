@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 # Gap that is left by a step, as a part of what the step may add to the error, over the displacement at once
 # (from the least one on, in rms heights); of the first contact, a part of that.
 _TIGHTNESS, _LEAST_DISPLACEMENT, _FIRST = 0.25, 1e-5, 0.1
+# Factor of the tolerance where it causes errors that steps do not reduce, and the smallest one, above rounding.
+_TIGHTER, _TIGHTEST = 0.1, 1e-8
 # Friction coefficient, over the rms slope of the surface, that is resolved to the accuracy.
 _LEAST_FRICTION = 0.1
 # Steps whose transfer functions are kept: one, and its halves.
@@ -122,6 +124,15 @@ class PeriodicMover:
     def tolerance(self) -> float:
         """Of the contact conditions, in parts of the largest values."""
         return self._tightness
+
+    @property
+    def can_tighten(self) -> bool:
+        """Whether the tolerance is above that of rounding."""
+        return _TIGHTER * self._tightness >= _TIGHTEST
+
+    def tighten(self) -> None:
+        """Lower the tolerance of the contact conditions."""
+        self._tightness *= _TIGHTER
 
     @property
     def quickest(self) -> float:

@@ -88,6 +88,15 @@ class Watch:
         return self.mover.tolerance
 
     @property
+    def can_tighten(self) -> bool:
+        """Of the mover."""
+        return self.mover.can_tighten
+
+    def tighten(self) -> None:
+        """Lower the tolerance of the mover."""
+        self.mover.tighten()
+
+    @property
     def quickest(self) -> float:
         """Of the mover."""
         return self.mover.quickest

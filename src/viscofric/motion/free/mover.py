@@ -48,6 +48,7 @@ class FreeMover(Cells):
     """Steps of a free contact; see `viscofric.motion.mover.Mover`."""
 
     share: ClassVar[float] = SHARE
+    can_tighten: ClassVar[bool] = False
     reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
     longest: float = field(default=0.0, init=False)  # the longest of them
     datum: float = field(default=0.0, init=False)  # depth at the start, where depths have no level
@@ -58,6 +59,9 @@ class FreeMover(Cells):
     def scales(self) -> Scales:
         """Sizes that errors are compared with, SI."""
         return self.setting.scales
+
+    def tighten(self) -> None:
+        """Do nothing: steps end at cells, of which one is never too short."""
 
     @property
     def quickest(self) -> float:
