@@ -224,6 +224,29 @@ def _make_a_mistake(tab: Tab) -> None:
 
 @pytest.mark.slow
 @pytest.mark.apart
+def test_a_drag_of_the_load_is_followed_and_is_one_step_of_undo(browser: Browser, server: Server) -> None:
+    with opened_tab(browser, server, "#export") as tab:
+        tab.value(f"page.state.state.replace({json.dumps(SMALL)})")
+        tab.step("contact")
+        finished(tab)
+        before = tab.value(CONTACT)["numbers"]["indentation"]["value"]
+        slider = tab.page.get_by_label("Load: slider")
+        for place in (240, 260, 280):
+            slider.evaluate(
+                "(one, at) => { one.value = at; one.dispatchEvent(new Event('input', { bubbles: true })); }", place
+            )
+        slider.dispatch_event("change")
+        load = "page.state.state.get('conditions.load')"
+        assert tab.value(load) == "158 N"  # 400 places from 0.01 N to 10 kN
+        finished(tab)
+        after = tab.value(CONTACT)["numbers"]["indentation"]["value"]
+        assert after > 2.0 * before
+        tab.value("page.state.state.undo()")
+        assert tab.value(load) == "25 N"
+
+
+@pytest.mark.slow
+@pytest.mark.apart
 def test_heated_friction_is_drawn_beside_the_isothermal_one(browser: Browser, server: Server) -> None:
     """Of a cylinder, which is soon solved; the heat is that of an interface, whose law is chosen on the page."""
     line = {"indenter": {"shape": "cylinder", "radius": "10 mm"}}

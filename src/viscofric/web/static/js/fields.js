@@ -14,12 +14,9 @@
 // <${Form} of=${[{as: Amount, path, label, when: () => true, …}, …]} />    a form as data: fields in a grid, some of them only
 //                                         under a condition; without `as`, one with a `kind` is a quantity, others are text
 // where(when, ...fields), within(path, ...fields)    fields that are shown under a condition, or with a table or key
-//
-// quantityField({…}) and its like return the same as an element.
 
 import * as jobs from "./jobs.js";
-import { h } from "./parts.js";
-import { computed, html, render, signal, view } from "./reactive.js";
+import { computed, html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
@@ -194,24 +191,12 @@ const Field = view(({ as, when, ...about }) => {
   if (when && !when()) return null;
   return html`<${as ?? (about.kind ? Quantity : Text)} ...${about} />`;
 });
-export const Form = ({ of }) => html`<div class="form">${of.map((one) => html`<${Field} ...${one} />`)}</div>`;
+export const Form = ({ of, children }) =>
+  html`<div class="form">${of.map((one) => html`<${Field} ...${one} />`)}${children}</div>`;
 
 export const where = (when, ...fields) =>
   fields.map((one) => ({ ...one, when: () => when() && (one.when?.() ?? true) }));
 export const within = (path, ...fields) => where(() => state.get(path) !== undefined, ...fields);
-
-/** A view as a function that returns an element. */
-const placed = (View) => (properties) => {
-  const element = h("div", { class: "placed" });
-  render(html`<${View} ...${properties} />`, element);
-  return element;
-};
-export const quantityField = placed(Quantity);
-export const textField = placed(Text);
-export const numberField = placed(Amount);
-export const choiceField = placed(Choose);
-export const toggleField = placed(Toggle);
-export const rangeField = placed(Range);
 
 /** A list that people typed; a unit at its end is that of all: "30, 60, 90 °C". */
 function withUnits(text, kind) {

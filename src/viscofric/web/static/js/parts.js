@@ -1,9 +1,8 @@
-// Parts of the page: elements, buttons, cards, notes, progress bars, key numbers, tables, places to drop files.
+// Parts of the page outside views: elements, buttons, notes, tables.
 
-import { effect, html, render } from "./reactive.js";
+import { html, render } from "./reactive.js";
 import * as units from "./units.js";
 
-let made = 0;
 const listed = (value) => (Array.isArray(value) ? value : value === undefined || value === null ? [] : [value]);
 
 /** An element: h("p", {class: "quiet", onclick}, "text", child). */
@@ -54,40 +53,6 @@ export function button({ label, onClick, kind, symbol, title, disabled }) {
   );
 }
 
-/** A card with a heading, for figures and forms that belong together. */
-export function card(title, ...children) {
-  return h("section", { class: "card" }, h("h2", {}, title), ...children);
-}
-
-/** A place to drop files, which is also a button: fileDrop({label, accept, multiple, onFiles: (files) => …}). */
-export function fileDrop({ label, help, accept, multiple = true, onFiles }) {
-  const input = h("input", { type: "file", accept, multiple, class: "hidden-input", id: `files-${(made += 1)}` });
-  const zone = h(
-    "label",
-    { class: "drop", for: input.id },
-    icon("file"),
-    h("strong", {}, label),
-    help ? h("span", { class: "help" }, help) : null,
-  );
-  const take = (list) => list.length > 0 && onFiles([...list]);
-  input.addEventListener("change", () => {
-    take(input.files);
-    input.value = "";
-  });
-  for (const kind of ["dragenter", "dragover"]) {
-    zone.addEventListener(kind, (event) => {
-      event.preventDefault();
-      zone.classList.add("over");
-    });
-  }
-  for (const kind of ["dragleave", "drop"]) zone.addEventListener(kind, () => zone.classList.remove("over"));
-  zone.addEventListener("drop", (event) => {
-    event.preventDefault();
-    take(event.dataTransfer.files);
-  });
-  return h("div", { class: "drop-field" }, input, zone);
-}
-
 /**
  * Sentences about the data: note(["…"], "warning"); kinds are "note", "warning", "error". note.set(list) changes them.
  * A sentence may be a template with elements.
@@ -101,44 +66,6 @@ export function note(list = [], kind = "note") {
       element,
     );
     element.hidden = element.children.length === 0;
-  };
-  element.set(list);
-  return element;
-}
-
-/** Progress of a job, with a button that cancels it; `ended({seconds, cancelled})` words its end, by default only a cancelled one. */
-export function progressBar(job, { label = "Computing", cancels = true, ended = ({ cancelled }) => (cancelled ? "Cancelled." : "") }) {
-  const bar = h("progress", { max: 1, "aria-label": label });
-  const text = h("span", { class: "progress-text" });
-  const cancel = button({ label: "Cancel", kind: "quiet small", onClick: () => job.cancel() });
-  const element = h("div", { class: "progress", hidden: true }, bar, text, cancels ? cancel : null);
-  effect(() => {
-    const { done, total, label: words } = job.progress ?? {};
-    const counted = total > 1 ? `${Math.round(done)} of ${total}` : "";
-    const end = !job.progress && job.ended ? ended(job.ended) : "";
-    text.textContent = job.progress ? [counted, words].filter(Boolean).join(" · ") || `${label} …` : end;
-    element.hidden = text.textContent === "";
-    element.className = job.progress ? "progress" : "progress done";
-    bar.hidden = cancel.hidden = !job.progress;
-    if (total > 0) bar.value = done / total;
-    else bar.removeAttribute("value");
-  });
-  return element;
-}
-
-/** The main numbers of a result: keyNumbers([{label, value, remark}]). */
-export function keyNumbers(list = []) {
-  const element = h("dl", { class: "key-numbers" });
-  element.set = (entries) => {
-    const one = ({ label, value, remark }) =>
-      h(
-        "div",
-        {},
-        h("dt", {}, label),
-        h("dd", { class: "value" }, value),
-        remark ? h("dd", { class: "remark" }, remark) : null,
-      );
-    element.replaceChildren(...entries.map(one));
   };
   element.set(list);
   return element;

@@ -2,7 +2,6 @@
 //
 // Every part that shows something takes `of`, the result of a job that it is of.
 // <${Figure} of=${result} id="…" title="…" … />     a figure; its properties are those of figures.js, and onMade(handle)
-// <${Dom} of=${element} />                          an element that something else has made
 
 import { figure } from "./figures.js";
 import { inputsOf, isStale } from "./jobs.js";
@@ -153,16 +152,6 @@ export const Choice = view(({ of: { name, options, value }, ...about }) => {
     </select>
   <//>`;
 });
-
-/** An element in the place of a view. */
-export class Dom extends Component {
-  shouldComponentUpdate() {
-    return false;
-  }
-  render({ of }) {
-    return html`<div class="placed" ref=${(place) => place?.append(of)} />`;
-  }
-}
 
 export class Figure extends Component {
   shouldComponentUpdate(next) {

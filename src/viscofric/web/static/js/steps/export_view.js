@@ -1,9 +1,10 @@
 // The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
+import { Amount, Choose, Form, Text } from "../fields.js";
 import { Job, newest } from "../jobs.js";
 import { html, render, signal, view } from "../reactive.js";
 import { state } from "../state.js";
-import { Button, Card, Dom, Notes, Numbers, Progress, shown } from "../views.js";
+import { Button, Card, Drop, Notes, Numbers, Progress, shown } from "../views.js";
 import { Copy, FileLine, MaterialCard } from "./export_card.js";
 
 /** Fill the step. */
@@ -64,12 +65,6 @@ function coloured(text) {
 }
 
 function runFile(app) {
-  const title = app.fields.textField({ path: "title", label: "Title of the study and report" });
-  const drop = app.fields.fileDrop({
-    label: "Open a run file",
-    help: "Drop it here with its data files, or choose them.",
-    onFiles: (files) => attempt(app, () => openFiles(app, files)),
-  });
   return view(() => {
     const of = newest("export-run-file");
     const { text = "", cases, problems = [] } = of ?? {};
@@ -78,7 +73,7 @@ function runFile(app) {
     const about = `It has ${cases} case${cases === 1 ? "" : "s"}.${files.length ? ` It reads ${reads}.` : ""}`;
     const wrong = problems.map(({ field, message }) => (field ? `${field}: ${message}` : message));
     return html`<${Card} title="Run file">
-      <${Dom} of=${title} />
+      <${Text} path="title" label="Title of the study and report" />
       <div class="row">
         <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(app, () => pack(app))}>
           Run file and data (zip)
@@ -90,7 +85,8 @@ function runFile(app) {
       <${Notes} kind="error" list=${[...wrong, failed.value]} />
       <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
       <p class="help">Run in its folder: <code>viscofric run study.toml</code></p>
-      <${Dom} of=${drop} />
+      <${Drop} label="Open a run file" help="Drop it here with its data files, or choose them."
+        onFiles=${(files) => attempt(app, () => openFiles(app, files))} />
     <//>`;
   });
 }
@@ -105,25 +101,23 @@ const inWords = (seconds) => (seconds < 90 ? `${Math.round(seconds)} s` : `${Mat
 const endOf = ({ cancelled, seconds }) =>
   cancelled ? "Cancelled; solved contacts are kept for the next run." : `Done in ${inWords(seconds)}.`;
 
-function fieldsOf({ numberField, choiceField }) {
-  return [
-    numberField({ path: "solver.accuracy", label: "Accuracy of friction", min: 1e-4, max: 0.1, placeholder: "0.001" }),
-    numberField({ path: "uncertainty.draws", label: "Bootstrap samples", min: 0, step: 1, placeholder: "200" }),
-    choiceField({
-      path: "outputs.fields",
-      label: "Stored pressure maps",
-      otherwise: "few",
-      options: [
-        ["few", "of a few cases"],
-        ["all", "of all cases"],
-        ["none", "none"],
-      ],
-    }),
-  ];
-}
+const SOLVING = [
+  { as: Amount, path: "solver.accuracy", label: "Accuracy of friction", min: 1e-4, max: 0.1, placeholder: "0.001" },
+  { as: Amount, path: "uncertainty.draws", label: "Bootstrap samples", min: 0, step: 1, placeholder: "200" },
+  {
+    as: Choose,
+    path: "outputs.fields",
+    label: "Stored pressure maps",
+    otherwise: "few",
+    options: [
+      ["few", "of a few cases"],
+      ["all", "of all cases"],
+      ["none", "none"],
+    ],
+  },
+];
 
 function wholeStudy(app) {
-  const fields = fieldsOf(app.fields);
   let workers = 1;
   study.done = ({ cases, failed: missing, downloads }) =>
     app.announce(
@@ -147,14 +141,13 @@ function wholeStudy(app) {
         Solves every case to the requested accuracy, with the material's uncertainty, and writes a report, tables and
         figures.
       </p>
-      <div class="form">
-        ${fields.map((one) => html`<${Dom} of=${one} />`)}
+      <${Form} of=${SOLVING}>
         <div class="field">
           <label class="field-label" for="export-workers">Processes</label>
           <input type="number" min="1" max=${navigator.hardwareConcurrency || 1} defaultValue="1" id="export-workers"
             onChange=${({ target }) => (workers = Number(target.value) || 1)} />
         </div>
-      </div>
+      <//>
       <div class="row">
         <${Button} kind="main" disabled=${Boolean(study.progress)} onClick=${run}>Run the whole study<//>
         <${Progress} job=${study} label="Running the study" ended=${endOf} />

@@ -1,9 +1,10 @@
 // Where measured friction comes from: files, what was recognised in them, and how they are separated.
 
 import { Columns } from "../columns_form.js";
+import { Amount, Choose, Form, Quantity } from "../fields.js";
 import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
-import { Button, Card, Dom, Folded, Notes, shown } from "../views.js";
+import { Button, Card, Drop, Folded, Notes, shown } from "../views.js";
 import { Checks, Facts, Run, measured, shownMeasured } from "./measurement_parts.js";
 
 /** Whole numbers that people typed, parted by commas. */
@@ -15,58 +16,58 @@ function wholeNumbers(text) {
 /** A difference of temperatures as a run file writes it; a bare number counts as kelvins. */
 const difference = (text) => (/^\s*[\d.]+\s*(K|°C)?\s*$/.test(text) ? `${parseFloat(text)} delta_degC` : text.trim());
 
-function separationFields({ quantityField, textField, numberField, choiceField, h }) {
-  const at = (key) => `measurement.${key}`;
-  return h(
-    "div",
-    { class: "form" },
-    quantityField({
-      path: at("zero"),
-      label: "Zero of the force cell",
-      kind: "load",
-      placeholder: "fitted, or as recorded",
-      help: "Reading without traction, if known.",
-    }),
-    quantityField({ path: at("zero_error"), label: "Standard error of the zero", kind: "load" }),
-    quantityField({
-      path: at("coulomb"),
-      label: "Assumed Coulomb friction",
-      placeholder: "0.05, or constant",
-      help: "If the slip has one direction only: a coefficient, or “constant” over the speed.",
-    }),
-    numberField({ path: at("coulomb_error"), label: "Standard error of Coulomb friction", min: 0 }),
-    textField({
-      path: at("except_steps"),
-      label: "Steps to leave out",
-      placeholder: "1, 3",
-      read: wholeNumbers,
-      write: (value) => [value ?? []].flat().join(", "),
-      help: "For example unsteady steps.",
-    }),
-    textField({ path: at("sheet"), label: "Sheet", help: "Name of the sheet of a workbook to read." }),
-    choiceField({
-      path: at("outliers"),
-      label: "Outliers",
-      otherwise: "keep",
-      options: ["keep", "leave out"].map((word) => [word, word]),
-    }),
-    numberField({
-      path: at("speed_tolerance"),
-      label: "Gap between speeds",
-      placeholder: "0.05",
-      min: 0,
-      max: 1,
-      help: "Relative; a smaller gap is scatter about the same nominal speed.",
-    }),
-    textField({
-      path: at("temperature_tolerance"),
-      label: "Gap between temperatures",
-      placeholder: "1 K",
-      read: difference,
-      write: (value) => String(value ?? "").replace("delta_degC", "K"),
-    }),
-  );
-}
+const KINDS =
+  "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.";
+const SEPARATION = [
+  {
+    path: "measurement.zero",
+    label: "Zero of the force cell",
+    kind: "load",
+    placeholder: "fitted, or as recorded",
+    help: "Reading without traction, if known.",
+  },
+  { path: "measurement.zero_error", label: "Standard error of the zero", kind: "load" },
+  {
+    as: Quantity,
+    path: "measurement.coulomb",
+    label: "Assumed Coulomb friction",
+    placeholder: "0.05, or constant",
+    help: "If the slip has one direction only: a coefficient, or “constant” over the speed.",
+  },
+  { as: Amount, path: "measurement.coulomb_error", label: "Standard error of Coulomb friction", min: 0 },
+  {
+    path: "measurement.except_steps",
+    label: "Steps to leave out",
+    placeholder: "1, 3",
+    read: wholeNumbers,
+    write: (value) => [value ?? []].flat().join(", "),
+    help: "For example unsteady steps.",
+  },
+  { path: "measurement.sheet", label: "Sheet", help: "Name of the sheet of a workbook to read." },
+  {
+    as: Choose,
+    path: "measurement.outliers",
+    label: "Outliers",
+    otherwise: "keep",
+    options: ["keep", "leave out"],
+  },
+  {
+    as: Amount,
+    path: "measurement.speed_tolerance",
+    label: "Gap between speeds",
+    placeholder: "0.05",
+    min: 0,
+    max: 1,
+    help: "Relative; a smaller gap is scatter about the same nominal speed.",
+  },
+  {
+    path: "measurement.temperature_tolerance",
+    label: "Gap between temperatures",
+    placeholder: "1 K",
+    read: difference,
+    write: (value) => String(value ?? "").replace("delta_degC", "K"),
+  },
+];
 
 let dropped = null; // names of the files that were brought last
 const unread = signal(null); // why files could not be brought
@@ -90,13 +91,6 @@ function takeColumns(named) {
 
 /** The view of the measurement's files, with its fields. */
 export function source(app) {
-  const drop = app.fields.fileDrop({
-    label: "Drop the files of a traction test",
-    accept: ".txt,.csv,.tsv,.dat,.xlsx,.xls,.mtmd,.etmd",
-    help: "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.",
-    onFiles: (files) => take(() => app.api.uploadFiles(files)),
-  });
-  const form = separationFields(app.fields);
   const example = () => take(() => app.api.useExample().then(() => ["mtm.csv"]));
   const refusalOf = (result) => result?.refusal && `The friction cannot be separated: ${result.refusal}`;
   measured.done = (result) => {
@@ -112,7 +106,8 @@ export function source(app) {
     const { notes = [], steps = [], download } = of ?? {};
     const about = "More: zero, Coulomb friction, steps, outliers";
     return html`<${Card} title="Measured friction">
-      <${Dom} of=${drop} />
+      <${Drop} label="Drop the files of a traction test" accept=".txt,.csv,.tsv,.dat,.xlsx,.xls,.mtmd,.etmd" help=${KINDS}
+        onFiles=${(files) => take(() => app.api.uploadFiles(files))} />
       <div class="row">
         <${Button} kind="small" onClick=${example}>Use the synthetic example<//>
         ${download && html`<a class="button small" download="friction_curves.csv" href=${app.api.downloadUrl(download)}>Friction curves (CSV)</a>`}
@@ -129,7 +124,7 @@ export function source(app) {
       <${Folded} title="Steps of the test" hidden=${steps.length === 0}>
         <ul ...${shown(of, "help steps-of-test")}>${steps.map(({ text }) => html`<li>${text}</li>`)}</ul>
       <//>
-      <${Folded} title=${about} open=${of?.refusal ? true : undefined} hidden=${of ? !of.runs : !table?.mtm}><${Dom} of=${form} /><//>
+      <${Folded} title=${about} open=${of?.refusal ? true : undefined} hidden=${of ? !of.runs : !table?.mtm}><${Form} of=${SEPARATION} /><//>
     <//>`;
   });
 }
