@@ -139,3 +139,14 @@ def test_the_stated_error_of_a_pressure_covers_the_marks_of_steps_at_an_advancin
         off = float(abs(coarse - fine).max())
         assert 0.01 * float(fine.max()) < off < coarse.attrs["error"] < 0.5 * float(fine.max())
         assert fine.attrs["error"] < 0.5 * coarse.attrs["error"]  # of first order in the steps
+
+
+def test_a_lower_tolerance_has_its_memory_in_double_precision():
+    """E∞/E0 times the rounding of single precision is more than a step may add to the friction."""
+    history = vf.History([0.0, 0.1], pressure=5e3, speed=0.01)
+    mover = PeriodicMover(checked_problem(RUBBER, ridges(), history, 1e-2, None, None, 0.3))
+    before = mover.tolerance
+    assert mover.begin().memory.dtype == np.complex64
+    mover.tighten()
+    assert mover.begin().memory.dtype == np.complex128
+    assert mover.tolerance == pytest.approx(0.1 * before)

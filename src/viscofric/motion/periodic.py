@@ -131,8 +131,12 @@ class PeriodicMover:
         return _TIGHTER * self._tightness >= _TIGHTEST
 
     def tighten(self) -> None:
-        """Lower the tolerance of the contact conditions."""
+        """Lower the tolerance of the contact conditions, and keep the memory in double precision.
+
+        A stiff response multiplies rounding errors of the memory by E_inf/E0.
+        """
         self._tightness *= _TIGHTER
+        self.precision = np.complex128
 
     @property
     def quickest(self) -> float:
