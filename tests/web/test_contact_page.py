@@ -243,6 +243,12 @@ def test_a_drag_of_the_load_is_followed_and_is_one_step_of_undo(browser: Browser
         assert after > 2.0 * before
         tab.value("page.state.state.undo()")
         assert tab.value(load) == "25 N"
+        speed = "page.state.state.view('contact.position').speed"
+        before = tab.value(speed)
+        drag(tab, "speed", 300, 320)
+        assert tab.value(speed) > before
+        tab.value("page.state.state.undo()")
+        assert tab.value(speed) == before
 
 
 @pytest.mark.slow

@@ -18,7 +18,7 @@ const BEYOND = 15; // K beyond its temperatures
 const REST = 200; // ms after a change of the form
 
 const position = () => state.view("contact.position", {});
-const moveTo = (where) => state.setView("contact.position", { ...position(), ...where });
+const moveTo = (where, keep = state.edit) => keep("contact.position", { ...position(), ...where });
 const contact = new Job("contact", {
   follows: true,
   inputs: () => {
@@ -54,6 +54,8 @@ const CONTROLS = [
   },
 ];
 
+let drags = false; // a drag is one step of undo
+
 /** A slider with a number field: both show and change one of the two coordinates. */
 const Control = view(({ name, label, steps, ends, to, from }) => {
   const value = position()[name];
@@ -63,13 +65,16 @@ const Control = view(({ name, label, steps, ends, to, from }) => {
     const typed = units.read(text, name);
     if (Number.isFinite(typed) && typed > 0) moveTo({ [name]: typed });
   };
-  const slide = ({ target }) => moveTo({ [name]: from(low + (Number(target.value) / steps) * (high - low)) });
+  const slide = ({ target }) => {
+    moveTo({ [name]: from(low + (Number(target.value) / steps) * (high - low)) }, drags ? state.setView : state.edit);
+    drags = true;
+  };
   const at = Math.round(steps * Math.min(Math.max((to(value) - low) / (high - low), 0), 1));
   return html`<div class="field live-control">
     <label for=${id} class="field-label">${label}</label>
     <div class="row">
       <input type="range" id=${id} min="0" max=${steps} step="1" value=${at} aria-valuetext=${units.show(value, name)}
-        onInput=${slide} />
+        onInput=${slide} onChange=${() => (drags = false)} />
       <${Box} id="${id}-number" class="live-number" aria-label="${label}, as a number" take=${take}
         value=${() => units.show(position()[name], name)} />
     </div>
@@ -143,7 +148,10 @@ function mount(section, app) {
   const { speed, temperature } = position();
   const [[low, high], [cold, warm]] = [speeds(), kelvins()];
   if (!speed || !temperature)
-    moveTo({ speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) });
+    moveTo(
+      { speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) },
+      state.setView,
+    );
   const parts = html`
     <${Welcome} app=${app} />
     <div class="columns">
