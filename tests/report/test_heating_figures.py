@@ -24,7 +24,7 @@ def curves() -> vf.HeatedFrictionCurves:
     states = {"cold_viscoelastic": COLD, "cold_rise": rise, "hot_viscoelastic": HOT, "hot_rise": rise + 10.0}
     return vf.HeatedFrictionCurves(
         SPEED, np.full(3, 303.15), np.full(3, 5.0), COLD, none, none, np.ones(3), source="predicted",
-        isothermal=1.1 * COLD, face_rise=1.001 * rise, loss_weighted_rise=0.1 * rise, **heat, **states,
+        isothermal=1.1 * COLD, face_rise=1.001 * rise, loss_weighted_rise=0.1 * rise, skin=none, **heat, **states,
     )  # fmt: skip
 
 

@@ -39,6 +39,26 @@ cases = "each"
 fields = "none"
 """
 HEATING = '[heating]\ncounterface = "PTFE"\ncoulomb = [0.2, 0.5]\n'
+ROUGH = """
+[material]
+catalogue = "synthetic fluoroelastomer"
+[surface]
+hurst = 0.8
+points = 16
+spacing = "1 um"
+shortest = "4 um"
+rms_slope = 0.1
+seed = [0, 1]
+[conditions]
+pressure = "100 kPa"
+speed = ["50 mm/s", "200 mm/s"]
+temperature = "60 degC"
+[solver]
+cases = "each"
+[outputs]
+fields = "none"
+"""
+ROUGH_HEAT = '[heating]\ncounterface = "steel"\nnominal_radius = "5 mm"\n'
 BALL = BASE.replace('shape = "cylinder"\n', "").replace("500 N/m", "2 N")
 
 
@@ -114,6 +134,36 @@ def test_the_report_shows_heat_and_says_what_is_given(results: vf.StudyResults) 
 
 
 @pytest.mark.slow
+def test_rough_surfaces_are_heated_too(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """The same numbers as those of the Python interface, to all digits, on each seed; the heat of an interface."""
+    heated = run(tmp_path_factory.mktemp("given"), ROUGH_HEAT + "coulomb = [0.1, 0.3]\n", ROUGH)
+    data = heated.tree["heating"].to_dataset()
+    assert dict(data.sizes) == {"seed": 2, "speed": 2, "coulomb": 2}
+    made = {"spacing": "1 um", "shortest": "4 um", "rms_slope": 0.1}
+    asked = {"speeds": [0.05, 0.2], "temperatures": "60 degC", "pressure": "100 kPa", "tolerance": 1e-7}
+    bodies = {"rubber": FILLED_RUBBER, "counterface": STEEL, "nominal_radius": "5 mm"}
+    rubber, track = vf.synthetic_fluoroelastomer(), vf.self_affine(0.8, shape=(16, 16), seed=1, **made)
+    direct = vf.predict_rough_friction(rubber, track, **asked, heating=vf.Heating(**bodies, coulomb=0.3))
+    assert isinstance(direct, vf.HeatedRoughFriction)
+    found = data.isel(seed=1, coulomb=1)
+    np.testing.assert_array_equal(found["friction_coefficient"], direct.friction_coefficient[0, :, 0])
+    np.testing.assert_array_equal(found["temperature_rise"], direct.temperature_rise[0, :, 0])
+    isothermal = data["isothermal_friction"].isel(coulomb=0)
+    np.testing.assert_array_equal(isothermal, heated.dataset["friction_coefficient"])
+    assert "temperature_map" not in heated.tree
+    assert "mean-heat-left-out" not in codes(heated.warnings)
+    assert heating_figure(heated.tree) is not None
+    parts = heated_parts_figure(heated.tree)
+    assert parts is not None
+    assert len(parts.axes) == 3  # of four curves
+    law = '[interface]\nlaw = "constant"\nstress = "1 MPa"\n'
+    folder = tmp_path_factory.mktemp("interface")
+    rubbed = run(folder, law + ROUGH_HEAT, ROUGH.replace("[0, 1]", "0")).tree["heating"].to_dataset()
+    np.testing.assert_allclose(rubbed["interface_friction"], 1e6 / rubbed["mean_pressure"])
+    assert rubbed.attrs["heat_of"] == "interface"
+
+
+@pytest.mark.slow
 def test_an_interface_makes_the_heat_and_is_warm_itself(tmp_path: Path) -> None:
     """A shear stress that does not depend on temperature, on the contact of the heated case."""
     text = '[interface]\nlaw = "constant"\nstress = "0.2 MPa"\nslip = "0.1 m/s"\n[heating]\ncounterface = "steel"\n'
@@ -159,6 +209,8 @@ def test_a_speed_without_a_solution_leaves_the_others(monkeypatch: pytest.Monkey
         (HEATING + 'passes = 1.5\ntrack_radius = "2 cm"\n', BALL, "heating.passes"),
         (HEATING + 'track_radius = "2 cm"\n', BALL, "heating.track_radius"),
         (HEATING + 'passes = inf\ntrack_radius = "2 cm"\n', BASE, "heating.passes"),
+        (HEATING + 'nominal_radius = "5 mm"\n', BALL, "heating.nominal_radius"),
+        (HEATING + 'passes = 3\ntrack_radius = "2 cm"\n', ROUGH, "heating.nominal_radius"),
         (HEATING + '[layer]\nthickness = "5 mm"\n', BASE, "heating"),
         (HEATING + '[interface]\nlaw = "constant"\nstress = "1 MPa"\n', BASE, "heating.coulomb"),
         (

@@ -14,7 +14,7 @@ import numpy as np
 
 from viscofric.contact.heated import LOOSE, HeatCurve, beyond, described, enough, settle, sought
 from viscofric.heat.heating import HeatBalance
-from viscofric.heat.result import RISES
+from viscofric.heat.result import OF_CONTACT
 from viscofric.processes import call_all
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def solve_states(
 
 def heat_columns(states: Sequence[States]) -> dict[str, Array]:
     """Return the columns of `HeatColumns`, (n,) each, of contacts."""
-    values: dict[str, list[float]] = {name: [getattr(one.heating, name) for one in states] for name in RISES} | {
+    values: dict[str, list[float]] = {name: [getattr(one.heating, name) for one in states] for name in OF_CONTACT} | {
         "isothermal": [abs(one.isothermal.friction) for one in states],
         "cold_viscoelastic": [abs(one.cold.friction) for one in states],
         "cold_rise": [one.cold.rise for one in states],

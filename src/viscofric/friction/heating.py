@@ -39,6 +39,8 @@ class HeatedFrictionCurves(HeatColumns, FrictionCurves):
         left by earlier passes, K.
     face_rise, loss_weighted_rise : (n,) array
         Both mean rises, over the face and where the loss is released, K; see `Heating`.
+    skin : array
+        Depth to which heat spreads while the contact passes; see `ContactHeating`.
     cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : (n,) array
         Friction and rise of the coldest and of the hottest stable state, equal where there is one only.  A speed that
         rises slowly follows the cold states, one that falls slowly the hot ones: the difference is the hysteresis.

@@ -50,9 +50,9 @@ def settled(
     """Return a rise ΔT and G(ΔT) − ΔT, no larger than the tolerance at it, from a state, by secants between two bounds.
 
     `produced` solves the contact at ΔT.  Once a colder contact that produces too much and a warmer one that produces
-    too little are known, steps stay between them, and halve what two secants do not.  A G that jumps past ΔT, as points of
-    a contact come and go, has its state where both are no farther apart than the tolerance.  Raises ConvergenceError if
-    the solves do not settle.
+    too little are known, steps stay between them, and halve what two secants do not.  A G that jumps past ΔT, as points
+    of a contact come and go, has its state where both are no farther apart than the tolerance.  Raises ConvergenceError
+    if the solves do not settle.
     """
     rise, slope = start
     before: tuple[float, float] | None = None

@@ -26,10 +26,14 @@ RISES = {
     "face_rise": ("K", "mean rise of temperature of the face"),
     "loss_weighted_rise": ("K", "mean rise of temperature where the loss is released"),
 }
+#: Columns of friction with heating that are numbers of each contact's `ContactHeating`.
+OF_CONTACT = RISES | {
+    "skin": ("1", "depth that the heat reaches during the contact over half the length of the contact")
+}
 #: Columns of friction with heating.
 COLUMNS = {
     "isothermal": ("1", "viscoelastic friction coefficient without heating"),
-    **RISES,
+    **OF_CONTACT,
     "cold_viscoelastic": ("1", "viscoelastic friction coefficient as the speed rises"),
     "cold_rise": ("K", "rise of temperature as the speed rises"),
     "hot_viscoelastic": ("1", "viscoelastic friction coefficient as the speed falls"),
@@ -50,6 +54,8 @@ class HeatColumns:
         left by earlier passes, K.
     face_rise, loss_weighted_rise : array
         Both mean rises, over the face and where the loss is released, K; see `Heating`.
+    skin : array
+        Depth to which heat spreads while the contact passes; see `ContactHeating`.
     cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : array
         Friction and rise of the coldest and of the hottest stable state, equal where there is one only.  A speed that
         rises slowly follows the cold states, one that falls slowly the hot ones: the difference is the hysteresis.
@@ -62,6 +68,7 @@ class HeatColumns:
     track_rise: Array
     face_rise: Array
     loss_weighted_rise: Array
+    skin: Array
     cold_viscoelastic: Array
     cold_rise: Array
     hot_viscoelastic: Array
@@ -139,13 +146,12 @@ class ContactHeating:
     def to_dataset(self) -> xarray.Dataset:
         """Return all numbers with units and long names; those of the other state only where there is one."""
         heat = "(W/m of a line contact, W/m² of a rough surface)"
-        meanings = RISES | {
+        meanings = OF_CONTACT | {
             "residual": ("K", "rise produced minus rise assumed"),
             "coulomb_heat": ("W", f"heat of Coulomb friction {heat}"),
             "loss_heat": ("W", f"heat of the viscoelastic loss {heat}"),
             "rubber_heat": ("W", f"heat that the rubber takes up {heat}"),
             "counterface_heat": ("W", f"heat that the counterface takes up {heat}"),
-            "skin": ("1", "depth that the heat reaches during the contact over half the length of the contact"),
             "isothermal_friction": ("1", "friction coefficient without heating"),
             "other_rise": ("K", "rise of temperature in the contact's other state"),
             "other_friction": ("1", "friction coefficient in the contact's other state"),

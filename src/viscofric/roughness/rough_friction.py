@@ -156,6 +156,8 @@ class HeatedRoughFriction(HeatColumns, RoughFriction):
         left by earlier passes, K.  Above the mean of the surface, unless the size of the nominal contact is given.
     face_rise, loss_weighted_rise : (m, n, k) array
         Both mean rises, over the contact spots and where the loss is released, K; see `Heating`.
+    skin : array
+        Depth to which heat spreads while the contact passes; see `ContactHeating`.
     cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : (m, n, k) array
         Friction and rise of the coldest and of the hottest stable state, equal where there is one only.
     """

@@ -15,6 +15,7 @@ from viscofric.study.cases.case import moved
 from viscofric.study.cases.heating import COLUMNS, solve_heated, solve_temperature_map
 from viscofric.study.cases.record import Failure, HistoryRecord
 from viscofric.study.cases.solving import Task
+from viscofric.study.cases.surface_case import SurfaceCase
 from viscofric.study.planning.singles import Singles
 from viscofric.study.results.tree import axis_coordinates, meaning_of
 from viscofric.thermal import BODIES
@@ -185,14 +186,17 @@ class Heatings(Singles):
         return self._table.heating(self._table.coulomb[first], self._slips[second])
 
     def _arguments(self, case: Any, first: int, second: int) -> dict[str, Any]:
+        body: dict[str, Any]
+        if isinstance(case, SurfaceCase):
+            body = {"surface": case.surface, "pressure": case.pressure, "direction": case.direction}
+        else:
+            body = {"indenter": case.indenter, "load": float(case.load), "accuracy": self._study.solver.accuracy}
         return {
             "material": self._of(case),
-            "indenter": case.indenter,
+            **body,
             "temperature": case.temperature,
-            "load": float(case.load),
             "heating": self._heating(first, second),
             "interface": self._interface,
-            "accuracy": self._study.solver.accuracy,
             "indenter_modulus": case.modulus,
             "indenter_poisson_ratio": case.poisson_ratio,
             "fields": False,
@@ -209,7 +213,9 @@ class Heatings(Singles):
         return self._material[key]
 
     def _map_task(self) -> list[Task]:
-        """Return the task of the warmest contact; none if there is no warm one."""
+        """Return the task of the warmest contact; none if there is no warm one, or on a rough surface."""
+        if self._sweep.geometry == "rough":
+            return []
         best, warmest = None, 0.0
         for member, outcome in zip(self._members, self.outcomes, strict=True):
             if not isinstance(outcome, HistoryRecord) or self._sweep.cases[member[0][0]].sample is not None:
@@ -254,23 +260,15 @@ class Heatings(Singles):
                 "apart; the speeds before decide which one a contact is in."
             )
             found.append(Note("two-thermal-states", said, values={"contacts": int(two.sum()), "apart": apart.max()}))
-        skin = self._skin(data)
-        thin = (skin < THIN) & (data["temperature_rise"].values > 0.0)
+        thin = (data["skin"].values < THIN) & (data["temperature_rise"].values > 0.0)
         if self._table.average == "contact" and thin.any():
             face, below = (float(data[name].values[thin].max()) for name in ("face_rise", "loss_weighted_rise"))
             said = (
-                f"In {thin.sum()} of {of} heated contacts, heat spreads less than {THIN:g} contact radii deep while "
-                f"they pass: faces are up to {face:.2g} K warmer, the rubber where the loss is released up to "
+                f"In {thin.sum()} of {of} heated contacts, heat spreads less than {THIN:g} of half their length deep "
+                f"while they pass: faces are up to {face:.2g} K warmer, the rubber where the loss is released up to "
                 f"{below:.2g} K"
             )
             values = {"contacts": int(thin.sum()), "face_rise": face, "loss_weighted_rise": below}
             remedy = "; for friction at the latter, give " + AT_THE_LOSS + "."
             found.append(Note("thin-skin", said, remedy=remedy, values=values))
         return found
-
-    def _skin(self, data: xarray.Dataset) -> Array:
-        """Return √(2κa/v)/a of all contacts, a from their area."""
-        area = data["load"] / data["mean_pressure"]
-        radius = 0.5 * area if self._sweep.geometry == "line" else np.sqrt(area / math.pi)
-        skin = np.sqrt(2.0 * self._table.rubber.diffusivity / (data["speed"] * radius))
-        return np.asarray(skin.transpose(*data["mean_pressure"].dims).values)

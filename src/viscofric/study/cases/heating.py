@@ -13,11 +13,13 @@ from viscofric.errors import ViscofricError
 from viscofric.friction.prediction import predict_friction
 from viscofric.heat.result import COLUMNS as HEAT_COLUMNS
 from viscofric.notes import note_of
+from viscofric.roughness.ensemble import predict_rough_friction
+from viscofric.roughness.rough_friction import HeatedRoughFriction
 from viscofric.study.cases.record import Column, HistoryRecord
+from viscofric.study.cases.surfaces import TOLERANCE, surface_of, unit_vector
 
 if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.heating import HeatedFrictionCurves
     from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
@@ -38,35 +40,41 @@ COLUMNS = {
     "interface_error": ("coulomb_error", "1", "standard error of the friction coefficient of the interface"),
 }
 #: Notes of the curves that the study has anyway: of the isothermal contacts, or counted over all cases.
-_KEPT = ("interface-extrapolated", "interface-pressure")
+_KEPT = ("interface-extrapolated", "interface-pressure", "mean-heat-left-out", "states-beyond")
 
 
 def solve_heated(
     material: Material,
     *,
-    indenter: Indenter,
     speeds: tuple[float, ...],
     temperature: float,
-    load: float,
-    heating: Heating,
-    interface: InterfaceLaw | None = None,
     fields: bool = False,
     **settings: Any,
 ) -> HistoryRecord:
     """Solve contacts of one temperature and load at all speeds, each at the temperature to which it heats itself.
 
     Speeds at which there is no solution are left out, with a warning each; if there is none at any, the error of the
-    first is raised.  `fields` is not used; `settings` are further arguments of `predict_friction`, SI.
+    first is raised.  `fields` is not used; `settings` are further arguments of `predict_friction`, SI, or with a
+    `surface`, the description of one, and its `direction` (rad), those of `predict_rough_friction`.
     """
-    common = {"temperatures": temperature, "load": load, "heating": heating, "interface": interface, **settings}
+
+    def solve(chosen: list[float]) -> Any:
+        common = {"speeds": chosen, "temperatures": temperature, **settings}
+        if "surface" not in common:
+            return predict_friction(material, common.pop("indenter"), **common)
+        common |= {"direction": unit_vector(common["direction"]), "tolerance": TOLERANCE}
+        found = predict_rough_friction(material, surface_of(common.pop("surface")), **common)
+        assert isinstance(found, HeatedRoughFriction)
+        return _RoughCurve(found)
+
     said: list[str] = []
     try:
-        curves: list[Any] = [predict_friction(material, indenter, speeds=list(speeds), **common)]
+        curves: list[Any] = [solve(list(speeds))]
     except ViscofricError:
         curves, wrong = [], []
         for speed in speeds:
             try:
-                curves.append(predict_friction(material, indenter, speeds=speed, **common))
+                curves.append(solve([speed]))
             except ViscofricError as error:
                 wrong.append(error)
                 said.append(f"{error} (at {speed:g} m/s)")
@@ -77,7 +85,24 @@ def solve_heated(
     return HistoryRecord({}, tuple(dict.fromkeys(said)), columns=_columns(curves))
 
 
-def _columns(curves: list[HeatedFrictionCurves]) -> dict[str, Column]:
+class _RoughCurve:
+    """Heated friction on one surface at one temperature, with the columns of heated friction curves, (n,) each."""
+
+    def __init__(self, found: HeatedRoughFriction) -> None:
+        self.speed, self.notes = found.speed, found.notes
+        area = found.corrected_area_fraction[0, :, 0]
+        given = {
+            "viscoelastic": found.friction_coefficient,
+            "viscoelastic_error": found.friction_error,
+            "coulomb": found.interface_friction,
+            "coulomb_error": found.interface_error,
+            **{name: getattr(found, name) for name in HEAT_COLUMNS},
+        }
+        columns = {name: None if one is None else one[0, :, 0] for name, one in given.items()}
+        vars(self).update(columns, mean_pressure=found.pressure / area)
+
+
+def _columns(curves: list[Any]) -> dict[str, Column]:
     def joined(name: str) -> list[float]:
         return [value for one in curves for value in getattr(one, name).tolist()]
 

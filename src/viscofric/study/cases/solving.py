@@ -18,7 +18,7 @@ from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.cases.record import indenter_record, surface_record
-from viscofric.study.cases.surfaces import surface_of, unit_vector
+from viscofric.study.cases.surfaces import TOLERANCE, surface_of, unit_vector
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -28,10 +28,6 @@ if TYPE_CHECKING:
     from viscofric.contact.periodic.surface import PeriodicSurface
     from viscofric.study.cases.record import Record
     from viscofric.study.cases.surfaces import SurfaceSource
-
-
-# Complementarity of rough surfaces: far below the discretisation error of friction, at any accuracy.
-_TOLERANCE = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +121,7 @@ def surface_solution(
 ) -> PeriodicSolution:
     """Return the whole solution of the contact of a rough surface; see `solve_surface`."""
     rubber, toward = Material(modes, poisson_ratio=poisson_ratio), unit_vector(direction)
-    return solve_periodic(rubber, surface, direction=toward, tolerance=_TOLERANCE, **contact)
+    return solve_periodic(rubber, surface, direction=toward, tolerance=TOLERANCE, **contact)
 
 
 def key_of(arguments: Mapping[str, Any]) -> str:

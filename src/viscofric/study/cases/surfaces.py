@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from viscofric.roughness.topography import Topography
 
 
+#: Complementarity of rough surfaces: far below the discretisation error of friction, at any accuracy.
+TOLERANCE = 1e-7
 # Surfaces that a process keeps: one of 2048² points takes 34 MB.
 _KEPT = 2
 

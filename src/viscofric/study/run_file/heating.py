@@ -63,8 +63,8 @@ class HeatingTable(Table):
     """[heating]: every case also at the temperature to which its own friction heats it."""
 
     counterface: Counterface = Field(
-        description="Thermal properties of the indenter: a name (typical handbook values), or conductivity and density "
-        "and heat capacity, or conductivity and diffusivity."
+        description="Thermal properties of the indenter or surface: a name (typical handbook values), or conductivity "
+        "and density and heat capacity, or conductivity and diffusivity."
     )
     rubber: Rubber = Field(
         "filled rubber",
@@ -82,6 +82,9 @@ class HeatingTable(Table):
     )
     track_radius: Length | None = Field(None, description="Radius of the circle on which earlier passes were.")
     passes: Passes = Field(0, description="Earlier passes on that circle; inf: the final state.")
+    nominal_radius: Length | None = Field(
+        None, description="Of a rough surface: radius of the nominal contact, whose mean heat then counts too."
+    )
     average: Literal["contact", "loss"] = Field(
         "contact",
         description="Which mean rise the rubber responds to: that of its face, or that weighted with the loss below.",
@@ -112,4 +115,5 @@ class HeatingTable(Table):
             passes=self.passes,
             average=self.average,
             branch=self.branch,
+            nominal_radius=self.nominal_radius,
         )

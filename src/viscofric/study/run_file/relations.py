@@ -202,9 +202,10 @@ def _heating(tables: Tables) -> Iterator[Problem]:
     heating, indenter = tables.get("heating"), tables.get("indenter")
     if heating is None:
         return
-    if tables.get("surface") is not None:
-        page = "friction of rough surfaces is not computed with heating"
-        yield "heating", worded("needs an [indenter], but there is a rough [surface]", page)
+    if tables.get("surface") is not None and heating.passes > 0 and heating.nominal_radius is None:
+        yield "heating.nominal_radius", "is missing; passes of a rough surface are those of its nominal contact"
+    if indenter is not None and heating.nominal_radius is not None:
+        yield "heating.nominal_radius", "is of rough surfaces; the contact of an indenter has its own radius"
     if tables.get("layer") is not None:
         page = "friction on layers is not computed with heating"
         yield "heating", worded("needs a half-space, but there is a [layer]", page)
