@@ -110,7 +110,8 @@ def test_a_lone_contact_is_as_warm_as_a_free_one() -> None:
     )
     area = (points * step) ** 2
     assert found.surface / area == pytest.approx(free.surface, rel=0.05)
-    assert found.loss_below / area == pytest.approx(free.loss_below, rel=0.15)
+    # The free mean is over the loss within its cells alone; that beyond is hardly warmer than the body.
+    assert found.loss_below / area == pytest.approx((1.0 - free.beyond) * free.loss_below, rel=0.15)
 
 
 @pytest.mark.slow

@@ -304,6 +304,7 @@ def described(
         residual=produced - rise,
         coulomb_heat=heat.coulomb,
         loss_heat=heat.loss,
+        loss_beyond=heat.resistances.beyond * heat.loss,
         rubber_heat=balance.rubber_heat,
         counterface_heat=balance.counterface_heat,
         skin=math.sqrt(2.0 * heating.rubber.diffusivity / (abs(contact.speed) * heat.size)),

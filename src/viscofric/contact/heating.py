@@ -96,7 +96,7 @@ class FreeThermalContact(ThermalContact):
         one, speed = heat.resistances, abs(self.speed)
         rubber = factor(self.heating.rubber, speed)
         other = factor(self.heating.counterface, abs(speed - self.heating.sliding(speed)))
-        parts: Any = (*(rubber * part for part in one[:4]), one.track, one.counterface * other)
+        parts: Any = (*(rubber * part for part in one[:4]), one.track, one.counterface * other, one.beyond)
         return ThermalResistances(*parts)
 
 
@@ -106,7 +106,7 @@ def thermal_resistances(
     """Return rises of a contact per heat; `modes` are those at the temperature at which it was solved.
 
     The mean over the face is over the contact.  Heat on the face is distributed like the pressure, and that of the loss
-    as it is released below (in a half-space); what is released farther behind does not reach the contact.
+    as it is released below (in a half-space); what is released beyond the cells does not reach the contact.
     """
     speed, loss = abs(solution.speed), abs(solution.friction_force * solution.speed)
     cells = Cells.of(solution, _CELLS)
@@ -121,7 +121,8 @@ def thermal_resistances(
     if not (cells.is_line and other_speed == 0.0):
         other = cells.mean_rise(cells.influence(Diffusion(heating.counterface, other_speed)), flux[None], face[None])
     rises = cells.rises(Diffusion(heating.rubber, speed), flux, face, power, weight)
-    return ThermalResistances(*rises, heating.track_resistance(radius, speed), other)
+    beyond = 1.0 - float(power.power.sum()) if found > 0.0 else 0.0
+    return ThermalResistances(*rises, heating.track_resistance(radius, speed), other, max(beyond, 0.0))
 
 
 class FaceTemperature(NamedTuple):
@@ -163,10 +164,7 @@ def face_temperature(
 
 
 def _per_loss(released: Dissipation, loss: float) -> Array:
-    """Return the shares of the layers' cells in the loss.
-
-    Coarse cells exaggerate the loss at the edge where all modes are fast; what is missing lies farther behind.
-    """
+    """Return the shares of the layers' cells in the loss; what is missing in their sum is released beyond the cells."""
     found = float(released.power.sum())
     return released.power / max(loss, found) if found > 0.0 else released.power
 

@@ -134,7 +134,7 @@ class ThermalResistances(NamedTuple):
 
     Of the rubber's face, on average, by heat on it and by the loss below; of the rubber where the loss is released, on
     average with it, by both; of all of the rubber by its heat in earlier passes; of the counterface's face, infinite
-    where it takes no heat.
+    where it takes no heat.  `beyond` is the share of the loss that is released too far away to warm the contact.
     """
 
     surface: float
@@ -143,6 +143,7 @@ class ThermalResistances(NamedTuple):
     loss_below: float
     track: float
     counterface: float
+    beyond: float = 0.0
 
 
 class HeatBalance(NamedTuple):

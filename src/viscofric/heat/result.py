@@ -116,6 +116,8 @@ class ContactHeating:
         Rise that the solved contact produces minus that at which it was solved, K.
     coulomb_heat, loss_heat : float
         Heat of Coulomb friction and of the viscoelastic loss.
+    loss_beyond : float
+        The part of the loss that is released so far behind, beside or ahead of the contact that it does not warm it.
     rubber_heat, counterface_heat : float
         The parts of their sum that both bodies take up.
     skin : float
@@ -136,6 +138,7 @@ class ContactHeating:
     residual: float
     coulomb_heat: float
     loss_heat: float
+    loss_beyond: float
     rubber_heat: float
     counterface_heat: float
     skin: float
@@ -150,6 +153,7 @@ class ContactHeating:
             "residual": ("K", "rise produced minus rise assumed"),
             "coulomb_heat": ("W", f"heat of Coulomb friction {heat}"),
             "loss_heat": ("W", f"heat of the viscoelastic loss {heat}"),
+            "loss_beyond": ("W", f"part of the loss released too far away to warm the contact {heat}"),
             "rubber_heat": ("W", f"heat that the rubber takes up {heat}"),
             "counterface_heat": ("W", f"heat that the counterface takes up {heat}"),
             "isothermal_friction": ("1", "friction coefficient without heating"),

@@ -5,7 +5,8 @@ is a spring 1/C in parallel with a dashpot, on which the stress s = σ − y act
 
     w = Σ_k C_k/τ_k [(1 + ν) s_k : s_k − ν (tr s_k)²]
 
-Along the motion dy/dt = −v dy/dx, so that s_k = −iqvτ_k/(1 − iqvτ_k) σ for each wave q.
+Along the motion dy/dt = −v dy/dx: from the front to the rear s_k follows the stress step by step, as exactly as the
+stress is linear between two cells.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-import scipy.fft
 
+from viscofric.contact.fields.stress import rectangle_corners, strip_ends
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
 
 if TYPE_CHECKING:
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 _DEPTHS = 6
 #: Ratio of the times of modes that stand for a denser spectrum; and on cells, where the loss is only shared out.
 _TOGETHER, _ON_CELLS = 2.5, 4.0
+#: Places ahead of the cells, whose distance grows from step to step by this factor.
+_AHEAD, _GROWTH = 10, 1.8
 
 
 class Modes(NamedTuple):
@@ -84,42 +87,89 @@ def dissipation(
 ) -> Dissipation:
     """Return where the loss is released below the cells of a contact that moves towards +x.
 
-    `pressure` (nx, ny), Pa, on cell centres x (nx,) and y (ny,), m, should have room for the loss behind the contact;
-    `speed` above zero, m/s; `size` is the contact radius or half-width, m.
+    `pressure` (nx, ny), Pa, on cell centres x (nx,) and y (ny,), m; `speed` above zero, m/s; `size` is the contact
+    radius or half-width, m.  The memory of the stress ahead of the cells is included, but not the loss released ahead
+    of, beside or behind them: the sum is less than the work of friction.
     """
     node, weight = np.polynomial.legendre.leggauss(_DEPTHS)
     share = 0.5 * (1.0 + node)
     depths = size * share / (1.0 - share)
     thickness = 0.5 * weight * size / np.square(1.0 - share)
-    step = x[1] - x[0]
-    area = step if len(y) == 1 else step * (y[1] - y[0])
+    step, width = float(x[1] - x[0]), float(y[1] - y[0]) if len(y) > 1 else 1.0
     few = modes.merged(0.05 * size / speed, 50.0 * size / speed, _ON_CELLS)
+    ahead = x[-1] + step * (_GROWTH ** np.arange(_AHEAD + 1.0) - 1.0)[::-1]
     layers = []
-    for depth in depths:
+    for depth in depths.tolist():
         if len(y) == 1:
             found = line_stress(x, pressure, [depth], poisson_ratio)
         else:
-            found = stress_layer(x, y, pressure, float(depth), poisson_ratio)
-        stress = np.stack([found.xx, found.yy, found.zz, found.yz, found.xz, found.xy])
-        layers.append(_density(stress, step / speed, few, poisson_ratio))
-    return Dissipation(depths, thickness, np.stack(layers) * (area * thickness)[:, None, None])
+            found = stress_layer(x, y, pressure, depth, poisson_ratio)
+        stress = _components(np.stack([found.xx, found.yy, found.zz, found.yz, found.xz, found.xy]), poisson_ratio)
+        farther = _components(_stress_ahead(ahead[:-1], x, y, pressure, depth, poisson_ratio), poisson_ratio)
+        ending = np.concatenate([farther, stress[:, -1:]], axis=1)
+        layers.append(_passing(stress[:, ::-1], ending, step / speed, -np.diff(ahead) / speed, few)[::-1])
+    power = np.stack(layers) * (step * width * thickness)[:, None, None]
+    return Dissipation(depths, thickness, power)
 
 
-def _density(stress: Array, step: float, modes: Modes, poisson_ratio: float) -> Array:
-    """Return w (nx, ny) from stress components (6, nx, ny) on cells that the contact passes in steps of time.
+def _stress_ahead(ahead: Array, x: Array, y: Array, pressure: Array, depth: float, poisson_ratio: float) -> Array:
+    """Return the stress components (6, n, ny) at places ahead of the contact, by its load on one rectangle."""
+    edges = []
+    for places, loads in ((x, pressure.sum(1)), (y, pressure.sum(0))):
+        middle = float(loads @ places / loads.sum())
+        half = math.sqrt(3.0 * float(loads @ np.square(places - middle) / loads.sum()))
+        edges.append(middle + np.array([half, -half]))
+    along = ahead[:, None] - edges[0]
+    if len(y) == 1:
+        step = float(x[1] - x[0])
+        ends = strip_ends(along, depth, poisson_ratio)
+        load = float(pressure.sum()) * step
+        return np.asarray(load / np.ptp(edges[0]) * (ends[..., 1] - ends[..., 0])[..., None])
+    across = y[:, None] - edges[1]
+    corners = rectangle_corners(along[:, None, :, None], across[:, None, :], depth, poisson_ratio)
+    load = float(pressure.sum()) * float(x[1] - x[0]) * float(y[1] - y[0])
+    return np.asarray(
+        load / (np.ptp(edges[0]) * np.ptp(edges[1])) * np.diff(np.diff(corners, axis=3), axis=4)[..., 0, 0]
+    )
 
-    In single precision, whose error is far below that of the cells.
+
+def _components(stress: Array, poisson_ratio: float) -> Array:
+    """Return components (6, …) of stresses (6, …), the sum of whose squares is (1 + ν) s:s − ν (tr s)²."""
+    share = (1.0 - math.sqrt((1.0 - 2.0 * poisson_ratio) / (1.0 + poisson_ratio))) / 3.0
+    normal = stress[:3] - share * stress[:3].sum(0)
+    return np.asarray(math.sqrt(1.0 + poisson_ratio) * np.concatenate([normal, math.sqrt(2.0) * stress[3:]]))
+
+
+def _passing(stress: Array, before: Array, step: float, steps: Array, modes: Modes) -> Array:
+    """Return w (nx, ny) of the components (6, nx, ny) that follow one another at a step of time, linearly in between.
+
+    `before` (6, n, ny) came first, at the `steps` (n − 1,), and ends with the first of `stress`.  Each mode follows
+    exactly: in a step h, s = a + (s₀ − a) e^(−t/τ), a = τ dσ/dt.
     """
-    nx = stress.shape[1]
-    padded = scipy.fft.next_fast_len(2 * nx, real=True)
-    spectrum = scipy.fft.rfft(stress.astype(np.float32), padded, axis=1)
-    rate = -2.0j * np.pi * scipy.fft.rfftfreq(padded, step)[:, None]
+    from scipy.signal import lfilter
 
-    def on_dashpot(tau: float) -> Array:
-        response = (rate * tau / (1.0 + rate * tau)).astype(np.complex64)
-        return np.asarray(scipy.fft.irfft(spectrum * response, padded, axis=1)[:, :nx])
-
-    return power_density(on_dashpot, modes, poisson_ratio)
+    change = np.diff(stress, axis=1)
+    even = np.square(change).sum(0)
+    energy = np.zeros(stress.shape[1:])
+    for C, tau in zip(*modes, strict=True):
+        on = np.zeros_like(stress[:, 0])
+        for row, time in enumerate(steps.tolist()):
+            left = math.exp(-time / tau)
+            on = left * on + tau / time * (1.0 - left) * (before[:, row + 1] - before[:, row])
+        left, ratio = math.exp(-step / tau), tau / step
+        rest = 1.0 - left
+        later = lfilter([ratio * rest], [1.0, -left], change, axis=1, zi=left * on[:, None])[0]
+        at_ends = np.concatenate([on[:, None], later], axis=1)
+        first = at_ends[:, :-1]
+        twice = 0.5 * tau * (1.0 - left**2)
+        each = (
+            np.square(ratio) * even * (step - 2.0 * tau * rest + twice)
+            + 2.0 * ratio * (change * first).sum(0) * (tau * rest - twice)
+            + np.square(first).sum(0) * twice
+        )
+        energy[:-1] += 0.5 * C / tau * each
+        energy[1:] += 0.5 * C / tau * each
+    return energy / step
 
 
 def power_density(on_dashpot: Callable[[float], Array], modes: Modes, poisson_ratio: float) -> Array:
