@@ -236,6 +236,12 @@ def test_a_body_has_a_name_or_properties_in_any_order(tmp_path: Path) -> None:
     assert heating.passes == np.inf
 
 
+def test_contacts_over_time_are_isothermal_and_a_note_says_so(tmp_path: Path) -> None:
+    history = '[history]\nslide = "1 mm"\n'
+    assert "history-isothermal" in codes(parse_study(BASE + HEATING + history, tmp_path / "study.toml").notes)
+    assert "history-isothermal" not in codes(parse_study(BASE + history, tmp_path / "study.toml").notes)
+
+
 def test_a_diffusivity_is_enough(tmp_path: Path) -> None:
     text = '[heating]\ncounterface = "46 W/m/K, 12 mm^2/s"\n'
     study = parse_study(BASE + text, tmp_path / "study.toml")

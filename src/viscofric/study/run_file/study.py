@@ -10,6 +10,7 @@ from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationE
 
 from viscofric.errors import InputError, StudyError
 from viscofric.files import file_path, parse_toml
+from viscofric.notes import Note
 from viscofric.study.cases.sweep import Sweep, sweep_of
 from viscofric.study.run_file.contact import (
     SHAPES,
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from viscofric.notes import Note
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.tables import Problem
 
@@ -42,6 +42,12 @@ _MOST_BYTES = 4 * LONGEST_RUN_FILE + 4
 #: Tables and lists within each other that a run file may need, and a little more.
 _DEEPEST = 10
 _MOST_MATERIALS = 100
+
+
+ISOTHERMAL = Note(
+    "history-isothermal",
+    "Contacts over time and impacts of a study are isothermal: [heating] heats its steady cases only.",
+)
 
 
 def _several(value: object) -> object:
@@ -144,7 +150,9 @@ class Study(Table):
         """Requests of the study that have no effect."""
         sampled = any(material.dma or material.steps for material in self.materials)
         over_time = sampled and (self.history is not None or self.impact is not None)
-        return self.uncertainty.notes(rough=self.indenter is None, over_time=over_time)
+        said = self.uncertainty.notes(rough=self.indenter is None, over_time=over_time)
+        in_time = self.history is not None or self.impact is not None
+        return (*said, ISOTHERMAL) if self.heating is not None and in_time else said
 
     def sweep(self) -> Sweep:
         """Return all cases of the study, with their axes."""
