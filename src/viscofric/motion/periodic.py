@@ -94,7 +94,7 @@ class PeriodicMover:
         self._shape = response / self.response_unit
         self._scale = np.sqrt(self.grid.weights * self._shape)  # √(w G), a factor of the memory
         self._unscaled = np.sqrt(self._shape / self.grid.weights)
-        self._softness = self.grid.weights * np.square(self._shape)
+        self._softness = np.sqrt(self.grid.weights) * self._shape
         self._softness[0, 0] = 0.0
         self._rigid = np.zeros((1, 1))
         if problem.counterface:
@@ -157,7 +157,8 @@ class PeriodicMover:
         turn = self.grid.turn(moving)
         # A steady wave has q = p/(1 − iτ q·v).
         shares = [1.0 / (1.0 - 1j * time * turn) if moving.any() else np.ones((1, 1)) for time in modes.tau]
-        compliance = modes.instantaneous + sum(C * share for C, share in zip(modes.C, shares, strict=True))
+        parts = (C * share for C, share in zip(modes.C, shares, strict=True))
+        compliance = sum(parts, np.full((1, 1), modes.instantaneous))
         problem = self._made(StepResponse.steady(turn, compliance), moving)
         past = np.zeros(turn.shape, complex)
         pressure, depth = self._solved(problem, past, first, None)
@@ -171,9 +172,8 @@ class PeriodicMover:
         memory = np.empty((len(modes), *waves.shape), self.precision)
         for each, share in zip(memory, shares, strict=True):
             each[...] = share * scaled
-        return self._state(
-            pressure, waves, memory, problem.response, past, depth, (stored_energy(modes, memory), 0.0), None
-        )
+        energies = stored_energy(modes, memory), 0.0
+        return self._state(pressure, (waves, scaled), memory, problem.response, past, depth, energies, None)
 
     def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
         """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""
@@ -203,18 +203,12 @@ class PeriodicMover:
         past = problem.response.known(self.modes, state.memory, self._scale * state.waves)
         pressure, depth = self._solved(problem, past, end, state, clock_step)
         waves = self.grid.of(pressure)
-        held = state.stored - self._elastic_energy(state.waves)
-        after = advance(
-            problem.response,
-            self.modes,
-            state.memory,
-            (self._scale * state.waves, self._scale * waves),
-            held,
-            keep=keep,
-        )
+        begun, scaled = self._scale * state.waves, self._scale * waves
+        held = state.stored - self._elastic_energy(state.waves, begun)
+        after = advance(problem.response, self.modes, state.memory, (begun, scaled), held, keep=keep)
         trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
         done = after.stored, state.dissipated + after.dissipated
-        return self._state(pressure, waves, after.memory, problem.response, past, depth, done, trend)
+        return self._state(pressure, (waves, scaled), after.memory, problem.response, past, depth, done, trend)
 
     def accept(self, state: PeriodicState, instant: Instant) -> None:
         """Do nothing: the method holds for every state."""
@@ -292,7 +286,7 @@ class PeriodicMover:
     def _state(
         self,
         pressure: Array,
-        waves: ComplexArray,
+        both: tuple[ComplexArray, ComplexArray],
         memory: ComplexArray,
         response: StepResponse,
         past: ComplexArray,
@@ -300,21 +294,28 @@ class PeriodicMover:
         energies: tuple[float, float],
         trend: Array | None,
     ) -> PeriodicState:
-        """Return a solved state, given the energy that its modes store and all that has been dissipated."""
-        displacement = self._shape * (response.end * waves) + self._unscaled * past
-        depth += float(displacement[0, 0].real) / pressure.size
+        """Return a solved state, given the energy that its modes store and all that has been dissipated.
+
+        `both` are the waves of the pressure, and those scaled as the memory is.
+        """
+        waves, scaled = both
+        mean = self._shape[0, 0] * response.end[0, 0] * waves[0, 0] + self._unscaled[0, 0] * past[0, 0]
+        depth += float(mean.real) / pressure.size
         # The mean of −p ∂u/∂x, to which an elastic indenter adds nothing.
-        work = self.grid.weights * (np.conj(waves) * displacement).imag
+        work = response.end * scaled
+        work += past
+        work *= np.conj(scaled)
         qx, qy = self.grid.numbers
-        friction = float(work.sum(axis=1) @ qx[:, 0]), float(work.sum(axis=0) @ qy[0])
-        stored = self._elastic_energy(waves) + energies[0]
+        friction = float(work.imag.sum(axis=1) @ qx[:, 0]), float(work.imag.sum(axis=0) @ qy[0])
+        stored = self._elastic_energy(waves, scaled) + energies[0]
         return PeriodicState(pressure, waves, memory, depth, friction, stored, energies[1], trend)
 
-    def _elastic_energy(self, waves: ComplexArray) -> float:
-        """Return the energy that is stored in no mode."""
-        elastic = self.modes.instantaneous * self._shape + self._rigid
-        squares = np.square(waves.real) + np.square(waves.imag)
-        return 0.5 * float(np.vdot(self.grid.weights * elastic, squares))
+    def _elastic_energy(self, waves: ComplexArray, scaled: ComplexArray) -> float:
+        """Return the energy that is stored in no mode, given the waves of the pressure, and scaled ones."""
+        found = self.modes.instantaneous * float(np.vdot(scaled, scaled).real)
+        if self._rigid.any():
+            found += float(np.vdot(waves, self.grid.weights * self._rigid * waves).real)
+        return 0.5 * found
 
     def _step_of(self, clock_step: float, path: Array, lagging: float) -> _Step:
         """Return the problem of a step, kept from one that differs by rounding only."""
@@ -351,8 +352,12 @@ class PeriodicMover:
         else:
             indentation = self.mean_height - end.gap / self.depth_unit
         if state is not None and load != 0.0 and state.pressure.any():
-            before = state.pressure
-            known += problem.contact.exact.transfer * self.grid.folded(state.waves)
+            before = self._continued(state, load, clock_step)
+            added = self.backend.transforms.forward(before)
+            added *= problem.contact.exact.transfer
+            known += added
+            del added
+            before = before if before.any() else None
         gap = self.grid.unfolded_field(known) + self.height
         del known  # large
         if before is None and (load == 0.0 or (indentation is not None and indentation <= float(gap.min()))):
@@ -366,17 +371,27 @@ class PeriodicMover:
                 self.products += 1
                 return pressure, level
         target = Target(load, indentation, self._tolerance(None if state is None else state.waves))
-        trend = None if state is None else state.trend
-        pressure, depth, products = problem.contact.solved(gap, before, target, trend, clock_step)
+        pressure, depth, products = problem.contact.solved(gap, before, target)
         self.products += products
         return pressure, depth
+
+    def _continued(self, state: PeriodicState, load: float | None, clock_step: float) -> Array:
+        """Return the pressure of a state changed as in the step before, for a given load (the sum of all points)."""
+        if state.trend is None:
+            return state.pressure.copy()
+        found = clock_step * state.trend
+        found += state.pressure
+        np.maximum(found, 0.0, out=found)
+        total = float(found.sum())
+        if load is not None and total > 0.0:
+            found *= load / total
+        return found
 
     def _tolerance(self, waves: ComplexArray | None) -> float:
         """Return a tolerance of the gap in rms heights, tighter for light pressures (waves of the last one)."""
         if waves is None:
             return _FIRST * self._tightness
-        squares = np.square(waves.real) + np.square(waves.imag)
-        rms = self.modes.instantaneous * math.sqrt(float(np.vdot(self._softness, squares)))
+        rms = self.modes.instantaneous * float(np.linalg.norm(self._softness * waves))
         return self._tightness * min(1.0, max(_LEAST_DISPLACEMENT, rms))
 
     def _elastic(self) -> Array:

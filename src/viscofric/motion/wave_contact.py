@@ -66,18 +66,15 @@ class StepContact:
         """Products with the operators so far."""
         return self.exact.products + self.single.products
 
-    def solved(
-        self, gap: Array, before: Array | None, target: Target, trend: Array | None = None, duration: float = 0.0
-    ) -> tuple[Array, float, int]:
+    def solved(self, gap: Array, guess: Array | None, target: Target) -> tuple[Array, float, int]:
         """Return pressure, indentation and the number of products; ConvergenceError if none are found.
 
-        `gap` is that of the pressure before, None if that is zero, at an indentation of zero; it is overwritten.
-        The pressure is likely to change by its trend for the duration.
+        `gap` is that of the guess of the pressure, None if that is zero, at an indentation of zero; both are
+        overwritten.
         """
-        start, pressure = self.products, None
-        if before is not None and np.any(before > 0.0):
-            pressure = before.copy()
-            indentation = self._followed(gap, pressure, target, trend, duration)
+        start, pressure = self.products, guess
+        if pressure is not None:
+            indentation = self._followed(gap, pressure, target)
             if indentation is not None:
                 return pressure, indentation, self.products - start
             gap = gap - self.exact(pressure)
@@ -95,31 +92,17 @@ class StepContact:
             )
         return result.pressure, result.indentation, self.products - start + one.products
 
-    def _followed(
-        self, gap: Array, pressure: Array, target: Target, trend: Array | None, duration: float
-    ) -> float | None:
+    def _followed(self, gap: Array, pressure: Array, target: Target) -> float | None:
         """Change a pressure and its gap until they meet the target; return the indentation, None if they do not."""
-        p, g, backend = pressure.reshape(-1), gap.reshape(-1), self.exact.backend
+        p, g = pressure.reshape(-1), gap.reshape(-1)
         changes: list[_Change] = []
-        contact = backend.cells(pressure > 0.0)
-        old = p[contact.indices]
-        values = old.copy() if trend is None else old + duration * trend.reshape(-1)[contact.indices]
+        loaded = np.flatnonzero(p > 0.0)
         least, since = np.inf, 0
         for _ in range(_MOST):
-            np.maximum(values, 0.0, out=values)
-            if target.load is not None:
-                total = float(values.sum())
-                if total == 0.0:
-                    return None
-                values *= target.load / total
-            changes = [*changes[1 - _COMBINED :], self._displaced(contact, values - old, target.tolerance)]
-            p[contact.indices] = values
-            g += changes[-1].image
-            loaded = contact.indices[values > 0.0]
             level = float(g[loaded].mean()) if target.indentation is None else target.indentation
             chosen = gap < level
             chosen.reshape(-1)[loaded] = True
-            contact = backend.cells(chosen)
+            contact = self.exact.backend.cells(chosen)
             residual = level - g[contact.indices]
             count = max(len(residual), 1)
             left = math.sqrt(float(residual @ residual) / count)
@@ -131,6 +114,16 @@ class StepContact:
                 return None
             old = p[contact.indices]
             values = old + self._correction(residual, contact, changes, target.load is not None)
+            np.maximum(values, 0.0, out=values)
+            if target.load is not None:
+                total = float(values.sum())
+                if total == 0.0:
+                    return None
+                values *= target.load / total
+            changes = [*changes[1 - _COMBINED :], self._displaced(contact, values - old, target.tolerance)]
+            p[contact.indices] = values
+            g += changes[-1].image
+            loaded = contact.indices[values > 0.0]
         return None
 
     def _displaced(self, contact: Cells, change: Array, tolerance: float) -> _Change:
@@ -144,19 +137,25 @@ class StepContact:
 
     def _correction(self, residual: Array, contact: Cells, changes: list[_Change], fixed_load: bool) -> Array:
         """Return the change of the pressure at the cells of a contact that closes their gap, or levels it."""
-        fields, images = (np.array([each[contact.indices] for each in kind]) for kind in zip(*changes, strict=True))
         if fixed_load:
             residual -= residual.mean()
-            images -= images.mean(axis=1, keepdims=True)
-        products = (images @ images.T).astype(float)
-        sizes = np.sqrt(np.diag(products))
-        sizes[sizes == 0.0] = 1.0
-        overlaps = images @ residual.astype(images.dtype) / sizes
-        weights = np.linalg.lstsq(products / np.outer(sizes, sizes), overlaps, rcond=_ALIKE)[0] / sizes
-        residual -= weights @ images
+        combined = None
+        if changes:
+            fields, images = (np.array([each[contact.indices] for each in kind]) for kind in zip(*changes, strict=True))
+            if fixed_load:
+                images -= images.mean(axis=1, keepdims=True)
+            products = (images @ images.T).astype(float)
+            sizes = np.sqrt(np.diag(products))
+            sizes[sizes == 0.0] = 1.0
+            overlaps = images @ residual.astype(images.dtype) / sizes
+            weights = np.linalg.lstsq(products / np.outer(sizes, sizes), overlaps, rcond=_ALIKE)[0] / sizes
+            residual -= weights @ images
+            combined = weights @ fields
         values = residual.astype(self.single.precision)
         extended = contact.scattered if self.extension is None else self.extension.on(contact)
-        correction = contact.gathered(self.single.precondition(extended(values))) + weights @ fields
+        correction = contact.gathered(self.single.precondition(extended(values)))
+        if combined is not None:
+            correction = correction + combined
         if fixed_load:
             correction -= correction.mean()
         return np.asarray(correction)

@@ -113,10 +113,11 @@ class StepResponse:
 
         They carry the same factor as memory (n, rows, columns) and pressure (rows, columns).
         """
-        found = _weighted(modes.C * np.exp(-self.steps), memory).astype(complex)
+        left = _weighted(modes.C * np.exp(-self.steps), memory)
         if self.turn.any():
-            found *= np.exp(1j * self.turn)
-        found += self.start * pressure
+            left *= np.exp(1j * self.turn)
+        found = self.start * pressure
+        found += left
         return np.asarray(found)
 
     def coefficients(self, rows: slice) -> StepCoefficients:
@@ -126,6 +127,11 @@ class StepResponse:
         if len(self.turn) == 1:
             return self.few
         return StepCoefficients(*(each[:, rows] for each in self.few))
+
+    def of_pressures(self, rows: slice, before: ComplexArray, after: ComplexArray) -> float:
+        """Return the part of the dissipated energy that is of some rows of the pressures alone."""
+        loss, mixed = (each if len(each) == 1 else each[rows] for each in (self.loss, self.mixed))
+        return float(_overlap(loss, before, before) + _overlap(loss, after, after) + _overlap(mixed, before, after))
 
 
 class Advanced(NamedTuple):
@@ -149,17 +155,17 @@ def advance(
 
     The given memory, which stores the energy held, is overwritten unless `keep` is set.
     """
-    before, after = pressures
     found = np.empty_like(memory) if keep else memory
-    squares = np.square(np.abs(before)) + np.square(np.abs(after))
-    dissipated = float((response.loss * squares).sum()) + float((response.mixed * np.conj(before) * after).sum().real)
-    stored = 0.0
-    for rows in _blocks(len(modes), *before.shape):
+    # Pressures are rounded as the memory is: where they are equal, nothing is dissipated.
+    both = np.stack(pressures, axis=1, dtype=memory.dtype, casting="same_kind")
+    stored = dissipated = 0.0
+    for rows in _blocks(len(modes), *pressures[0].shape):
         decay, *pair = response.coefficients(rows)
-        both, old, new = np.stack([before[rows], after[rows]]), memory[:, rows], found[:, rows]
-        dissipated -= float(np.vdot(both, _summed(modes.C, pair[::-1], old)).real)
+        first, last, old, new = both[rows, 0], both[rows, 1], memory[:, rows], found[:, rows]
+        dissipated += response.of_pressures(rows, first.astype(complex), last.astype(complex))
+        dissipated -= float(modes.C @ (_overlap(pair[1], first, old) + _overlap(pair[0], last, old)))
         np.multiply(old, decay.astype(memory.dtype), out=new)
-        new += _spread(pair, both.astype(memory.dtype))
+        new += _spread(pair, both[rows])
         stored += stored_energy(modes, new)
     return Advanced(found, stored, dissipated - stored + held)
 
@@ -192,23 +198,21 @@ def _weighted(weights: Array, fields: NDArray[Any]) -> NDArray[Any]:
 
 
 def _spread(weights: list[NDArray[Any]], fields: ComplexArray) -> ComplexArray:
-    """Return the sum of two fields (2, rows, columns) with weights of each mode, two of (n, rows, columns)."""
+    """Return the sum of two fields (rows, 2, columns) with weights of each mode, two of (n, rows, columns)."""
     if weights[0].shape[2] > 1:
-        first, second = (one.astype(fields.dtype) * field for one, field in zip(weights, fields, strict=True))
+        first, second = (one.astype(fields.dtype) * fields[:, place] for place, one in enumerate(weights))
         return np.asarray(first + second)
     matrices = np.stack([one[:, :, 0].T for one in weights], axis=2).astype(fields.dtype)
-    return (matrices @ fields.transpose(1, 0, 2)).transpose(1, 0, 2)
+    return (matrices @ fields).transpose(1, 0, 2)
 
 
-def _summed(compliances: Array, weights: list[NDArray[Any]], memory: ComplexArray) -> ComplexArray:
-    """Return Σ C w q over modes for a memory q and each of the weights w (n, rows, columns)."""
-    if weights[0].shape[2] > 1:
-        return np.array([_weighted(compliances, one.astype(memory.dtype) * memory) for one in weights])
-    matrices = np.stack([(compliances[:, None] * one[:, :, 0]).T for one in weights], axis=1).astype(memory.dtype)
-    return (matrices @ memory.transpose(1, 0, 2)).transpose(1, 0, 2)
+def _overlap(weights: NDArray[Any], one: ComplexArray, others: ComplexArray) -> Array:
+    """Return the real part of Σ w p* q over waves, for one p (rows, columns) and each q (…, rows, columns)."""
+    if weights.shape[-1] == 1:
+        return np.asarray((weights[..., 0] * np.vecdot(one, others)).real.sum(axis=-1))
+    return np.asarray(np.vecdot(one, weights.astype(others.dtype) * others).real.sum(axis=-1, dtype=float))
 
 
 def stored_energy(modes: Modes, memory: ComplexArray) -> float:
     """Return ½ Σ C |q|² of a memory (n, rows, columns)."""
-    parts = memory.view(memory.real.dtype)
-    return 0.5 * float(modes.C @ np.einsum("krx,krx->kr", parts, parts).sum(axis=1, dtype=float))
+    return 0.5 * float(modes.C @ np.vecdot(memory, memory).real.sum(axis=1, dtype=float))
