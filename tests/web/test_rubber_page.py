@@ -184,6 +184,23 @@ def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> 
 
 
 @pytest.mark.slow  # a browser
+@pytest.mark.apart
+def test_files_are_dropped_anywhere_and_removed(tab: Tab) -> None:
+    rows = [f"{T},{f},{2e6 * f**0.2 * 10 ** (-0.01 * T)},{3e5}" for T in (20, 30, 40) for f in (0.1, 0.3, 1, 3, 10)]
+    text = "\n".join(["T (degC),f (Hz),E' (Pa),E'' (Pa)", *rows, ""])
+    tab.step("shift")
+    drop = """(() => { const dataTransfer = new DataTransfer(); dataTransfer.items.add(new File([given[0]], given[1]));
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true })); })()"""
+    tab.value(drop, text, "Gummi (1).csv")
+    drawn(tab, "isotherms-storage-modulus", 3)
+    assert tab.value("page.state.state.step") == "sweeps"
+    assert tab.value("page.state.state.get('material.dma')") == "Gummi (1).csv"
+    tab.page.get_by_role("button", name="Remove Gummi (1).csv").click()
+    tab.until("page.state.state.get('material.dma') === undefined")
+    tab.until("!document.querySelector('#step-sweeps .figure')")
+
+
+@pytest.mark.slow  # a browser
 @pytest.mark.exhaustive
 def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
     rows = [f"{10.0**k},{2e6 * 10.0 ** (0.1 * k)},{2e5}" for k in range(-5, 6)]

@@ -20,8 +20,6 @@ import { computed, html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
-export * from "./parts.js";
-
 const listed = (value) => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
 const readable = (words) =>
   String(words ?? "")

@@ -5,26 +5,18 @@ import * as figures from "./figures.js";
 import * as fields from "./fields.js";
 import { Tools, followKeys } from "./header.js";
 import { Job, newest, result } from "./jobs.js";
-import { effect, html, render } from "./reactive.js";
+import { Component, effect, html, render, view } from "./reactive.js";
 import { state } from "./state.js";
 import contact from "./steps/contact.js";
 import * as units from "./units.js";
-import { Button } from "./views.js";
+import { Button, Notes } from "./views.js";
 
-const { h } = fields;
-/** A step whose module is fetched when somebody looks at it; one that cannot be had says so, and leaves the others alone. */
+/** A step whose module is fetched when somebody looks at it. */
 const later = (id, title, summary, module, show = "mount") => ({
   id,
   title,
   summary,
-  async mount(section, app) {
-    try {
-      (await import(module))[show](section, app);
-    } catch (error) {
-      console.error(error);
-      section.append(app.fields.note([`This step could not be shown: ${error.message}`], "error"));
-    }
-  },
+  mount: async (section, app) => (await import(module))[show](section, app),
 });
 
 function source(state) {
@@ -96,7 +88,7 @@ const OF_RUBBER = {
 const FIRST = "contact";
 
 const app = { state, units, figures, fields, api, start: null, goTo, announce, explain, waits, isSynthetic };
-const steps = new Map();
+const steps = new Map(STEPS.map((step) => [step.id, step]));
 const check = new Job("export-run-file", { wait: 200, inputs: () => ({ study: state.study }) });
 
 /** A sentence for screen readers alone. */
@@ -143,58 +135,95 @@ function goTo(id, { focus = true } = {}) {
   if (!steps.has(id)) return;
   if (location.hash !== `#${id}`) history.pushState(null, "", `#${id}`);
   state.lookAt(id);
-  for (const [one, step] of steps) {
-    step.section.hidden = one !== id;
-    if (one === id) step.link.setAttribute("aria-current", "step");
-    else step.link.removeAttribute("aria-current");
-  }
-  const step = steps.get(id);
-  if (!step.mounted) {
-    step.mounted = true;
-    mount(step);
-  }
-  document.title = `${step.title} · viscofric`;
-  scrollRailTo(step.link);
-  if (focus) {
+  document.title = `${steps.get(id).title} · viscofric`;
+  // once the step is seen
+  setTimeout(() => {
+    scrollRailTo(document.querySelector(`#steps a[href="#${id}"]`));
+    if (!focus) return;
     window.scrollTo(0, 0);
-    step.heading.focus({ preventScroll: true });
-  }
+    document.getElementById(`title-${id}`).focus({ preventScroll: true });
+  });
 }
 
-async function mount(step) {
-  try {
-    await step.module.mount(step.body, app);
-  } catch (error) {
-    console.error(error);
-    step.body.append(fields.note([`This step could not be shown: ${error.message}`], "error"));
-  }
-}
-
-function addStep(module, number) {
-  const { id, title } = module;
-  const summary = h("span", { class: "step-summary" });
-  const link = h(
-    "a",
-    { href: `#${id}`, class: "step-link" },
-    h("span", { class: "step-number", "aria-hidden": "true" }, String(number)),
-    h("span", { class: "step-words" }, h("span", { class: "step-title" }, title), summary),
-  );
-  link.addEventListener("click", (event) => {
+const Link = view(({ id, title, summary, number }) => {
+  const go = (event) => {
     event.preventDefault();
     goTo(id);
+  };
+  return html`<li>
+    <a href="#${id}" class="step-link" aria-current=${state.step === id ? "step" : undefined} onClick=${go}>
+      <span class="step-number" aria-hidden="true">${number}</span>
+      <span class="step-words"><span class="step-title">${title}</span><span class="step-summary">${summary(state)}</span></span>
+    </a>
+  </li>`;
+});
+
+/** What a step has made of an element, from when it is looked at first; one that cannot be had leaves the others alone. */
+class Body extends Component {
+  shouldComponentUpdate() {
+    return false;
+  }
+  async componentDidMount() {
+    try {
+      await this.props.step.mount(this.place, app);
+    } catch (error) {
+      console.error(error);
+      render(html`<${Notes} kind="error" list=${[`This step could not be shown: ${error.message}`]} />`, this.place);
+    }
+  }
+  render() {
+    return html`<div class="step-body" ref=${(place) => (this.place = place)} />`;
+  }
+}
+
+const Section = view(({ step }, self) => {
+  const { id, title } = step;
+  const seen = state.step === id;
+  self.wasSeen ||= seen;
+  return html`<section class="step" id="step-${id}" hidden=${!seen} aria-labelledby="title-${id}">
+    <h1 tabindex="-1" id="title-${id}">${title}</h1>
+    ${self.wasSeen && html`<${Body} step=${step} />`}
+  </section>`;
+});
+
+/** Sentences that have no field, and the steps. */
+const Main = view(() => {
+  const failed = check.error ? [check.error.message] : [];
+  const elsewhere = fields.homeless().map((problem) => explain(named(problem), state.step));
+  return html`
+    <${Notes} kind="error" aria-live="assertive" list=${[...elsewhere, ...failed]} />
+    ${STEPS.map((step) => html`<${Section} key=${step.id} step=${step} />`)}
+  `;
+});
+
+/** Files dropped beside a place for files go to the first place of the step, or else to that of the data. */
+function takeFilesAnywhere() {
+  const place = () =>
+    [...document.querySelectorAll(".step:not([hidden]) .drop-field")]
+      .find((one) => one.checkVisibility())
+      ?.querySelector("input");
+  document.addEventListener("dragover", (event) => event.preventDefault());
+  document.addEventListener("drop", (event) => {
+    if (event.defaultPrevented) return;
+    event.preventDefault();
+    const { files } = event.dataTransfer;
+    if (files.length === 0) return;
+    const given = new DataTransfer();
+    for (const file of files) given.items.add(file);
+    const hand = (left) => {
+      const input = place();
+      if (!input) return left > 0 && setTimeout(() => hand(left - 1), 50);
+      input.files = given.files;
+      input.dispatchEvent(new Event("change"));
+      return true;
+    };
+    if ([...files].some(({ name }) => name.toLowerCase().endsWith(".toml"))) goTo("export");
+    else if (!place()) {
+      state.setView("sweeps.source", "dma");
+      goTo("sweeps");
+    }
+    setTimeout(() => hand(40));
   });
-  document.getElementById("steps").append(h("li", {}, link));
-  const heading = h("h1", { tabindex: "-1", id: `title-${id}` }, title);
-  const body = h("div", { class: "step-body" });
-  const section = h(
-    "section",
-    { class: "step", id: `step-${id}`, hidden: true, "aria-labelledby": `title-${id}` },
-    heading,
-    body,
-  );
-  document.getElementById("main").append(section);
-  steps.set(id, { id, title, module, link, section, heading, body, mounted: false });
-  effect(() => void (summary.textContent = module.summary(state)));
 }
 
 /** Whether a study rests on synthetic data. */
@@ -211,39 +240,29 @@ function named({ field, message }) {
   return { field, message: about };
 }
 
-/** Have the document checked after each change, and show the sentences that have no field. */
-function watch() {
-  const elsewhere = fields.note([], "error");
-  elsewhere.setAttribute("aria-live", "assertive");
-  document.getElementById("main").prepend(elsewhere);
-  check.start();
-  effect(() => {
-    const failed = check.error ? [check.error.message] : [];
-    elsewhere.set([...fields.homeless().map((problem) => explain(named(problem), state.step)), ...failed]);
-  });
-}
-
 async function begin() {
   const main = document.getElementById("main");
   try {
     app.start = await api.getStart();
-    state.begin(app.start.study);
-    render(html`<${Tools} announce=${announce} />`, document.getElementById("tools"));
-    followKeys(announce);
-    STEPS.forEach((module, at) => addStep(module, at + 1));
   } catch (error) {
-    main.append(fields.note([`The page could not be started: ${error.message}`], "error"));
+    render(html`<${Notes} kind="error" list=${[`The page could not be started: ${error.message}`]} />`, main);
     return;
   }
+  state.begin(app.start.study);
+  const fromAddress = () => (steps.has(location.hash.slice(1)) ? location.hash.slice(1) : (state.step ?? FIRST));
+  render(html`<${Tools} announce=${announce} />`, document.getElementById("tools"));
+  render(STEPS.map((step, at) => html`<${Link} ...${step} number=${at + 1} />`), document.getElementById("steps"));
+  render(html`<${Main} />`, main);
+  followKeys(announce);
+  takeFilesAnywhere();
   effect(() => void (document.getElementById("synthetic").hidden = !isSynthetic(state.study)));
   document.querySelector(".skip").addEventListener("click", (event) => {
     event.preventDefault();
-    steps.get(state.step).heading.focus();
+    document.getElementById(`title-${state.step}`).focus();
   });
-  const fromAddress = () => (steps.has(location.hash.slice(1)) ? location.hash.slice(1) : (state.step ?? FIRST));
   window.addEventListener("popstate", () => fromAddress() !== state.step && goTo(fromAddress()));
   goTo(fromAddress(), { focus: false });
-  watch();
+  check.start();
 }
 
 begin();

@@ -1,9 +1,6 @@
-// Parts of the page outside views: elements, buttons, notes, tables.
+// Elements of a figure: buttons, icons, tables.
 
-import { html, render } from "./reactive.js";
 import * as units from "./units.js";
-
-const listed = (value) => (Array.isArray(value) ? value : value === undefined || value === null ? [] : [value]);
 
 /** An element: h("p", {class: "quiet", onclick}, "text", child). */
 export function h(tag, properties = {}, ...children) {
@@ -51,24 +48,6 @@ export function button({ label, onClick, kind, symbol, title, disabled }) {
     symbol ? icon(symbol) : null,
     label,
   );
-}
-
-/**
- * Sentences about the data: note(["…"], "warning"); kinds are "note", "warning", "error". note.set(list) changes them.
- * A sentence may be a template with elements.
- */
-export function note(list = [], kind = "note") {
-  const element = h("ul", { class: `notes ${kind}` });
-  element.set = (sentences, other = kind) => {
-    element.className = `notes ${other}`;
-    render(
-      listed(sentences).map((sentence) => html`<li>${sentence}</li>`),
-      element,
-    );
-    element.hidden = element.children.length === 0;
-  };
-  element.set(list);
-  return element;
 }
 
 /** A table of numbers: table(["speed (mm/s)", "μ"], [[20, 0.0078], …], "caption"). */
