@@ -34,7 +34,7 @@ async function attempt(app, work) {
 async function pack(app) {
   const found = await app.api.runJob("export-run-file", { study: state.study, options: { pack: true } });
   const { name } = found.download;
-  app.fields.h("a", { href: app.api.downloadUrl(name), download: name }).click();
+  Object.assign(document.createElement("a"), { href: app.api.downloadUrl(name), download: name }).click();
   return "The zip file is ready.";
 }
 
