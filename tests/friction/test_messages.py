@@ -203,7 +203,7 @@ def test_assumptions_say() -> None:
         ),
         "one temperature": (
             "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms the face of "
-            "the contact by 0.00059 K, and the rubber where the loss is released by 0.0021 K (at 30 °C, 20 mm/s and 25 "
+            "the contact by 0.00056 K, and the rubber where the loss is released by 0.0022 K (at 30 °C, 20 mm/s and 25 "
             "N; typical handbook values of filled rubber and PTFE are assumed). This shifts the speed by up to 0.0002 "
             "decades and changes friction by 0.0035 to 0.013 % (good if ≤ 5 %)."
         ),
