@@ -84,7 +84,7 @@ class Test:
         run = vf.solve_transient(self.rubber, self.ball, history, times=rows, accuracy=3e-4)
         given = np.interp(rows, knots, values)
         load, depth = (given, run.indentation) if control == "load" else (run.load, given)
-        keep = load > 0.0
+        keep = (load > 0.0) | (control == "indentation")  # a given depth is part of the history where contact is lost
         return self.record(*(np.append(0.0, one[keep]) for one in (rows, load, depth)), control)
 
     def unloading(self) -> Any:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from viscofric.contact.free.grids import Extent, Grid
     from viscofric.motion.chains import Reached
     from viscofric.motion.problem import Problem
+    from viscofric.motion.schedule import Schedule
 
 logger = logging.getLogger(__name__)
 
@@ -47,8 +48,9 @@ _LEFT = 1.0 / (_FINER**2 - 1.0)
 # Part of the error of the steps that is left after its extrapolation; margin of the errors of friction and energy by
 # cells, whose signs change; least one of the energy, over that of cells of second order (benchmarks/motion).
 _STEPS_LEFT, _MARGIN, _LEAST_ENERGY = 0.5, 1.5, 1.5
-# Steps after a start that are not judged.
-_RESOLVED_STEPS = 4
+# After a start or a turn, friction changes within slides of no length: so many steps and cells of the coarser grid are
+# not judged, of the way to the next turn at most such a part.
+_RESOLVED_STEPS, _RESOLVED_CELLS, _UNJUDGED = 4, 4, 0.1
 # A first window is so much wider than the elastic contact; it is tried again where the contact is so much shorter.
 _FIRST_WINDOW, _SHORT, _ATTEMPTS = 1.25, 0.6, 5
 # Least friction coefficient that errors are compared with, in the slope of the indenter at the contact's edge.
@@ -140,6 +142,7 @@ def solve_free(
     level = task.go_on(waiting.pop(0)) if waiting else None
     level = _first(task, _LINE_CELLS if line else _POINT_CELLS, level)
     found, levels = level.track, [level]
+    judged = found.moments
     notes: tuple[Note, ...] = (_ONE_GRID,)
     while not found.interrupted or waiting:
         before, largest = level, _largest(level)
@@ -149,7 +152,8 @@ def solve_free(
             level = replace(level, track=replace(level.track, interrupted=True)) if stopped else task.go_on(level)
         elif level.cells * _FINER > most:
             raise ConvergenceError(
-                f"the accuracy {problem.accuracy:g} is not reached with {level.cells:.0f} cells along the contact.",
+                f"the accuracy {problem.accuracy:g} is not reached with {level.cells:.0f} cells along the contact, "
+                f"which give {_worst(judged, largest):.2g}; a larger accuracy takes coarser cells.",
                 code="accuracy-not-reached",
             )
         else:
@@ -163,7 +167,7 @@ def solve_free(
             break
         moments = _compared(level, before)
         found, notes = replace(level.track, moments=moments), ()
-        judged = moments if times is not None else _resolved(moments, before.track.moments, problem.schedule.kinks)
+        judged = moments if times is not None else _resolved(moments, before, problem.schedule)
         error = _worst(judged, _largest(level))
         logger.info(
             "%.0f cells along the contact: known to %.1g, %d products", level.cells, error, level.mover.products
@@ -172,6 +176,8 @@ def solve_free(
             break
     if told is not None and not found.interrupted:
         told.end_all()
+    if not found.interrupted and times is None:
+        notes = (*notes, *_after_starts(found.moments, judged, _largest(level), problem.accuracy))
     return found, (*_notes(problem, level.mover.setting, found), *notes), levels
 
 
@@ -286,16 +292,43 @@ def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Ar
     return found
 
 
-def _resolved(moments: list[Moment[Any]], coarse: list[Moment[Any]], kinks: Array) -> list[Moment[Any]]:
-    """Leave out the first steps after a start or a turn, over which the coarser grid has too few steps."""
-    times = np.array([one.instant.time for one in coarse])
+def _resolved(moments: list[Moment[Any]], coarser: Level, schedule: Schedule) -> list[Moment[Any]]:
+    """Leave out what follows a start or a turn within too few steps or cells of the coarser grid."""
+    times = np.array([one.instant.time for one in coarser.track.moments])
+    setting, kinks = coarser.mover.setting, schedule.kinks
+    shortest = _RESOLVED_CELLS * coarser.mover.grid.spacing * setting.scale.length
     kept = []
     for one in moments:
-        begun = kinks[np.searchsorted(kinks, one.instant.time, side="right") - 1]
-        steps = np.count_nonzero((times > begun) & (times <= one.instant.time))
-        if one.instant.time == begun or steps >= _RESOLVED_STEPS:
+        place = min(int(np.searchsorted(kinks, one.instant.time, side="right")), len(kinks) - 1) - 1
+        begun, ends = (schedule.at(float(kinks[k])) for k in (place, place + 1))
+        steps = np.count_nonzero((times > begun.time) & (times <= one.instant.time))
+        slid, stroke = (math.hypot(*(instant.position - begun.position)) for instant in (one.instant, ends))
+        early = 0.0 < slid < min(shortest, _UNJUDGED * stroke) and _starts(schedule, begun.time)
+        if one.instant.time == begun.time or (steps >= _RESOLVED_STEPS and not early):
             kept.append(one)
     return kept
+
+
+def _starts(schedule: Schedule, time: float) -> bool:
+    """Return whether the indenter begins to move, or turns, at a time."""
+    return schedule.before != "sliding" if time == schedule.start else schedule.starts_at(time)
+
+
+def _after_starts(
+    moments: Sequence[Moment[Any]], judged: Sequence[Moment[Any]], largest: Scales, accuracy: float
+) -> tuple[Note, ...]:
+    """Return a note where errors soon after a start or a turn are larger than the accuracy."""
+    early = {id(one) for one in moments} - {id(one) for one in judged}
+    errors = [(_worst([one], largest), one.instant.time) for one in moments if id(one) in early]
+    errors = [one for one in errors if one[0] > accuracy]
+    if not errors:
+        return ()
+    worst, time = max(errors)
+    said = (
+        f"In {len(errors)} steps soon after a start or a turn, within a few cells, the stated error is larger than the "
+        f"accuracy: up to {worst:.2g} of the largest value, at {time:.3g} s."
+    )
+    return (Note("coarse-start", said, values={"steps": len(errors), "error": worst, "time": time}),)
 
 
 def _values(moment: Moment[Any]) -> tuple[float, float, float, float, float, float]:
