@@ -134,6 +134,19 @@ def test_what_was_there_before_goes_on(before: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("before", ["at rest", "sliding"])
+def test_first_step_from_a_steady_state_bears_the_pressure_at_its_end(before: str) -> None:
+    # The steady pressure meets the contact conditions of that step too, under the old load.
+    history = vf.History([0.0, 1e-3], pressure=[1e3, 2e3], speed=1.0, before=before)
+    seen = stepped(mover(TWO_MODES, profile(32), history), [0.0, 5e-4, 1e-3])
+    np.testing.assert_allclose([one.load for one in seen], [1e3, 1.5e3, 2e3], rtol=1e-12)  # rounding
+    start = [0.0, 0.0, 1e-3]
+    rest = mover(TWO_MODES, profile(32), vf.History(start, pressure=[1e3, 2e3, 2e3], before=before, speed=1.0))
+    schedule = rest.schedule
+    after = rest.step(rest.begin(), schedule.at(0.0, after=False), schedule.at(0.0))
+    assert rest.observe(after).load == pytest.approx(2e3, rel=1e-12)
+
+
 def test_growing_contact_is_elastic_with_the_creep_compliance() -> None:
     # E. H. Lee, J. R. M. Radok, J. Appl. Mech. 27 (1960) 438: while a contact grows, depth and extent under a constant
     # load are those of an elastic solid with the modulus 1/J(t); Westergaard's wave among them.

@@ -377,11 +377,11 @@ class PeriodicMover:
 
     def _continued(self, state: PeriodicState, load: float | None, clock_step: float) -> Array:
         """Return the pressure of a state changed as in the step before, for a given load (the sum of all points)."""
-        if state.trend is None:
-            return state.pressure.copy()
-        found = clock_step * state.trend
-        found += state.pressure
-        np.maximum(found, 0.0, out=found)
+        found = state.pressure.copy()
+        if state.trend is not None:
+            found += clock_step * state.trend
+            np.maximum(found, 0.0, out=found)
+        # Also of a state without a trend: the contact conditions of a steady one are met by the old load.
         total = float(found.sum())
         if load is not None and total > 0.0:
             found *= load / total
