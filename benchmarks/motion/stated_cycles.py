@@ -1,17 +1,20 @@
 """Whether the errors that periodic states state hold: random periods against solutions ten times as accurate.
 
 Usage: python benchmarks/motion/stated_cycles.py [--count 48] [--first 0] [--accuracy 1e-3 1e-2] [--kinds ball cone ...]
+       [--finer 0.1] [--seconds 300]
 
 Materials and bodies of `stated_errors.py`.  A ball and a cone oscillate on springs, ridges slide back and forth or
 oscillate on waves, a cylinder does so on cells.  Amplitudes from 0.5 % to 120 % of the mean (where a load would be
 negative, it is zero), 12 to 48 points in a period.  An error counts as holding where the difference is no more than it
-and the error that the finer solution states for itself; `strict` leaves the latter out.
+and the error that the finer solution states for itself; `strict` leaves the latter out.  With `--seconds` (not on
+Windows) a problem is given up after this CPU time.
 """
 
 from __future__ import annotations
 
 import argparse
 import math
+import signal
 import time
 from typing import Any
 
@@ -25,6 +28,14 @@ KINDS = ("ball", "cone", "ridges", "cylinder")
 NUMBERS = (
     "energy_per_cycle", "storage_stiffness", "loss_stiffness", "loss_tangent", "mean_friction_coefficient",
 )  # fmt: skip
+
+
+class _TooLongError(Exception):
+    """A problem has taken more CPU time than allowed."""
+
+
+def _give_up(*_: object) -> None:
+    raise _TooLongError("given up after too much CPU time")
 
 
 def draw(number: int, accuracy: tuple[float, float], kinds: tuple[str, ...]) -> tuple[str, Any, Any, vf.History, float]:
@@ -60,19 +71,29 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--accuracy", type=float, nargs=2, default=(1e-3, 1e-2), help="least and largest")
     parser.add_argument("--finer", type=float, default=0.1, help="accuracy compared with, over that of the problem")
     parser.add_argument("--kinds", nargs="+", default=KINDS, choices=KINDS)
+    parser.add_argument(
+        "--seconds", type=float, default=0.0, help="CPU time after which a problem is given up; 0: never"
+    )
     options = parser.parse_args(arguments)
+    if options.seconds > 0.0:
+        signal.signal(signal.SIGVTALRM, _give_up)
     rows: dict[str, list[tuple[float, float, float, float]]] = {name: [] for name in NUMBERS}
     unsolved, periods, spent = [], [], 0.0
     for number in range(options.first, options.first + options.count):
         name, material, body, history, accuracy = draw(number, tuple(options.accuracy), tuple(options.kinds))
         try:
+            if options.seconds > 0.0:
+                signal.setitimer(signal.ITIMER_VIRTUAL, options.seconds)
             begun = time.process_time()
             found = vf.solve_cycle(material, body, history, accuracy=accuracy)
             spent += time.process_time() - begun
             exact = vf.solve_cycle(material, body, history, accuracy=options.finer * accuracy)
-        except vf.ConvergenceError as failure:
+        except (vf.ConvergenceError, _TooLongError) as failure:
             unsolved.append(f"{name}: {failure}")
             continue
+        finally:
+            if options.seconds > 0.0:
+                signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
         periods.append(found.periods)
         for quantity, row in rows.items():
             value, error, true, left = (
@@ -103,7 +124,8 @@ def main(arguments: list[str] | None = None) -> None:
         ("true/stated, median", "median", ".2f"), ("worst", "worst", ".2f"), ("stated/value", "relative", ".1e"),
     )  # fmt: skip
     measuring.print_table("periodic states", table, columns)
-    print(f"periods: {np.median(periods):g}, at most {max(periods)}; {spent:.0f} CPU s", *unsolved, sep="\n")
+    counts = f"solved: {len(periods)}, not solved: {len(unsolved)}; "
+    print(f"{counts}periods: {np.median(periods):g}, at most {max(periods)}; {spent:.0f} CPU s", *unsolved, sep="\n")
 
 
 if __name__ == "__main__":
