@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any
 
 from web.contact_studies import ROUGH
@@ -115,9 +116,10 @@ SEEN = """Object.fromEntries([...document.querySelectorAll('.step:not([hidden]) 
     words: one.querySelector('figcaption').textContent,
     drawn: (one.querySelector('.plot').data ?? []).map((trace) =>
       [trace.name, ...['x', 'y', 'z'].map((axis) => JSON.stringify(Array.from(trace[axis] ?? [])))])}]))"""
-#: The page computes nothing more.
-AT_REST = """[...document.querySelectorAll('.progress')].every((one) => one.hidden || one.classList.contains('done'))
-  && !page.jobs.busy()"""
+#: The page computes and draws nothing more; a figure learns in the next frame that it is seen.
+AT_REST = """await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  [...document.querySelectorAll('.progress')].every((one) => one.hidden || one.classList.contains('done'))
+  && !page.jobs.busy() && page.figures.areDrawn()"""
 
 
 #: Figures that follow a slider: while the next one is on its way, the one before is not grey.
@@ -137,8 +139,9 @@ def wrong_figures(tab: Tab) -> list[Any]:
 def at_rest(tab: Tab, seconds: float = 60.0) -> dict[str, Any]:
     """Wait until the page computes and draws nothing more; return the figures that are seen."""
     before: dict[str, Any] = {}
-    for _ in range(int(seconds / 0.3)):
-        tab.page.wait_for_timeout(300)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        tab.page.wait_for_timeout(100)
         rests = tab.value(AT_REST)  # asked first: what is seen comes after
         now = tab.value(SEEN)
         if rests and now == before:

@@ -64,6 +64,10 @@ function blobOf(url) {
 }
 
 let busy = Promise.resolve();
+let owed = 0;
+
+/** Whether all figures that are seen show what they were told last. */
+export const areDrawn = () => owed === 0;
 
 /** A figure of curves; see the head of this file. */
 export function figure(container, first) {
@@ -182,7 +186,13 @@ export function figure(container, first) {
   function request() {
     if (waiting) return;
     waiting = true;
-    requestAnimationFrame(() => (busy = busy.then(draw).catch((error) => (empty.textContent = error.message))));
+    owed += 1;
+    requestAnimationFrame(() => {
+      busy = busy
+        .then(draw)
+        .catch((error) => (empty.textContent = error.message))
+        .finally(() => (owed -= 1));
+    });
   }
 
   const size = new ResizeObserver(() => {

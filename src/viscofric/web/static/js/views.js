@@ -131,7 +131,7 @@ export const Box = view(({ name, placeholder, ...about }) => {
   const { activeElement: active } = document;
   const kept = state.view(name, "");
   return html`<${Labelled} name=${name} ...${about}>
-    <input type="text" id=${idOf(name)} placeholder=${placeholder} autocomplete="off" spellcheck="false"
+    <input type="text" id=${idOf(name)} placeholder=${placeholder} autocomplete="off" spellcheck=${false}
       value=${active?.id === idOf(name) ? active.value : kept}
       onChange=${(event) => state.setView(name, event.target.value.trim())} />
   <//>`;
