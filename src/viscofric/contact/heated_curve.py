@@ -83,7 +83,7 @@ def solve_states(
 
 
 def heat_columns(states: Sequence[States]) -> dict[str, Array]:
-    """Return the columns of `HeatColumns`, (n,) each, of contacts."""
+    """Return the columns of `SolvedHeatColumns`, (n,) each, of contacts."""
     values: dict[str, list[float]] = {name: [getattr(one.heating, name) for one in states] for name in OF_CONTACT} | {
         "isothermal": [abs(one.isothermal.friction) for one in states],
         "cold_viscoelastic": [abs(one.cold.friction) for one in states],

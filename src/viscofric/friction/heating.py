@@ -11,7 +11,7 @@ from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.solved_columns import columns_of
-from viscofric.heat.result import HeatColumns
+from viscofric.heat.result import SolvedHeatColumns
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class HeatedFrictionCurves(HeatColumns, FrictionCurves):
+class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
     """Friction curves of contacts that their own friction heats; `temperature` is that of the body.
 
     Parameters and attributes of `FrictionCurves`, and:

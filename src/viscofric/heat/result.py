@@ -30,7 +30,7 @@ RISES = {
 OF_CONTACT = RISES | {
     "skin": ("1", "depth that the heat reaches during the contact over half the length of the contact")
 }
-#: Columns of friction with heating.
+#: Columns of friction with heating, `skin` of solved contacts only.
 COLUMNS = {
     "isothermal": ("1", "viscoelastic friction coefficient without heating"),
     **OF_CONTACT,
@@ -54,8 +54,6 @@ class HeatColumns:
         left by earlier passes, K.
     face_rise, loss_weighted_rise : array
         Both mean rises, over the face and where the loss is released, K; see `Heating`.
-    skin : array
-        Depth to which heat spreads while the contact passes; see `ContactHeating`.
     cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : array
         Friction and rise of the coldest and of the hottest stable state, equal where there is one only.  A speed that
         rises slowly follows the cold states, one that falls slowly the hot ones: the difference is the hysteresis.
@@ -68,7 +66,6 @@ class HeatColumns:
     track_rise: Array
     face_rise: Array
     loss_weighted_rise: Array
-    skin: Array
     cold_viscoelastic: Array
     cold_rise: Array
     hot_viscoelastic: Array
@@ -76,7 +73,7 @@ class HeatColumns:
 
     def keep_heat(self, shape: tuple[int, ...]) -> None:
         """Make all columns read-only; raise InputError if one is not finite or of another shape."""
-        for name in COLUMNS:
+        for name in self._columns:
             column = read_only(getattr(self, name), f"{name} of heated friction")
             if column.shape != shape or not np.all(np.isfinite(column)):
                 raise InputError(
@@ -89,8 +86,25 @@ class HeatColumns:
         """Return the columns along dimensions of a data set."""
         return {
             name: (dimensions, getattr(self, name), {"units": unit, "long_name": words})
-            for name, (unit, words) in COLUMNS.items()
+            for name, (unit, words) in self._columns.items()
         }
+
+    @property
+    def _columns(self) -> dict[str, tuple[str, str]]:
+        return {name: about for name, about in COLUMNS.items() if name in self.__dataclass_fields__}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SolvedHeatColumns(HeatColumns):
+    """The same of solved contacts.
+
+    Attributes
+    ----------
+    skin : array
+        Depth to which heat spreads while the contact passes; see `ContactHeating`.
+    """
+
+    skin: Array
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.heat.result import HeatColumns
+from viscofric.heat.result import SolvedHeatColumns
 from viscofric.units import share
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ class RoughFriction:
 
 
 @dataclass(frozen=True, eq=False)
-class HeatedRoughFriction(HeatColumns, RoughFriction):
+class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
     """Friction on rough surfaces at the temperatures to which it heats the contact spots.
 
     Attributes of `RoughFriction`, whose `temperature` is that of the body, and:
