@@ -41,7 +41,7 @@ _WORDS = {
     "/temperature_map": "Its warmest contact: rise of temperature of the rubber's face.",
     "/agreement": "Prediction against measurement, at each temperature.",
     "/assumptions": "Assumptions of the predictions, and their checks.",
-    "/history": "With `[history]`: the cases over time.",
+    "/history": "With `[history]`: the cases over time; with `[heating]`, also their rise of temperature.",
     "/fields/<n>": "Pressure and displacement of the case with the number n, if they were kept.",
     "/materials/<n>/…": "For several materials, the groups of each from `/isotherms` to `/spectrum_curve`.",
 }

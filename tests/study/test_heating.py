@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,9 +13,13 @@ from viscofric.errors import ConvergenceError, StudyError
 from viscofric.notes import codes
 from viscofric.report.captions import captions
 from viscofric.report.figures.heating import heated_parts_figure, heating_figure, temperature_map_figure
+from viscofric.report.figures.histories import histories_figure
 from viscofric.report.texts.study import scope
+from viscofric.rheology.shifts.vertical_shift import DensityShift
 from viscofric.study.cases import heating as cases
+from viscofric.study.cases.case import Rubbers
 from viscofric.study.checking import check_study
+from viscofric.study.histories import Histories, material_notes
 from viscofric.study.results.columns import columns_of
 from viscofric.study.run_file.study import parse_study
 from viscofric.thermal import FILLED_RUBBER, PTFE, STEEL
@@ -236,10 +241,69 @@ def test_a_body_has_a_name_or_properties_in_any_order(tmp_path: Path) -> None:
     assert heating.passes == np.inf
 
 
-def test_contacts_over_time_are_isothermal_and_a_note_says_so(tmp_path: Path) -> None:
-    history = '[history]\nslide = "1 mm"\n'
-    assert "history-isothermal" in codes(parse_study(BASE + HEATING + history, tmp_path / "study.toml").notes)
-    assert "history-isothermal" not in codes(parse_study(BASE + history, tmp_path / "study.toml").notes)
+SLIDE = '[history]\nslide = "1 mm"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "base"),
+    [
+        (HEATING + '[impact]\nmass = "4 g"\nspeed = "1 m/s"\n', BALL),
+        (HEATING + SLIDE + 'before = "sliding"\n', BASE),
+        (HEATING + SLIDE + "cycle = true\nstrokes = 2\n", BASE),
+        (HEATING + 'slip = "1 mm/s"\n' + SLIDE, BASE),
+        (HEATING + 'passes = 3\ntrack_radius = "2 cm"\n' + SLIDE, BALL),
+        (HEATING + 'average = "loss"\n' + SLIDE, BASE),
+        (HEATING + 'branch = "hot"\n' + SLIDE, BASE),
+        (ROUGH_HEAT + SLIDE, ROUGH),
+        ('[heating]\ncounterface = "PTFE"\n[interface]\nlaw = "constant"\nstress = "1 MPa"\n' + SLIDE, BASE),
+    ],
+)
+def test_a_note_names_contacts_over_time_that_stay_isothermal(text: str, base: str, tmp_path: Path) -> None:
+    assert codes(parse_study(base + text, tmp_path / "study.toml").notes) - {"no-bands"} == {"history-isothermal"}
+
+
+def test_contacts_over_time_are_heated(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    study = parse_study(BASE + HEATING + SLIDE + 'dwell = ["0 s", "1 s"]\n', path)
+    assert not codes(study.notes)
+    checked = check_study(study, path)
+    assert not codes(checked.notes)
+    assert checked.singles["histories"][0] == 16  # cases, dwells, Coulomb frictions
+    rubbers = Rubbers([one.material for one in checked.rubbers], {})
+    plan = Histories.of(study, checked.sweep, rubbers)
+    assert plan is not None
+    found = [(task.arguments["heating"].coulomb, task.arguments["history"].temperature[0]) for task in plan.wanted()]
+    assert found[:4] == [(0.2, 333.15), (0.5, 333.15)] * 2
+    assert len({task.key for task in plan.wanted()}) == 16
+    # a vertical shift that changes has no known effect on earlier stress
+    shifted = replace(rubbers.materials[0], vertical_shift=DensityShift("30 degC"))
+    assert codes(material_notes(study, [shifted])) == {"history-isothermal"}
+    plan = Histories.of(study, checked.sweep, Rubbers([shifted], {}))
+    assert plan is not None
+    assert "heating" not in plan.wanted()[0].arguments
+
+
+@pytest.mark.slow
+def test_heated_contacts_over_time_are_those_of_the_python_interface(tmp_path: Path) -> None:
+    base = BALL.replace('["50 mm/s", "200 mm/s"]', '"0.1 m/s"').replace('["60 degC", "90 degC"]', '"60 degC"')
+    results = run(tmp_path, '[heating]\ncounterface = "PTFE"\n[history]\ndwell = "1 ms"\npoints = 3\n', base)
+    data = results.tree["history"].to_dataset()
+    history = vf.History([0.0, 1e-3], load="2 N", temperature="60 degC")
+    alone = vf.solve_transient(
+        vf.synthetic_fluoroelastomer(), vf.Ball("10 mm"), history, times=data["time"].values, accuracy=0.1,
+        heating=vf.Heating(rubber=FILLED_RUBBER, counterface=PTFE),
+    )  # fmt: skip
+    assert alone.heating is not None
+    np.testing.assert_allclose(data["temperature_rise"], alone.heating.temperature_rise, rtol=1e-9)
+    np.testing.assert_allclose(data["contact_radius"], alone.contact_radius, rtol=1e-9)
+    assert float(data["temperature_rise"][-1]) > 0.0
+    results.tree["history"]["friction_force"][-1] = 0.1  # as if it slid
+    figure = histories_figure(results.tree)
+    assert figure is not None
+    *_, friction, warm = figure.axes
+    assert len(friction.lines) == 3  # heated, without heating, and zero
+    np.testing.assert_allclose(warm.lines[0].get_ydata()[-1], 1e3 * data["temperature_rise"][-1])  # mK
+    assert "without heating" in captions(results.tree)["contacts_over_time"]
 
 
 def test_a_diffusivity_is_enough(tmp_path: Path) -> None:

@@ -87,6 +87,7 @@ OTHERS: dict[str, Any] = {
     "interface.slip": "3 mm/s",
     "heating.rubber": "unfilled rubber",
     "heating.coulomb": 0.1,
+    "heating.nominal_radius": "10 mm",
     "heating.slip": "1 mm/s",
     "heating.average": "loss",
     "heating.branch": "hot",

@@ -165,7 +165,8 @@ def _of_histories(tree: xr.DataTree) -> str:
     before = {"untouched": "untouched material", "at rest": "a contact at rest", "sliding": "steady sliding"}
     begun = before.get(str(data.attrs["before"]))
     words = "One period of contacts in their periodic state" if begun is None else f"Contacts over time, from {begun}"
-    return words + _some(data, "time", data.sizes["instant"])
+    warm = ", at the temperature of their own friction (dotted: without heating)" if "temperature_rise" in data else ""
+    return words + warm + _some(data, "time", data.sizes["instant"])
 
 
 def _of_impacts(tree: xr.DataTree) -> str:

@@ -11,11 +11,18 @@ import numpy as np
 from viscofric.errors import InputError, StudyError
 from viscofric.study.cases.case import moved
 from viscofric.study.cases.surfaces import surface_of
-from viscofric.study.histories import case_histories, checked_table
+from viscofric.study.histories import case_histories, checked_table, is_heated, material_notes
 from viscofric.study.impacts import impacts_of
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.measurement import read_measurement
-from viscofric.study.planning.estimates import HEATED_CURVE, SECONDS_OF_IMPACT, estimate, seconds_over_time
+from viscofric.study.planning.estimates import (
+    HEATED_CURVE,
+    HEATED_RUNS,
+    HEATED_TIMES,
+    SECONDS_OF_IMPACT,
+    estimate,
+    seconds_over_time,
+)
 from viscofric.study.rubber import shift_of
 
 if TYPE_CHECKING:
@@ -62,17 +69,20 @@ class CheckedStudy:
         """Number and estimated processor time, s, of the contacts over time and of the impacts, if there are any."""
         history, impact, cases = self.study.history, self.study.impact, self.sweep.cases
         found = {}
+        materials = [rubber.material for rubber in self.rubbers]
         if self.study.heating is not None:
-            materials = [rubber.material for rubber in self.rubbers]
             alone = estimate(cases, materials, accuracy=self.study.solver.accuracy, each=True)
             times = len(self.study.heating.coulomb) * len(self.study.heating.slip or (0.0,))
             found["heating"] = (times * len(cases), times * HEATED_CURVE * alone.seconds)
         if history is not None:
-            dwells = len(history.dwell)
+            each, runs, points = len(history.dwell), 1.0, history.points
+            if self.study.heating is not None and is_heated(self.study, materials):
+                each *= len(self.study.heating.coulomb)
+                runs, points = HEATED_RUNS, points + HEATED_TIMES
             moves = case_histories(self.study, history)(cases[0], history.dwell[0]).moves
             about = {"moves": moves, "cycle": history.cycle}
-            seconds = sum(seconds_over_time(one, history.points, **about) for one in cases)
-            found["histories"] = (dwells * len(cases), dwells * seconds)
+            seconds = sum(seconds_over_time(one, points, **about) for one in cases)
+            found["histories"] = (each * len(cases), each * runs * seconds)
         if impact is not None:
             count = impacts_of(self.sweep).size * len(impact.speed)
             found["impacts"] = (count, count * SECONDS_OF_IMPACT)
@@ -98,6 +108,7 @@ class CheckedStudy:
         said = [note for rubber in self.rubbers for note in rubber.notes]
         said += self.measured.notes if self.measured is not None else ()
         said += self.study.notes
+        said += material_notes(self.study, [rubber.material for rubber in self.rubbers])
         return tuple(dict.fromkeys([*said, *self._of_jobs()]))
 
     def _of_jobs(self) -> Iterator[str]:

@@ -16,7 +16,7 @@ from viscofric.study.assumptions import assumption_checks, assumption_warnings, 
 from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.heating import NO_LAW, Heatings
-from viscofric.study.histories import Histories
+from viscofric.study.histories import Histories, material_notes
 from viscofric.study.impacts import Impacts
 from viscofric.study.interface import StudyInterface, interface_columns, study_interface
 from viscofric.study.measurement import Measurement, read_measurement
@@ -249,6 +249,7 @@ def tree_of(
     of_friction = [*(measured.notes if measured else ()), *interface.notes, *rubbed.notes]
     if study.heating is not None and study.interface is not None and interface.law is None:
         of_friction.append(NO_LAW)
+    of_friction += material_notes(study, contacts.plan.rubbers.materials)
     notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
     said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
     tree.attrs = {

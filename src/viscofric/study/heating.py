@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.rheology.material import Material
     from viscofric.study.cases.case import Case, Rubbers
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.heating import HeatingTable
@@ -39,7 +37,7 @@ NO_LAW = Note(
 )
 _GROUP, _MAP = "/heating", "/temperature_map"
 _SLIP = {"units": "m/s", "long_name": "sliding velocity between both surfaces"}
-_COULOMB = {"units": "1", "long_name": "Coulomb friction coefficient, given"}
+COULOMB = {"units": "1", "long_name": "Coulomb friction coefficient, given"}
 _TOTAL = {"units": "1", "long_name": "friction coefficient of hysteresis and interface together, with heating"}
 
 
@@ -62,7 +60,6 @@ class Heatings(Singles):
     ) -> None:
         self._study, self._table, self._sweep, self._rubbers = study, table, sweep, rubbers
         self._interface = interface
-        self._material: dict[tuple[int, int | None], Material] = {}
         slip = study.interface.slip if study.interface is not None else None
         self._slips: tuple[float | None, ...] = table.slip or (slip,)
         self._members: list[tuple[list[int], int, int]] = []  # cases, place of Coulomb friction and of slip
@@ -164,7 +161,7 @@ class Heatings(Singles):
         table, found = self._table, {}
         coulomb = ("coulomb", list(table.coulomb)) if len(table.coulomb) > 1 else ((), table.coulomb[0])
         if self._interface is None:
-            found["coulomb"] = (*coulomb, _COULOMB)
+            found["coulomb"] = (*coulomb, COULOMB)
         if self._slips[0] is not None:
             slip = ("slip", list(self._slips)) if len(self._slips) > 1 else ((), self._slips[0])
             found["slip"] = (*slip, _SLIP)
@@ -187,12 +184,15 @@ class Heatings(Singles):
 
     def _arguments(self, case: Any, first: int, second: int) -> dict[str, Any]:
         body: dict[str, Any]
+        material = self._rubbers.without_fit(case)
+        if material.shift is None:
+            raise InputError("heating: needs a material with shift factors.", code="no-shift")
         if isinstance(case, SurfaceCase):
             body = {"surface": case.surface, "pressure": case.pressure, "direction": case.direction}
         else:
             body = {"indenter": case.indenter, "load": float(case.load), "accuracy": self._study.solver.accuracy}
         return {
-            "material": self._of(case),
+            "material": material,
             **body,
             "temperature": case.temperature,
             "heating": self._heating(first, second),
@@ -201,16 +201,6 @@ class Heatings(Singles):
             "indenter_poisson_ratio": case.poisson_ratio,
             "fields": False,
         }
-
-    def _of(self, case: Case) -> Material:
-        """Return the material of a case without its fit, which is large and does not affect the result."""
-        key = case.material, case.sample
-        if key not in self._material:
-            material = self._rubbers.of(case)
-            if material.shift is None:
-                raise InputError("heating: needs a material with shift factors.", code="no-shift")
-            self._material[key] = replace(material, spectrum=replace(material.modes_at(None), fit=None))
-        return self._material[key]
 
     def _map_task(self) -> list[Task]:
         """Return the task of the warmest contact; none if there is no warm one, or on a rough surface."""

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError, StudyError
 from viscofric.motion.history_files import read_history
 from viscofric.motion.stages import staged_history
 from viscofric.readers.history_columns import history_columns
+from viscofric.rheology.material import Material
 from viscofric.study.cases.history import solve_history
 from viscofric.study.cases.record import Failure
 from viscofric.study.cases.solving import Task
 from viscofric.study.cases.surface_case import SurfaceCase
 from viscofric.study.cases.surfaces import unit_vector
+from viscofric.study.heating import COULOMB
 from viscofric.study.planning.singles import Singles
 from viscofric.study.results.tree import axis_coordinates, meaning_of
+from viscofric.study.run_file.study import isothermal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     import xarray
 
     from viscofric.motion.history import History
+    from viscofric.notes import Note
     from viscofric.study.cases.case import Rubbers
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.history import HistoryTable
@@ -29,13 +34,18 @@ if TYPE_CHECKING:
 
 
 class Histories(Singles):
-    """All cases over time, with the best estimate of the material and with its samples; the dwell runs fastest."""
+    """All cases over time, with the best estimate of the material and with its samples.
+
+    Of each case, the Coulomb friction of heated contacts runs fastest, then the dwell.
+    """
 
     STAGE, GROUP, NOUN = "histories", "/history", "contacts over time"
 
-    def __init__(self, tasks: list[Task | Failure], table: HistoryTable, sweep: Sweep) -> None:
+    def __init__(
+        self, tasks: list[Task | Failure], table: HistoryTable, sweep: Sweep, coulomb: tuple[float, ...]
+    ) -> None:
         super().__init__(tasks)
-        self._table, self._sweep = table, sweep
+        self._table, self._sweep, self._coulomb = table, sweep, coulomb
 
     @classmethod
     def of(cls, study: Study, sweep: Sweep, rubbers: Rubbers) -> Histories | None:
@@ -43,25 +53,32 @@ class Histories(Singles):
         table = study.history
         if table is None:
             return None
-        for_case = case_histories(study, table)
+        heated = is_heated(study, rubbers.materials)
+        for_case = case_histories(study, table, heated=heated)
         tasks: list[Task | Failure] = []
+        coulomb = study.heating.coulomb if study.heating is not None and heated else ()
         for one in sweep.cases:
             case: Any = one
-            for dwell in table.dwell:
+            for dwell, friction in itertools.product(table.dwell, coulomb or (None,)):
                 label = f"{case.label}, over time" + (f" after {dwell:g} s" if len(table.dwell) > 1 else "")
+                label += f", Coulomb friction {friction:g}" if len(coulomb) > 1 else ""
                 try:
-                    tasks.append(_task(case, rubbers, for_case(case, dwell), table, study, label))
+                    tasks.append(_task(case, rubbers, for_case(case, dwell), study, label, friction))
                 except InputError as error:
                     tasks.append(Failure.of(error, label))
-        return cls(tasks, table, sweep)
+        return cls(tasks, table, sweep, coulomb)
 
     def dataset(self) -> xarray.Dataset | None:
-        """Return all cases over time along the axes of the sweep, the dwell and ``instant``; None if all failed."""
+        """Return all cases over time; None if all failed.
+
+        Along the axes of the sweep, the dwell, the Coulomb friction of heated contacts, and ``instant``.
+        """
         import xarray
 
         dwells, axes = self._table.dwell, self._sweep.axes
         dimensions = {axis.name: len(axis) for axis in axes if len(axis) > 1}
         dimensions |= {"dwell": len(dwells)} if len(dwells) > 1 else {}
+        dimensions |= {"coulomb": len(self._coulomb)} if len(self._coulomb) > 1 else {}
         columns = self.columns(dimensions, "instant")
         if not columns:
             return None
@@ -70,16 +87,36 @@ class Histories(Singles):
         if self._table.file is None:
             about = {"units": "s", "long_name": "time at rest under the load before the sliding"}
             coordinates["dwell"] = ("dwell", list(dwells), about) if len(dwells) > 1 else ((), dwells[0], about)
+        if self._coulomb:
+            values = ("coulomb", list(self._coulomb)) if len(self._coulomb) > 1 else ((), self._coulomb[0])
+            coordinates["coulomb"] = (*values, COULOMB)
         named = {f"{name}_over_time" if name in ("load", "temperature") else name: one for name, one in columns.items()}
         before = "repeated" if self._table.cycle else self._table.before
         return xarray.Dataset(named, coordinates, {"geometry": self._sweep.geometry, "before": before})
 
 
-def _task(case: Any, rubbers: Rubbers, history: History, table: HistoryTable, study: Study, label: str) -> Task:
-    rough = isinstance(case, SurfaceCase)
+def is_heated(study: Study, materials: Iterable[Material]) -> bool:
+    """Return whether the cases over time are heated: stress is not known to follow a vertical shift that changes."""
+    return study.heats_histories and all(one.shift is not None and one.vertical_shift is None for one in materials)
+
+
+def material_notes(study: Study, materials: Iterable[Material]) -> tuple[Note, ...]:
+    """Return a note if the cases over time would be heated but for a material."""
+    if not study.heats_histories or is_heated(study, materials):
+        return ()
+    return (isothermal("Contacts over time", "; those over time need shift factors, and no vertical shift"),)
+
+
+def _task(case: Any, rubbers: Rubbers, history: History, study: Study, label: str, coulomb: float | None) -> Task:
+    rough, table, heating = isinstance(case, SurfaceCase), study.history, study.heating
+    assert table is not None
+    if coulomb is None or heating is None:
+        heat, material = {}, Material(rubbers.modes(case), poisson_ratio=rubbers.of(case).poisson_ratio)
+    else:
+        heat, material = {"heating": heating.heating(coulomb, None)}, rubbers.without_fit(case)
     arguments = {
-        "modes": rubbers.modes(case),
-        "poisson_ratio": rubbers.of(case).poisson_ratio,
+        "material": material,
+        **heat,
         **({"surface": case.surface} if rough else {"indenter": case.indenter}),
         "history": history,
         "points": table.points,
@@ -93,19 +130,27 @@ def _task(case: Any, rubbers: Rubbers, history: History, table: HistoryTable, st
     return Task(solve_history, arguments, label)
 
 
-def case_histories(study: Study, table: HistoryTable) -> Callable[[Any, float], History]:
-    """Return what makes the history of a case and a dwell (s); raise `StudyError`, `DataFileError` for a bad table."""
-    made: Callable[[Any, float], History] = _from_file(table, study) if table.file is not None else _from_stages(table)
+def case_histories(study: Study, table: HistoryTable, *, heated: bool = False) -> Callable[[Any, float], History]:
+    """Return what makes the history of a case and a dwell (s), those of `heated` contacts with a temperature.
+
+    Raises `StudyError`, `DataFileError` for a bad table.
+    """
+    make: Any = _from_file(table, study) if table.file is not None else _from_stages(table)
+
+    def made(case: Any, dwell: float) -> History:
+        found: History = make(case, dwell, case.temperature if heated else None)
+        return found
+
     return made
 
 
 def _from_stages(table: HistoryTable) -> Any:
     """Return what makes the history of a case: its load put on, a dwell, and its speed along the path."""
 
-    def made(case: Any, dwell: float) -> History:
+    def made(case: Any, dwell: float, temperature: float | None) -> History:
         return staged_history(
             *_prescribed(case), load_time=table.load_time, dwell=dwell, slide=table.slide or 0.0, speed=case.speed,
-            strokes=table.strokes, before=table.before, direction=_direction(case),
+            strokes=table.strokes, before=table.before, direction=_direction(case), temperature=temperature,
         )  # fmt: skip
 
     return made
@@ -155,7 +200,8 @@ def _from_file(table: HistoryTable, study: Study) -> Any:
     """Return what makes the history of a case from a table; without a load in it, that of the case."""
     has_load = checked_table(table, study)
 
-    def made(case: Any, dwell: float) -> History:
-        return _read(table, **({} if has_load else dict([_prescribed(case)])), direction=_direction(case))
+    def made(case: Any, dwell: float, temperature: float | None) -> History:
+        load = {} if has_load else dict([_prescribed(case)])
+        return _read(table, **load, temperature=temperature, direction=_direction(case))
 
     return made

@@ -42,7 +42,10 @@ class _Line(NamedTuple):
 
 
 def histories_figure(tree: xr.DataTree) -> Figure | None:
-    """Return load where it varies, indentation, and friction where it slides, against time, of at most six cases."""
+    """Return load where it varies, indentation, friction where it slides, and rise of temperature, against time.
+
+    Of at most six cases; friction of heated contacts also without heating, dotted.
+    """
     data = group(tree, "history")
     if data is None:
         return None
@@ -57,6 +60,7 @@ def histories_figure(tree: xr.DataTree) -> Figure | None:
         *([("load_over_time", load, force)] if varies else []),
         ("indentation", r"indentation $\delta$", "m"),
         *([_FRICTION] if slides else []),
+        *([("temperature_rise", r"temperature rise $\Delta T$", "K")] if "temperature_rise" in data else []),
     ]
     figure = new_figure(6.2, 2.6 * len(shown) + 1.0)
     panels = figure.subplots(len(shown), 1, sharex=True, squeeze=False)[:, 0]
@@ -65,6 +69,8 @@ def histories_figure(tree: xr.DataTree) -> Figure | None:
         unit = unit_for(max(float(np.abs(one.best[name].values).max()) for one in lines), base)
         size = unit.size if base else 1.0
         _plot(panel, lines, name, [one.best["time"].values / seconds.size for one in lines], size, panel is panels[0])
+        if name == "friction_coefficient" and "isothermal_friction_force" in data:
+            _plot_isothermal(panel, lines, seconds.size)
         panel.axhline(0.0, color=GREY, linewidth=0.8)
         panel.set_ylabel(f"{label} ({unit.name})" if base else label)
     panels[-1].set_xlabel(f"time $t$ ({seconds.name})")
@@ -106,6 +112,14 @@ def _plot(
             axes.fill_between(places, band[0] / size, band[1] / size, color=look.colour, alpha=0.2, linewidth=0.0)
     if named and any(one.words for one in lines):
         legend_above(axes, handles, columns=2)
+
+
+def _plot_isothermal(axes: Axes, lines: list[_Line], second: float) -> None:
+    """Draw the friction coefficients of heated contacts without heating, where there is a load."""
+    for one, look in zip(lines, looks(len(lines)), strict=True):
+        load = one.best["load_over_time"].values
+        friction = one.best["isothermal_friction_force"].values / np.where(load > 0.0, load, np.nan)
+        axes.plot(one.best["time"].values / second, friction, color=look.colour, linestyle=":", linewidth=0.8)
 
 
 def _lines(data: xr.Dataset, name: str, along: str) -> list[_Line]:

@@ -214,6 +214,7 @@ class Rubbers:
     materials: Sequence[Material]
     members: Mapping[int, Sequence[Material]]
     _modes: dict[tuple[int, int | None, float | None], RetardationSpectrum] = field(default_factory=dict, repr=False)
+    _lean: dict[tuple[int, int | None], Material] = field(default_factory=dict, repr=False)
     _shifts: dict[tuple[int, int | None, float], tuple[float, float]] = field(default_factory=dict, repr=False)
     _scales: dict[tuple[Indenter, float, float], Scale] = field(default_factory=dict, repr=False)
     _forces: dict[tuple[Indenter, float, float], float] = field(default_factory=dict, repr=False)
@@ -230,6 +231,14 @@ class Rubbers:
                 code="no-sample",
             )
         return drawn[case.sample - 1]
+
+    def without_fit(self, case: Case) -> Material:
+        """Return the material of a case without its fit, which is large and does not affect the result."""
+        key = case.material, case.sample
+        if key not in self._lean:
+            material = self.of(case)
+            self._lean[key] = replace(material, spectrum=replace(material.modes_at(None), fit=None))
+        return self._lean[key]
 
     def shifts(self, case: Case) -> tuple[float, float]:
         """Return α and b of a case's material at its temperature."""

@@ -8,6 +8,7 @@ from viscofric.motion.cycle import solve_cycle
 from viscofric.motion.history import dense_times
 from viscofric.motion.impact import solve_impact
 from viscofric.motion.solve import solve_transient
+from viscofric.notes import note_of
 from viscofric.rheology.material import Material
 from viscofric.study.cases.record import Column, HistoryRecord
 from viscofric.study.cases.surfaces import surface_of
@@ -37,11 +38,15 @@ _OF_IMPACT = {
     "peak_force": ("N", "largest force"),
     "largest_indentation": ("m", "largest indentation"),
 }
+#: Without the numbers of one contact, so that a study counts it over all.
+_THIN_SKIN = (
+    "While the contact passes, heat warms only a thin skin of the rubber: the loss is released in colder rubber below. "
+    "The friction is likely to lie between the one given and the isothermal one."
+)
 
 
 def solve_history(
-    modes: RetardationSpectrum,
-    poisson_ratio: float,
+    material: Material,
     *,
     history: History,
     points: int,
@@ -53,10 +58,10 @@ def solve_history(
 
     Parameters
     ----------
-    modes : RetardationSpectrum
-        Of the material at the contact's temperature.
+    material : Material
+        Of an isothermal contact with the modes at its temperature, without shift factors.
     history : History
-        Without a temperature.
+        With a temperature only for a heated contact.
     points : int
         Number of times, see `dense_times`.
     cycle : bool
@@ -66,18 +71,19 @@ def solve_history(
     **contact
         Further arguments of `solve_transient`, SI; `surface`, a description of one, instead of `indenter`.
     """
-    rubber, times = Material(modes, poisson_ratio=poisson_ratio), dense_times(history, points)
+    times = dense_times(history, points)
     if "surface" in contact:
         contact["indenter"] = surface_of(contact.pop("surface"))
     if cycle:
         body = contact.pop("indenter")
-        found = solve_cycle(rubber, body, history, times=times, **contact)
+        found = solve_cycle(material, body, history, times=times, **contact)
         data = found.to_dataset()
         return HistoryRecord({}, tuple(map(str, found.warnings)), columns=_columns(data) | _of_cycle(data))
-    run = solve_transient(rubber, history=history, times=times, **contact)
+    run = solve_transient(material, history=history, times=times, **contact)
     if run.interrupted:  # a part of a history is no result
         raise KeyboardInterrupt
-    return HistoryRecord({}, tuple(map(str, run.warnings)), columns=_columns(run.to_dataset()))
+    said = [_THIN_SKIN if note.code == "thin-skin" else note for note in map(note_of, run.warnings)]
+    return HistoryRecord({}, tuple(map(str, said)), columns=_columns(run.to_dataset()))
 
 
 def solve_hit(

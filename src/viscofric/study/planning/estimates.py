@@ -33,6 +33,8 @@ _SECONDS = {
 _SURFACE_SECONDS, _SURFACE_SECONDS_PER_POINT, _BYTES_PER_POINT = 0.012, 1.1e-6, 250.0
 #: Time of a friction curve with heating over that of its isothermal contacts (benchmarks/friction/heated.py).
 HEATED_CURVE = 2.8
+#: Runs of a heated contact over time, three or four, and the times at which its rise is found besides those stored.
+HEATED_RUNS, HEATED_TIMES = 3.5, 60
 #: The derivatives take about as long as friction itself.
 _SENSITIVE = 2.0
 # Bytes: of a process that solves; of each cell of the finest window while it does; of a record and its sensitivity.

@@ -56,7 +56,7 @@ _STAGES = ("load_time", "dwell", "slide", "strokes")
 
 
 class HistoryTable(Table):
-    """[history]: every case also over time, at its load or pressure, speed and temperature."""
+    """[history]: every case also over time, at its load or pressure, speed and temperature, with [heating] heated."""
 
     load_time: Duration = Field(0.0, description="Time in which the load or pressure rises from zero; 0 s: at once.")
     dwell: Durations = Field((0.0,), description="Time at rest under the load before the sliding; several are an axis.")

@@ -44,9 +44,15 @@ _DEEPEST = 10
 _MOST_MATERIALS = 100
 
 
-ISOTHERMAL = Note(
-    "history-isothermal",
-    "Contacts over time and impacts of a study are isothermal: [heating] heats its steady cases only.",
+def isothermal(noun: str, reason: str = "") -> Note:
+    """Return the note that such contacts are not heated, with the reason as a clause."""
+    return Note("history-isothermal", f"{noun} are isothermal: [heating] heats the steady cases only{reason}.")
+
+
+#: What contacts over time are not heated with.
+_NOT_HEATED = (
+    "; those over time are heated under an indenter, without [interface], cycle, steady sliding before, slip, passes, "
+    "average = 'loss' and branch = 'hot'"
 )
 
 
@@ -151,8 +157,20 @@ class Study(Table):
         sampled = any(material.dma or material.steps for material in self.materials)
         over_time = sampled and (self.history is not None or self.impact is not None)
         said = self.uncertainty.notes(rough=self.indenter is None, over_time=over_time)
-        in_time = self.history is not None or self.impact is not None
-        return (*said, ISOTHERMAL) if self.heating is not None and in_time else said
+        if self.heating is not None and self.history is not None and not self.heats_histories:
+            said = (*said, isothermal("Contacts over time", _NOT_HEATED))
+        if self.heating is not None and self.impact is not None:
+            said = (*said, isothermal("Impacts"))
+        return said
+
+    @property
+    def heats_histories(self) -> bool:
+        """Whether the cases over time are heated, if the material permits it."""
+        history, heating = self.history, self.heating
+        if history is None or heating is None or not heating.suits_histories:
+            return False
+        alone = self.indenter is not None and self.layer is None and self.interface is None
+        return alone and not history.cycle and history.before != "sliding"
 
     def sweep(self) -> Sweep:
         """Return all cases of the study, with their axes."""

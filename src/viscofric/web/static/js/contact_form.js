@@ -209,6 +209,8 @@ const passed = () => state.get("heating.track_radius") !== undefined || state.ge
 /** Where an interface makes the heat, Coulomb friction and its slip are those of the interface. */
 const alone = (field) =>
   where(() => state.get("interface") === undefined || state.get(field.path) !== undefined, field)[0];
+/** The nominal contact is that of a rough surface; a value left by another shape can be seen and emptied. */
+const nominal = () => ROUGH.includes(shape.value) || state.get("heating.nominal_radius") !== undefined;
 const HEATING = [
   { path: "heating", label: "Friction heats the contact", as: Toggle, value: { counterface: "steel" } },
   ...within(
@@ -221,6 +223,13 @@ const HEATING = [
     { path: "heating.rubber", label: "Thermal properties of the rubber", placeholder: "filled rubber" },
     alone(number("heating.coulomb", "Coulomb friction", { min: 0, step: 0.01, placeholder: "0" })),
     alone(quantity("heating.slip", "Sliding velocity", "speed", { placeholder: "the speed" })),
+    ...where(
+      nominal,
+      quantity("heating.nominal_radius", "Radius of the nominal contact", "length", {
+        placeholder: "mean heat left out",
+        help: "The mean heat of this round area of the surface counts too.",
+      }),
+    ),
     ...where(() => POINTS.includes(shape.value) || passed(), {
       path: "heating.track_radius",
       label: "Circular track",
