@@ -96,8 +96,8 @@ const Failed = view(({ app }) => {
 
 const More = view(({ of, rows }) => {
   const row = ({ label, value, remark }) => html`<tr><th scope="row">${label}</th><td>${value}</td><td>${remark}</td></tr>`;
-  return html`<div class="more-numbers">
-    <h3>Results with their numerical errors</h3>
+  return html`<div class="more-numbers" tabindex="0" role="group" aria-labelledby="more-numbers">
+    <h3 id="more-numbers">Results with their numerical errors</h3>
     <table ...${shown(of)}><tbody>${rows.map(row)}</tbody></table>
   </div>`;
 });
