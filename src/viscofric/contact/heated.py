@@ -84,9 +84,16 @@ class ThermalContact:
     isothermal: Callable[[float, float, float], Any]  # solution at a speed, a temperature, K, and to an accuracy
     interface: InterfaceLaw | None = None  # whose heat takes the place of a constant Coulomb friction
 
-    def heat(self, solution: Any, kelvin: float) -> Heat:
-        """Return the heats of a contact solved at a temperature."""
+    def heat(self, solution: Any, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
+        """Return the heats of a contact solved at a temperature; its resistances `relative` to `closed`, if known."""
         raise NotImplementedError
+
+    def closed(self, area: float) -> tuple[float, float] | None:
+        """Return the rise of the rubber's face and of the counterface's per heat, in closed form.
+
+        Resistances over them change smoothly with speed; None for contacts whose resistances do not.
+        """
+        return None
 
     def area(self, solution: Any) -> float:
         """Return the area of a solved contact."""
@@ -116,11 +123,11 @@ class ThermalContact:
         """Return the heat at the interface of a contact under a load, at a temperature."""
         return coulomb_heat(self.heating, self.interface, self.speed, load, area, kelvin)
 
-    def at(self, rise: float, accuracy: float) -> Warmed:
-        """Solve the contact at a rise of temperature."""
+    def at(self, rise: float, accuracy: float, relative: ThermalResistances | None = None) -> Warmed:
+        """Solve the contact at a rise of temperature; `relative` as in `heat`."""
         kelvin = self.kelvin + rise
         solution = self.isothermal(self.speed, kelvin, accuracy)
-        heat = self.heat(solution, kelvin)
+        heat = self.heat(solution, kelvin, relative)
         friction = solution.friction_coefficient
         return Warmed(rise, friction, self.kept(solution), heat, self.heating.rise(heat.balance))
 
@@ -275,12 +282,18 @@ class HeatCurve(NamedTuple):
         return min(_LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(per_kelvin, 1e-300))
 
 
-def settle(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: float) -> Warmed:
-    """Return the contact solved at a state of its curve."""
+def settle(
+    contact: ThermalContact,
+    curve: HeatCurve,
+    state: State,
+    accuracy: float,
+    relative: ThermalResistances | None = None,
+) -> Warmed:
+    """Return the contact solved at a state of its curve; `relative` as in `ThermalContact.heat`."""
     last: list[Warmed] = []
 
     def produced(rise: float) -> float:
-        last[:] = [contact.at(rise, accuracy)]
+        last[:] = [contact.at(rise, accuracy, relative)]
         return last[0].produced
 
     settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)

@@ -2,30 +2,34 @@
 
 The isothermal curve is solved first.  A contact that is ΔT warmer lies on the same curve at the speed α(T) v:
 interpolation gives the rise that it produces at every ΔT, and with it all states of all speeds.  Each is then solved,
-mostly once, since its temperature is nearly known.
+mostly once, since its temperature is nearly known.  Resistances are found from the fields of the contacts at a few
+speeds, the knots, which are solved before the others.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from viscofric.contact.heated import LOOSE, HeatCurve, beyond, described, enough, settle, sought
+from viscofric.contact.heated_knots import Between, Knot, knots_of
+from viscofric.heat.branches import State
 from viscofric.heat.heating import HeatBalance
 from viscofric.heat.result import OF_CONTACT
-from viscofric.processes import call_all
+from viscofric.processes import Workers, call_all
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from viscofric.arrays import Array
     from viscofric.contact.heated import ThermalContact, Warmed
-    from viscofric.heat.branches import State
+    from viscofric.heat.heating import ThermalResistances
     from viscofric.heat.result import ContactHeating
     from viscofric.notes import Note
-    from viscofric.processes import Workers
 
 
 #: Rises per decade of α at which states are looked for, and speeds per decade below the slowest one.
@@ -57,29 +61,30 @@ def solve_states(
 
     `report` gets the number of solved contacts, of twice as many as there are.
     """
-    contacts = [one for curve in curves for one in curve]
-    calls: list[dict[str, Any]] = [{"contact": one, "accuracy": accuracy} for one in contacts]
-    cold = call_all(_isothermal, calls, workers=workers, progress=report)
-    starts: list[tuple[int, HeatCurve, State]] = []
-    said: dict[int, tuple[Note, ...]] = {}
-    first = 0
-    for each in curves:
-        rows = range(first, first + len(each))
-        curve = _Curve(each[0], [cold[row] for row in rows], [one.speed for one in each], accuracy)
-        for row in rows:
-            found, states, said[row] = curve.states(contacts[row], cold[row])
-            starts += [(row, found, one) for one in dict.fromkeys((states[0], states[-1]))]
-        first += len(each)
-    solved = call_all(
-        settle,
-        [{**calls[row], "curve": found, "state": one} for row, found, one in starts],
-        workers=workers,
-        progress=lambda done: report(len(contacts) + min(done, len(contacts))),
-    )
-    states_of: dict[int, list[Warmed]] = {}
-    for (row, _, _), one in zip(starts, solved, strict=True):
-        states_of.setdefault(row, []).append(one)
-    return [_chosen(contact, cold[row], states_of[row], said[row]) for row, contact in enumerate(contacts)]
+    if not isinstance(workers, Workers):
+        with Workers(workers) as alone:
+            return solve_states(curves, accuracy, alone, report)
+    every = [_Curve(one, accuracy) for one in curves]
+    count = sum(map(len, curves))
+    for at_knots in (True, False):
+        jobs = [job for one in every for job in one.isothermal(at_knots)]
+        before = sum(len(one.cold) for one in every)
+        calls = [call for *_, call in jobs]
+        solved = call_all(_isothermal, calls, workers=workers, progress=partial(_add, report, before, count))
+        for (curve, row, _), one in zip(jobs, solved, strict=True):
+            curve.cold[row] = one
+    for at_knots in (True, False):
+        starts = [start for one in every for start in one.starts(at_knots)]
+        before = count + sum(len(one.settled) for one in every)
+        calls = [call for *_, call in starts]
+        solved = call_all(settle, calls, workers=workers, progress=partial(_add, report, before, 2 * count))
+        for (curve, row, _), one in zip(starts, solved, strict=True):
+            curve.settled.setdefault(row, []).append(one)
+    return [states for one in every for states in one.chosen()]
+
+
+def _add(report: Callable[[int], None], before: int, most: int, done: int) -> None:
+    report(min(before + done, most))
 
 
 def heat_columns(states: Sequence[States]) -> dict[str, Array]:
@@ -94,8 +99,13 @@ def heat_columns(states: Sequence[States]) -> dict[str, Array]:
     return {name: np.array(column) for name, column in values.items()}
 
 
-def _isothermal(contact: ThermalContact, accuracy: float) -> Warmed:
-    return contact.at(0.0, accuracy)
+def _isothermal(contact: ThermalContact, accuracy: float, relative: ThermalResistances | None = None) -> Warmed:
+    return contact.at(0.0, accuracy, relative)
+
+
+def _relative(knot: Knot | None) -> dict[str, ThermalResistances]:
+    """Return the argument of a contact whose resistances are known from others."""
+    return {} if knot is None else {"relative": knot.relative}
 
 
 def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed], said: tuple[Note, ...]) -> States:
@@ -107,10 +117,70 @@ def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed], sa
 class _Curve:
     """The isothermal curve of one temperature, and what contacts at any rise produce."""
 
-    def __init__(self, contact: ThermalContact, solved: list[Warmed], speeds: list[float], accuracy: float) -> None:
-        self.contact, self.accuracy = contact, max(LOOSE, accuracy)
-        self.friction = {abs(speed): abs(one.friction) for speed, one in zip(speeds, solved, strict=True)}
-        self.area = {abs(speed): one.heat.area for speed, one in zip(speeds, solved, strict=True)}
+    def __init__(self, contacts: Sequence[ThermalContact], accuracy: float) -> None:
+        self.contacts, self.contact = contacts, contacts[0]
+        self.wanted, self.accuracy = accuracy, max(LOOSE, accuracy)
+        self.knots = knots_of(contacts)
+        self.cold: dict[int, Warmed] = {}
+        self.settled: dict[int, list[Warmed]] = {}  # the coldest and the hottest state, if there are two
+
+    def _rows(self, at_knots: bool) -> list[int]:
+        return self.knots if at_knots else sorted({*range(len(self.contacts))} - {*self.knots})
+
+    def _between(self, knots: Sequence[Knot | None]) -> Between:
+        return Between([abs(self.contacts[row].speed) for row in self.knots], knots)
+
+    def isothermal(self, at_knots: bool) -> list[tuple[_Curve, int, dict[str, Any]]]:
+        """Return the calls that solve contacts without heating, with their rows; those at knots come first."""
+        rows, between = self._rows(at_knots), None
+        if not at_knots and rows:
+            between = self._between([Knot.of(self.contacts[row], self.cold[row].heat) for row in self.knots])
+        return [(self, row, {**self._call(row), **_relative(self._near(row, between))}) for row in rows]
+
+    def starts(self, at_knots: bool) -> list[tuple[_Curve, int, dict[str, Any]]]:
+        """Return the calls that settle the states of contacts, with their rows; those at knots come first."""
+        rows = self._rows(at_knots)
+        if at_knots:
+            columns = [(abs(self.contacts[row].speed), one) for row, one in sorted(self.cold.items())]
+            self.friction = {speed: abs(one.friction) for speed, one in columns}
+            self.area = {speed: one.heat.area for speed, one in columns}
+            self.found = [self.states(one, self.cold[row]) for row, one in enumerate(self.contacts)]
+        found = []
+        for row in rows:
+            curve, states, _ = self.found[row]
+            for branch, state in enumerate(states):
+                near = None if at_knots else self._near(row, self._branch(len(states), branch))
+                rise = state.rise if near is None else min(state.rise * math.exp(near.rise), curve.limits[1])
+                start = {"curve": curve, "state": State(rise, state.slope), **_relative(near)}
+                found.append((self, row, {**self._call(row), **start}))
+        return found
+
+    def chosen(self) -> list[States]:
+        """Return the states of all contacts."""
+        return [
+            _chosen(one, self.cold[row], self.settled[row], self.found[row][2]) for row, one in enumerate(self.contacts)
+        ]
+
+    def _call(self, row: int) -> dict[str, Any]:
+        return {"contact": self.contacts[row], "accuracy": self.wanted}
+
+    def _near(self, row: int, between: Between | None) -> Knot | None:
+        return None if between is None else between(abs(self.contacts[row].speed))
+
+    @cache  # noqa: B019 (a curve lives as long as its solve)
+    def _branch(self, count: int, branch: int) -> Between:
+        """Return the settled knots of a branch, of those with so many states."""
+        knots: list[Knot | None] = []
+        for row in self.knots:
+            states, settled = self.found[row][1], self.settled[row]
+            if len(states) != count:
+                knots.append(None)
+                continue
+            expected, one = states[branch].rise, settled[branch]
+            off = math.log(one.produced / expected) if min(one.produced, expected) > 0.0 else 0.0
+            drop = float(self.log10_drop(np.asarray(one.rise)))
+            knots.append(Knot.of(self.contacts[row], one.heat, drop, off))
+        return self._between(knots)
 
     def log10_drop(self, rise: Array) -> Array:
         """Return by how many decades the curve is passed at rises of temperature."""
@@ -119,7 +189,7 @@ class _Curve:
         return np.asarray(shift.log10(kelvin + rise)) - float(shift.log10(kelvin))
 
     def states(self, contact: ThermalContact, cold: Warmed) -> tuple[HeatCurve, list[State], tuple[Note, ...]]:
-        """Return the curve of one contact over its rise, its stable states, and where a law ends the search."""
+        """Return the curve of one contact over its rise, its outermost states, and where a law ends the search."""
         last = _FIRST
         while True:
             reached, ended = contact.reach(0.0, last)
@@ -131,7 +201,7 @@ class _Curve:
             last *= _FARTHER
         if not states:
             raise beyond(ended, contact.kelvin + reached)
-        return curve, states, sought(curve, ended, contact.kelvin)
+        return curve, list(dict.fromkeys((states[0], states[-1]))), sought(curve, ended, contact.kelvin)
 
     def _produced(self, contact: ThermalContact, cold: Warmed, rise: Array) -> HeatCurve:
         from scipy.interpolate import PchipInterpolator

@@ -13,7 +13,7 @@ from viscofric.contact.fields.dissipation import dissipation
 from viscofric.contact.heated import Heat, ThermalContact, coulomb_heat
 from viscofric.heat.heating import HeatBalance, ThermalResistances
 from viscofric.heat.influence import Diffusion
-from viscofric.heat.means import disc_mean, strip_mean
+from viscofric.heat.means import disc_mean, face_resistance, strip_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -65,10 +65,18 @@ class FreeThermalContact(ThermalContact):
 
     line: bool = False
 
-    def heat(self, solution: ContactSolution, kelvin: float) -> Heat:
-        """Return the heats of a contact solved at a temperature."""
+    def heat(self, solution: ContactSolution, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
+        """Return the heats of a contact solved at a temperature; its resistances `relative` to `closed`, if known."""
+        if relative is None:
+            resistances = thermal_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating)
+        else:
+            rubber, other = self.closed(solution.contact_area)
+            track = self.heating.track_resistance(self.size(solution.contact_area), abs(self.speed))
+            below = [rubber * part for part in relative[:4]]
+            parts: Any = (*below, track, other * relative.counterface, relative.beyond)
+            resistances = ThermalResistances(*parts)
         return Heat(
-            thermal_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating),
+            resistances,
             self.coulomb_heat(solution.load, solution.contact_area, kelvin),
             abs(solution.friction_force * solution.speed),
             solution.contact_area,
@@ -79,10 +87,20 @@ class FreeThermalContact(ThermalContact):
         """Return the area of a solved contact, m² or m."""
         return solution.contact_area
 
+    def size(self, area: float) -> float:
+        """Return the half-width of a line contact, or the radius of a disc of equal area, m."""
+        return 0.5 * area if self.line else math.sqrt(area / math.pi)
+
+    def closed(self, area: float) -> tuple[float, float]:
+        """Return the rise of the rubber's face and of the counterface's per heat, of a disc or strip of the area."""
+        size, speed = self.size(area), abs(self.speed)
+        other = abs(speed - self.heating.sliding(speed))
+        rubber, counterface = self.heating.rubber, self.heating.counterface
+        return face_resistance(rubber, speed, size, self.line), face_resistance(counterface, other, size, self.line)
+
     def scaled(self, heat: Heat, larger: Array) -> ThermalResistances:
         """Return resistances of larger contacts (n,): they change as those of discs or strips."""
-        line = self.line
-        size = 0.5 * heat.area if line else math.sqrt(heat.area / math.pi)
+        line, size = self.line, self.size(heat.area)
         mean = strip_mean if line else disc_mean
 
         def factor(body: ThermalProperties, velocity: float) -> Array:

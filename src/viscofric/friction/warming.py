@@ -18,7 +18,7 @@ from viscofric.contact.heating import thermal_resistances
 from viscofric.errors import InputError
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
-from viscofric.heat.means import disc_mean, strip_mean
+from viscofric.heat.means import face_resistance
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import shown_celsius
 
@@ -134,20 +134,14 @@ class _Contact(NamedTuple):
 
         The loss is on the face or, where that is less, spread over the half circle of the contact's radius below it.
         """
-        rubber = self._on_the_face(self.heating.rubber, self.speed)
-        other = self._on_the_face(self.heating.counterface, abs(self.speed - self.heating.sliding(self.speed)))
+        other_speed = abs(self.speed - self.heating.sliding(self.speed))
+        rubber = face_resistance(self.heating.rubber, self.speed, self.radius, self.is_line)
+        other = face_resistance(self.heating.counterface, other_speed, self.radius, self.is_line)
         resistances = ThermalResistances(rubber, rubber, rubber, rubber, 0.0, other)
         section = self.radius if self.is_line else 0.5 * math.pi * self.radius**2
         spread = self.loss_heat / (self.speed * self.heating.rubber.volume_heat * section)
         face = HeatBalance.of(resistances, self.coulomb_heat, 0.0).face_rise
         return face + min(rubber * self.loss_heat, spread)
-
-    def _on_the_face(self, body: ThermalProperties, speed: float) -> float:
-        """Return the mean rise of a disc or strip per heat, K/W or K m/W; infinite of a strip at rest."""
-        peclet = speed * self.radius / (2.0 * body.diffusivity)
-        if self.is_line:
-            return strip_mean(peclet, hertz=True) / (2.0 * float(body.conductivity)) if peclet > 0.0 else math.inf
-        return disc_mean(peclet, hertz=True) / (math.pi * self.radius * float(body.conductivity))
 
     def rises(self, modes: Modes, poisson_ratio: float) -> tuple[float, float]:
         """Return the mean rise of the face, and of the rubber where the loss is released, K."""

@@ -13,6 +13,7 @@ the kernel is 1/π exp(−Pe ξ) K0(Pe |ξ|), and the mean over a strip takes it
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ from viscofric.heat.quadrature import unit_nodes
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
+    from viscofric.thermal import ThermalProperties
 
 #: Nodes with which the means are exact to 1e-13 where Pe < 1e4, and to 1e-9 where Pe < 1e8.
 _NODES = 161
@@ -43,6 +45,17 @@ def strip_mean(peclet: float, *, hertz: bool) -> float:
     # exp(−z) cosh(z) is free of overflow, and k0e is exp(z) K0.
     z = peclet * distance
     return float(np.sum(common * 0.5 * (1.0 + np.exp(-2.0 * z)) * k0e(z))) / np.pi
+
+
+def face_resistance(body: ThermalProperties, speed: float, size: float, line: bool) -> float:
+    """Return the mean rise per heat distributed like Hertz's pressure, K/W, or K m/W and infinite of a strip at rest.
+
+    Of a disc of a radius `size`, m, or a strip of that half-width, at a speed over the body, m/s.
+    """
+    peclet = speed * size / (2.0 * body.diffusivity)
+    if line:
+        return strip_mean(peclet, hertz=True) / (2.0 * float(body.conductivity)) if peclet > 0.0 else math.inf
+    return disc_mean(peclet, hertz=True) / (math.pi * size * float(body.conductivity))
 
 
 def pair_density(distance: Array, shape: str) -> Array:

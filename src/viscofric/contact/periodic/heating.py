@@ -49,8 +49,9 @@ MEAN_LEFT_OUT = Note(
 class PeriodicThermalContact(ThermalContact):
     """Contact of a rough surface at any rise of temperature."""
 
-    def heat(self, solution: PeriodicSolution, kelvin: float) -> Heat:
+    def heat(self, solution: PeriodicSolution, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
         """Return the heats of a contact solved at a temperature, per nominal area."""
+        assert relative is None, "spots come and go: resistances are not smooth"
         return Heat(
             periodic_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating),
             self.coulomb_heat(solution.mean_pressure, self.area(solution), kelvin),

@@ -1,0 +1,98 @@
+"""Thermal resistances along a curve of speeds, from those of some of its contacts, the knots.
+
+Over those of a disc or strip of the same area in closed form, resistances change smoothly with speed: between about
+five knots a decade they are interpolated.  So is by how much the rise of a state differs from the one expected.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from viscofric.heat.heating import ThermalResistances
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.arrays import Array
+    from viscofric.contact.heated import Heat, ThermalContact
+
+#: Distance of knots, and by how much log10 α may differ between the states of two for others in between.
+_APART, _SHIFTED = 0.2, 0.4
+
+
+def knots_of(contacts: Sequence[ThermalContact], area: float = 1.0) -> list[int]:
+    """Return the rows of contacts whose resistances are found from their fields, ascending in speed.
+
+    The first, the last, and about five a decade of those between them; all if resistances are not smooth.
+    """
+    speeds, rows = np.unique([abs(one.speed) for one in contacts], return_index=True)
+    if any(one.closed(area) is None for one in contacts):
+        return list(range(len(contacts)))
+    last, found = -math.inf, []
+    for row, place in zip(rows.tolist(), np.log10(speeds).tolist(), strict=True):
+        if place - last >= _APART or row == rows[-1]:
+            found.append(row)
+            last = place
+    return found
+
+
+class Knot(NamedTuple):
+    """What a solved contact tells others about theirs, at nearby speeds."""
+
+    drop: float  # of log10 α
+    relative: ThermalResistances  # over those in closed form
+    rise: float  # logarithm of the rise that it produces over the one expected
+
+    @classmethod
+    def of(cls, contact: ThermalContact, heat: Heat, drop: float = 0.0, rise: float = 0.0) -> Knot:
+        """Return the knot of a contact whose resistances are known."""
+        closed, one = contact.closed(heat.area), heat.resistances
+        assert closed is not None
+        rubber, other = closed
+        # Infinite below a strip that does not slide over the counterface.
+        over = one.counterface / other if math.isfinite(other) else 1.0
+        parts: Any = (*(part / rubber for part in one[:4]), 0.0, over, one.beyond)
+        return cls(drop, ThermalResistances(*parts), rise)
+
+    @property
+    def columns(self) -> list[float]:
+        """What is interpolated: logarithms, and the share of the loss that is released beyond the cells."""
+        *below, _, other, beyond = self.relative
+        return [*(math.log(max(one, 1e-300)) for one in (*below, other)), beyond, self.rise]
+
+
+class Between:
+    """Knots at any speed between those of solved contacts on one branch of states."""
+
+    def __init__(self, speeds: Sequence[float], knots: Sequence[Knot | None]) -> None:
+        """At speeds that ascend; None has no state on this branch, which is not followed across."""
+        from scipy.interpolate import PchipInterpolator
+
+        self._pieces: list[tuple[float, float, Any]] = []
+        first = 0
+        for end in range(1, len(knots) + 1):
+            if end < len(knots) and _close(knots[end - 1], knots[end]):
+                continue
+            run = [one for one in knots[first:end] if one is not None]
+            if len(run) > 1:
+                columns: Array = np.array([one.columns for one in run])
+                places = np.log(speeds[first:end])
+                self._pieces.append((speeds[first], speeds[end - 1], PchipInterpolator(places, columns)))
+            first = end
+
+    def __call__(self, speed: float) -> Knot | None:
+        """Return the knot at a speed, None if there is none on both sides of it."""
+        for slowest, fastest, smooth in self._pieces:
+            if slowest <= speed <= fastest:
+                *logarithms, beyond, rise = smooth(math.log(speed)).tolist()
+                *below, other = (math.exp(one) for one in logarithms)
+                parts: Any = (*below, 0.0, other, beyond)
+                return Knot(0.0, ThermalResistances(*parts), rise)
+        return None
+
+
+def _close(one: Knot | None, other: Knot | None) -> bool:
+    return one is not None and other is not None and abs(one.drop - other.drop) <= _SHIFTED
