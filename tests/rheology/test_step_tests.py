@@ -235,13 +235,12 @@ def test_arguments_for_two_moduli_are_refused():
         vf.sample_materials(fit, vf.fit_retardation_spectrum(curve(rubber(), "creep")), samples=20)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seeds", [3, pytest.param(12, marks=pytest.mark.apart)])
+@pytest.mark.apart
 @pytest.mark.parametrize(("kind", "noise"), [("creep", 0.005), ("relaxation", 0.02)])
-def test_bands_contain_what_was_planted(kind, noise, seeds):
+def test_bands_contain_what_was_planted(kind, noise):
     """As for sweeps; benchmarks/rheology counts over more problems."""
     inside: dict[str, list[float]] = {"alpha": [], "response": [], "storage": []}
-    for seed in range(seeds):
+    for seed in range(12):
         tests, material, reference = planted_steps(seed, noise, kind=kind)
         fit = vf.superpose(tests, reference)
         factors, time = fit.shift_factors, np.geomspace(*fit.master_curve.time[[0, -1]], 40)
@@ -260,9 +259,9 @@ def test_bands_contain_what_was_planted(kind, noise, seeds):
         moduli = drawn.modulus_band(omega)
         storage = true.complex_modulus(omega).real
         inside["storage"].append(np.mean((storage >= moduli.lower.real) & (storage <= moduli.upper.real)))
-    # Errors within one fit move together: over 12 seeds the mean differs by 0.04, over 3 by 0.08.
+    # Errors within one fit move together: over 12 seeds the mean differs by 0.04.
     for shares in inside.values():
-        assert np.mean(shares) == pytest.approx(0.95, abs=0.09 * np.sqrt(12 / seeds))
+        assert np.mean(shares) == pytest.approx(0.95, abs=0.09)
 
 
 @pytest.mark.slow

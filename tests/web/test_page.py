@@ -33,18 +33,6 @@ def test_page_is_light_and_asks_no_other_host(browser: Browser, server: Server) 
     assert any(path.endswith("plotly-cartesian.min.js") for path, _ in fetched)
 
 
-@pytest.mark.parametrize(
-    ("width", "scheme"), [(1400, "light"), pytest.param(390, "dark", marks=[pytest.mark.slow, pytest.mark.exhaustive])]
-)
-def test_export_step_is_accessible(width: int, scheme: str, browser: Browser, server: Server) -> None:
-    viewport = {"width": width, "height": 850}
-    with opened_tab(browser, server, "#export", viewport=viewport, color_scheme=scheme) as tab:
-        tab.page.wait_for_selector("pre .heading")
-        assert tab.findings() == []
-        assert tab.page.evaluate("document.documentElement.scrollWidth") <= width
-        tab.screenshot(f"export-{width}-{scheme}")
-
-
 def test_keyboard_reaches_steps_and_focus_goes_to_their_heading(tab: Tab) -> None:
     press = tab.page.keyboard.press
     press("Tab")
