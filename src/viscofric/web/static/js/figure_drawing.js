@@ -227,7 +227,8 @@ function hover(trace, spec) {
   return `${trace.name ? `<b>${trace.name}</b><br>` : ""}${spec.x?.label ?? "x"} %{x:.4g}${end(spec.x)}<br>${spec.y?.label ?? "y"} %{y:.4g}${end(spec.y)}${text}<extra></extra>`;
 }
 
-export function mapTraces(spec, dark) {
+// Lines on a map are always bright: the map is dark in either theme.
+export function mapTraces(spec) {
   const { x, y, z } = spec.axes;
   const size = {
     thickness: 12,
@@ -240,7 +241,7 @@ export function mapTraces(spec, dark) {
     x: units.number(spec.x, x.kind),
     y: units.number(spec.y, y.kind),
     z: spec.z.map((row) => units.number(row, z.kind)),
-    colorscale: spec.scale ?? (dark ? "Viridis" : "Viridis"),
+    colorscale: spec.scale ?? "Viridis",
     zsmooth: spec.smooth ?? false,
     zmin: spec.zero ? 0 : undefined,
     colorbar: size,

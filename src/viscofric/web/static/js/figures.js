@@ -51,7 +51,7 @@ async function savePicture(spec, format) {
   const Plotly = await drawing();
   const [width, height] = spec.z ? [900, 700] : [900, 600];
   const layout = { ...layoutOf(spec, false, true), width, height };
-  const data = spec.z ? mapTraces(spec, false) : plotlyTraces(spec, false);
+  const data = spec.z ? mapTraces(spec) : plotlyTraces(spec, false);
   const url = await Plotly.toImage({ data, layout }, { format, width, height, scale: format === "png" ? 2 : 1 });
   const content = format === "svg" ? decodeURIComponent(url.slice(url.indexOf(",") + 1)) : await await blobOf(url);
   save(`${spec.id}.${format}`, content, "image/svg+xml");
@@ -155,7 +155,7 @@ export function figure(container, first) {
     const Plotly = await drawing();
     drawn = spec;
     const dark = isDark();
-    const data = spec.z ? mapTraces(spec, dark) : plotlyTraces(spec, dark);
+    const data = spec.z ? mapTraces(spec) : plotlyTraces(spec, dark);
     await Plotly.react(plot, there ? data : [], layoutOf(spec, dark, false), {
       displayModeBar: false,
       displayNotifier: false,
