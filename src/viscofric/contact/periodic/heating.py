@@ -41,7 +41,7 @@ _WITH_AREA = 0.7
 MEAN_LEFT_OUT = Note(
     "mean-heat-left-out",
     "The rise of temperature is that above the mean of the surface: how much the mean heat warms the surface depends "
-    "on the size of the nominal contact, which was not given (Heating.nominal_radius).",
+    "on the radius of the nominal contact, which was not given.",
 )
 
 

@@ -46,7 +46,7 @@ _MOST_MATERIALS = 100
 
 def isothermal(noun: str, reason: str = "") -> Note:
     """Return the note that such contacts are not heated, with the reason as a clause."""
-    return Note("history-isothermal", f"{noun} are isothermal: [heating] heats the steady cases only{reason}.")
+    return Note("history-isothermal", f"{noun} are isothermal: only steady cases are heated{reason}.")
 
 
 #: What contacts over time are not heated with.
