@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 _APART, _SHIFTED = 0.2, 0.4
 
 
-def knots_of(contacts: Sequence[ThermalContact], area: float = 1.0) -> list[int]:
+def knots_of(contacts: Sequence[ThermalContact]) -> list[int]:
     """Return the rows of contacts whose resistances are found from their fields, ascending in speed.
 
     The first, the last, and about five a decade of those between them; all if resistances are not smooth.
     """
     speeds, rows = np.unique([abs(one.speed) for one in contacts], return_index=True)
-    if any(one.closed(area) is None for one in contacts):
+    if any(one.closed(1.0) is None for one in contacts):
         return list(range(len(contacts)))
     last, found = -math.inf, []
     for row, place in zip(rows.tolist(), np.log10(speeds).tolist(), strict=True):

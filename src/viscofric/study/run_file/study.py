@@ -51,8 +51,8 @@ def isothermal(noun: str, reason: str = "") -> Note:
 
 #: What contacts over time are not heated with.
 _NOT_HEATED = (
-    "; those over time are heated under an indenter, without [interface], cycle, steady sliding before, slip, passes, "
-    "average = 'loss' and branch = 'hot'"
+    "; over time, heating is for indenters on a half-space, without a law of the interface, cycle, steady sliding "
+    "before, slip, earlier passes, mean rise weighted with the loss, or hot state"
 )
 
 
