@@ -13,7 +13,7 @@ from viscofric.contact.fields.dissipation import dissipation
 from viscofric.contact.heated import Heat, ThermalContact, coulomb_heat
 from viscofric.heat.heating import HeatBalance, ThermalResistances
 from viscofric.heat.influence import Diffusion
-from viscofric.heat.means import disc_mean, face_resistance, strip_mean
+from viscofric.heat.means import disc_mean, strip_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -93,10 +93,7 @@ class FreeThermalContact(ThermalContact):
 
     def closed(self, area: float) -> tuple[float, float]:
         """Return the rise of the rubber's face and of the counterface's per heat, of a disc or strip of the area."""
-        size, speed = self.size(area), abs(self.speed)
-        other = abs(speed - self.heating.sliding(speed))
-        rubber, counterface = self.heating.rubber, self.heating.counterface
-        return face_resistance(rubber, speed, size, self.line), face_resistance(counterface, other, size, self.line)
+        return self.heating.face_resistances(abs(self.speed), self.size(area), self.line)
 
     def scaled(self, heat: Heat, larger: Array) -> ThermalResistances:
         """Return resistances of larger contacts (n,): they change as those of discs or strips."""

@@ -18,7 +18,6 @@ from viscofric.contact.heating import thermal_resistances
 from viscofric.errors import InputError
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
-from viscofric.heat.means import face_resistance
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import shown_celsius
 
@@ -134,9 +133,7 @@ class _Contact(NamedTuple):
 
         The loss is on the face or, where that is less, spread over the half circle of the contact's radius below it.
         """
-        other_speed = abs(self.speed - self.heating.sliding(self.speed))
-        rubber = face_resistance(self.heating.rubber, self.speed, self.radius, self.is_line)
-        other = face_resistance(self.heating.counterface, other_speed, self.radius, self.is_line)
+        rubber, other = self.heating.face_resistances(self.speed, self.radius, self.is_line)
         resistances = ThermalResistances(rubber, rubber, rubber, rubber, 0.0, other)
         section = self.radius if self.is_line else 0.5 * math.pi * self.radius**2
         spread = self.loss_heat / (self.speed * self.heating.rubber.volume_heat * section)

@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple
 
 from viscofric.arguments import insist_on, number
 from viscofric.errors import InputError, check_choice
-from viscofric.heat.means import disc_mean
+from viscofric.heat.means import disc_mean, face_resistance
 from viscofric.heat.track import track_temperature
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, positive, to_si
@@ -104,6 +104,14 @@ class Heating:
             1.0, self.rubber, radius=radius, track_radius=self.track_radius, speed=speed, passes=[self.passes]
         )
         return float(rise[0])
+
+    def face_resistances(self, speed: float, size: float, line: bool) -> tuple[float, float]:
+        """Return the mean rises of the rubber's and the counterface's face per heat, in closed form.
+
+        Of a disc of a radius `size`, m, or a strip of that half-width, at a speed over the rubber, m/s.
+        """
+        other = abs(speed - self.sliding(speed))
+        return face_resistance(self.rubber, speed, size, line), face_resistance(self.counterface, other, size, line)
 
     def nominal(self, speed: float) -> NominalResistances:
         """Return the rises of the nominal contact of a rough surface that moves at a speed, m/s."""
