@@ -114,7 +114,8 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path):
         ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], load=1.1)),
         ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.01], load=1.0)),
         ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], indentation=1e-4)),
-        ("not-available", RUBBER, BALL, vf.History([0.0, 0.04], load=1.0, speed=[0.0, 1.0])),
+        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], load=1.0, speed=[0.0, 1.0])),
+        ("not-available", RUBBER, WAVE, SLIDING),
     ):
         with refused(code):
             vf.solve_transient(material, indenter, history, resume=run)

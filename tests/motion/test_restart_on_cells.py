@@ -177,6 +177,21 @@ def test_an_interruption_before_the_first_step_of_a_finer_grid_keeps_the_coarser
 
 
 @pytest.mark.slow
+def test_a_normal_motion_that_goes_on_by_sliding_is_solved_again_on_cells(tmp_path: Path):
+    slides = vf.History([0.0, 0.02, 0.03], load=1.0, position=[0.0, 0.0, 1e-3])
+    pressed = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02], load=1.0), times=[0.01, 0.02], accuracy=5e-2)
+    pressed.save_state(tmp_path / "pressed.npz")
+    again = vf.solve_transient(
+        RUBBER, BALL, slides, accuracy=5e-2, times=[0.03], resume=tmp_path / "pressed.npz"
+    )  # fmt: skip
+    at_once = vf.solve_transient(RUBBER, BALL, slides, accuracy=5e-2, times=[0.01, 0.02, 0.03])
+    assert codes(again.warnings) >= {"solved-again"}
+    same(again, at_once)
+    known = pressed.indentation  # by springs
+    assert np.all(np.abs(again.indentation[:2] - known) <= again.errors.indentation[:2] + pressed.errors.indentation)
+
+
+@pytest.mark.slow
 def test_what_cannot_go_on_is_refused(tmp_path: Path):
     begun = solved("cylinder", 0.02)
     longer = history("cylinder")
@@ -190,10 +205,6 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path):
     ):
         with refused(code):
             vf.solve_transient(material, indenter, wanted, resume=begun, accuracy=5e-2, layer=layer)
-    pressed = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02], load=1.0), times=[0.02], accuracy=5e-2)
-    with refused("not-available"):
-        vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02, 0.03], load=1.0, position=[0.0, 0.0, 1e-3]),
-                           accuracy=5e-2, resume=pressed)  # fmt: skip
     interrupted = solved("cylinder", progress=stopped_after(int(0.6 * whole("cylinder")[1])))
     with refused("other-times"):
         solved("cylinder", resume=interrupted, times=[0.01, 0.037, 0.04])

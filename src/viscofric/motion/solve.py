@@ -38,6 +38,10 @@ if TYPE_CHECKING:
 
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
 _ROUNDING = 1e-12  # of times, relative to the ends of the history
+_AGAIN = Note(
+    "solved-again",
+    "The run that is continued was a normal motion, and its continuation slides: its past is solved again, on cells.",
+)
 _RING = Note(
     "not-one-disc",
     "The profile of the indenter does not rise all the way outwards, so that its contact may be a ring: it was solved "
@@ -85,6 +89,7 @@ def solve_transient(
         Run to continue, or the file that its `TransientSolution.save_state` wrote: an interrupted run, or one whose
         history is the beginning of this history.  The results equal those of one uninterrupted run, and include
         those of the earlier one; for a longer history on cells, to the stated errors.
+        Where a normal motion goes on by sliding, its past is solved again on cells, and a note says so.
     heating : Heating, optional
         Thermal properties and Coulomb heat: the rubber responds at the temperature of the history plus the mean rise of
         the contact's face, which the solution's `heating` holds.  In three or four runs, at some sixty times and those
@@ -196,12 +201,17 @@ def _resumed(
             f"resume = {brief(resume)}: must be a TransientSolution, or the file of its state.", code="wrong-type"
         )
     method, on_cells = restart.method, needs_grid(problem, history)
-    if (method == "waves") != (problem.kind == "periodic") or (method == "springs" and on_cells):
+    if (method == "waves") != (problem.kind == "periodic"):
         raise InputError(
             "resume: this contact is not solved in the way of the run; solve the whole history from its start.",
             code="not-available",
         )
     restart.insist_on_same(problem)
+    if method == "springs" and on_cells:
+        if times is not None:
+            known = [one.instant.time for one in restart.track.moments]
+            times = known + [one for one in times if not known or one > known[-1]]
+        return _on_cells(problem, history, times, progress, (_AGAIN,))
     if method == "grid":
         problem, levels = restart.levels(problem, times)
         return _on_cells(problem, history, times, progress, () if on_cells else (_RING,), levels)
