@@ -35,7 +35,7 @@ def road(points: int, shortest: float = 1.6e-4) -> vf.PeriodicSurface:
 
 @cache
 def heated(**heating: Any) -> vf.PeriodicSolution:
-    given = vf.Heating(**({"rubber": RUBBER, "counterface": STONE, "coulomb": 0.5} | heating))
+    given = vf.Heating(**({"rubber": RUBBER, "counterface": STONE, "coulomb": 0.5, "average": "contact"} | heating))
     return vf.solve_periodic(WARM, road(16, 2.5e-4), speed=0.1, pressure="0.2 MPa", temperature=300.0, heating=given)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ SOLID = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms"
 WARM = vf.Material(SOLID.spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))
 CYLINDER = vf.Cylinder("10 mm")
 SPEEDS = [0.5, 2.0]
-HEATING = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.3, slip="0.5 m/s")
+HEATING = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.3, slip="0.5 m/s", average="contact")
 
 
 @pytest.fixture(scope="module")
@@ -54,21 +55,26 @@ def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.HeatedFrictio
     assert data.isothermal.dims == data.viscoelastic.dims
 
 
-def test_the_heat_of_an_interface_is_its_stress_on_the_contact() -> None:
-    """The same contact under a constant coefficient τ A/F, at the temperature reached, is as warm."""
+@pytest.mark.parametrize("average", ["contact", "loss"])
+def test_the_heat_of_an_interface_is_its_stress_on_the_contact(average: Literal["contact", "loss"]) -> None:
+    """The same contact under a constant coefficient τ A/F, at the temperature of the face, is as warm."""
     law = vf.PowerShearStress(stress="30 kPa", exponent=0.1, speed="0.5 m/s", shift=vf.Arrhenius("80 kJ/mol", 300.0))
-    warming = vf.Heating(rubber=RUBBER, counterface=PTFE, slip="0.5 m/s")
+    warming = vf.Heating(rubber=RUBBER, counterface=PTFE, slip="0.5 m/s", average=average)
     one = {"speeds": 2.0, "temperatures": 300.0, "load": 100.0, "accuracy": 1e-2}
     found = vf.predict_friction(WARM, CYLINDER, **one, heating=warming, interface=law)
     assert isinstance(found, vf.HeatedFrictionCurves)
-    warm = 300.0 + found.temperature_rise
-    assert found.temperature_rise[0] > 0.2
+    warm = 300.0 + found.face_rise
+    assert found.face_rise[0] > 0.2
+    assert (found.temperature_rise[0] > 0.2) == (average == "contact")
     assert found.coulomb == pytest.approx(law(0.5, warm) / found.mean_pressure)
     assert found.total == pytest.approx(found.coulomb + found.viscoelastic)
-    constant = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=float(found.coulomb[0]), slip="0.5 m/s")
+    constant = vf.Heating(
+        rubber=RUBBER, counterface=PTFE, coulomb=float(found.coulomb[0]), slip="0.5 m/s", average=average
+    )
     given = vf.predict_friction(WARM, CYLINDER, **one, heating=constant)
     # The residual of either may be 1 % of the rise.
     assert found.temperature_rise == pytest.approx(given.temperature_rise, rel=2e-2)
+    assert found.face_rise == pytest.approx(given.face_rise, rel=2e-2)
     for refused_one in (constant, "warm"):
         with refused("heating"):
             vf.predict_friction(WARM, CYLINDER, **one, heating=refused_one, interface=law)

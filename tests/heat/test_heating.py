@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import ConvergenceError
 from viscofric.heat.branches import State, settled, stable_states
 from viscofric.heat.heating import HeatBalance, ThermalResistances
+from viscofric.heat.interface import interface_heat
 
 RUBBER = vf.ThermalProperties(0.3, 1200.0, 1500.0, "rubber")
 STEEL = vf.ThermalProperties(46.0, 7810.0, 475.0, "steel")
@@ -45,7 +47,7 @@ def test_a_contact_with_two_states_has_a_cold_and_a_hot_one() -> None:
     assert [state.rise for state in states] == pytest.approx([1.0025, 20.9996], abs=1e-3)
     assert all(abs(state.slope) < 0.01 for state in states)
     (single,) = stable_states(rise, 30.0 - 0.5 * rise)
-    assert single == pytest.approx((20.0, -0.5))
+    assert single[:2] == pytest.approx((20.0, -0.5))
 
 
 def test_a_state_is_settled_in_few_solves() -> None:
@@ -105,3 +107,21 @@ def test_resistance_of_a_track_is_that_of_its_passes() -> None:
 def test_wrong_heating_is_refused(given: dict[str, Any], code: str) -> None:
     with refused(code):
         vf.Heating(**{"rubber": RUBBER, "counterface": STEEL, **given})
+
+
+def test_an_interface_that_shears_harder_when_warm_has_two_states() -> None:
+    """Heat 10 + 90/(1 + exp(20 − ΔT/K)) W, 0.5 K/W and 2 K by the loss: its coldest and its hottest face."""
+    resistances = ThermalResistances(0.5, 0.1, 0.05, 0.08, 0.0, math.inf)
+    loss = np.array([20.0, 0.0])
+
+    def heat_at(rise: np.ndarray) -> np.ndarray:
+        return np.asarray(10.0 + 90.0 / (1.0 + np.exp(20.0 - rise)))
+
+    for hot, low, high in ((False, 0.0, 15.0), (True, 25.0, 200.0)):
+        found = interface_heat(resistances, loss, heat_at, 500.0, hot=hot)
+        for one, by_loss in zip(found, 0.1 * loss, strict=True):
+            face = brentq(lambda rise, add=by_loss: add + 0.5 * heat_at(rise) - rise, low, high, xtol=1e-12)
+            assert one == pytest.approx(heat_at(face), rel=1e-9)
+    # Known up to 30 K only, the hot face is not followed farther, and the cold one is not affected.
+    assert interface_heat(resistances, loss, heat_at, 30.0, hot=True) == pytest.approx(heat_at(np.array([30.0, 30.0])))
+    assert interface_heat(resistances, loss, heat_at, 30.0, hot=False)[1] == pytest.approx(10.0, rel=1e-3)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ from viscofric.notes import note_of
 RUBBER = vf.ThermalProperties("0.3 W/m/K", "1150 kg/m**3", "1700 J/kg/K", "rubber")
 STEEL = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")
 HEATING = vf.Heating(rubber=RUBBER, counterface=STEEL, coulomb=0.5)
+OF_THE_FACE = replace(HEATING, average="contact")
 BALL = vf.Ball("5 mm")
 
 
@@ -21,7 +24,7 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     material = vf.Material(spectrum, shift=vf.Arrhenius("60 kJ/mol", reference="20 degC"))
     cylinder, asked, time = vf.Cylinder("5 mm"), [0.03, 0.045, 0.06], [0.0, 0.03, 0.06]
     history = vf.History(time, load=2000.0, speed=[0.3, 0.3, 0.3], temperature="20 degC", before="at rest")
-    run = vf.solve_transient(material, cylinder, history, times=asked, accuracy=3e-2, heating=HEATING)
+    run = vf.solve_transient(material, cylinder, history, times=asked, accuracy=3e-2, heating=OF_THE_FACE)
     heat = run.heating
     assert heat is not None
     assert heat.temperature_rise.min() > 0.9

@@ -65,7 +65,7 @@ def test_contact_spots_may_be_colder_than_the_mean_of_the_surface() -> None:
     track = vf.self_affine(
         0.8, shape=(64, 64), spacing="1 um", rolloff="64 um", shortest="8 um", rms_slope=0.25, seed=0
     )
-    heating = vf.Heating(rubber=RUBBER, counterface=STONE)
+    heating = vf.Heating(rubber=RUBBER, counterface=STONE, average="contact")
     found = vf.predict_rough_friction(
         rubber, track, speeds=[1.0, 10.0], temperatures="20 degC", pressure="0.4 MPa", heating=heating
     )
@@ -95,7 +95,7 @@ def test_the_heat_of_an_interface_is_its_stress_on_the_real_area() -> None:
         WARM, roads()[0], **one, heating=vf.Heating(rubber=RUBBER, counterface=STONE), interface=law
     )
     assert isinstance(found, vf.HeatedRoughFriction)
-    warm = 300.0 + float(found.temperature_rise[0, 0, 0])
+    warm = 300.0 + float(found.face_rise[0, 0, 0])
     stress = float(law(0.5, warm))
     assert found.interface_friction == pytest.approx(stress * found.corrected_area_fraction / 2e5)
     constant = vf.Heating(rubber=RUBBER, counterface=STONE, coulomb=float(found.interface_friction[0, 0, 0]))

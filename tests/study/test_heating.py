@@ -43,7 +43,7 @@ cases = "each"
 [outputs]
 fields = "none"
 """
-HEATING = '[heating]\ncounterface = "PTFE"\ncoulomb = [0.2, 0.5]\n'
+HEATING = '[heating]\ncounterface = "PTFE"\ncoulomb = [0.2, 0.5]\naverage = "contact"\n'
 ROUGH = """
 [material]
 catalogue = "synthetic fluoroelastomer"
@@ -90,7 +90,7 @@ def test_every_case_is_heated_by_each_coulomb_friction(results: vf.StudyResults)
         temperatures="90 degC",
         load="500 N/m",
         accuracy=0.1,
-        heating=vf.Heating(rubber=FILLED_RUBBER, counterface=PTFE, coulomb=0.5),
+        heating=vf.Heating(rubber=FILLED_RUBBER, counterface=PTFE, coulomb=0.5, average="contact"),
     )
     assert isinstance(direct, vf.HeatedFrictionCurves)
     found = data.isel(temperature=1, coulomb=1)
@@ -252,7 +252,6 @@ SLIDE = '[history]\nslide = "1 mm"\n'
         (HEATING + SLIDE + "cycle = true\nstrokes = 2\n", BASE),
         (HEATING + 'slip = "1 mm/s"\n' + SLIDE, BASE),
         (HEATING + 'passes = 3\ntrack_radius = "2 cm"\n' + SLIDE, BALL),
-        (HEATING + 'average = "loss"\n' + SLIDE, BASE),
         (HEATING + 'branch = "hot"\n' + SLIDE, BASE),
         (ROUGH_HEAT + SLIDE, ROUGH),
         ('[heating]\ncounterface = "PTFE"\n[interface]\nlaw = "constant"\nstress = "1 MPa"\n' + SLIDE, BASE),

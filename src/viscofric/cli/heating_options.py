@@ -48,7 +48,7 @@ _STEADY = (
     click.option(
         "--heating-average",
         type=click.Choice(("contact", "loss")),
-        help="Mean rise that the rubber responds to: of its face, or weighted with the loss below [default: contact].",
+        help="Mean rise that the rubber responds to: where the loss is released, or of its face [default: loss].",
     ),
     click.option(
         "--heating-branch",

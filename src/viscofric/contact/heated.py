@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.heat.branches import State, settled, stable_states
 from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
+from viscofric.heat.interface import interface_heat
 from viscofric.heat.result import ContactHeating
 from viscofric.notes import Note, Remedy
 from viscofric.units import shown_celsius
@@ -36,8 +38,8 @@ _DECADES, _KELVIN = 0.4, 10.0
 _LEAST, _BEYOND = 30.0, 2.0
 #: Share of the rise that may be left; its effect on friction may be half of the accuracy.
 _LEFT = 0.01
-#: Temperatures at which laws end are found to this, K.
-_END = 1e-3
+#: Temperatures at which laws end are found to this, K; faces that the heat of an interface warms are followed so far.
+_END, _HOTTEST = 1e-3, 2000.0
 #: Laws that end at some temperature, as codes and sentences call them.
 SHIFT, INTERFACE = "shift", "interface"
 _NAMES = {SHIFT: "α(T) of the rubber", INTERFACE: "the law of the interface"}
@@ -119,17 +121,55 @@ class ThermalContact:
         spectrum = self.material.modes_at(kelvin)
         return Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
 
-    def coulomb_heat(self, load: float, area: float, kelvin: float) -> float:
-        """Return the heat at the interface of a contact under a load, at a temperature."""
-        return coulomb_heat(self.heating, self.interface, self.speed, load, area, kelvin)
+    def with_interface(self, heat: Heat, rise: Any, *, hot: bool) -> Heat:
+        """Return the heat of contacts at rises of temperature, (n,) or one, with that of the interface.
 
-    def at(self, rise: float, accuracy: float, relative: ThermalResistances | None = None) -> Warmed:
-        """Solve the contact at a rise of temperature; `relative` as in `heat`."""
+        The interface is as warm as the face: with the mean over the face, the rise itself, else the one that follows.
+        """
+        slip = self.heating.sliding(self.speed)
+        if self.interface is None or slip == 0.0:
+            return heat if self.interface is None else heat._replace(coulomb=0.0 * heat.coulomb)
+        law, per_stress = self.interface, np.asarray(slip * heat.area)
+
+        def heat_at(face: Array) -> Array:
+            return np.asarray(per_stress * law(slip, self.kelvin + face))
+
+        if self.heating.average == "contact":
+            found = heat_at(np.asarray(rise))
+        else:
+            loss = np.atleast_1d(heat.loss)
+            found = interface_heat(heat.resistances, loss, heat_at, self._interface_known, hot=hot)
+        coulomb: Any = found if np.ndim(rise) else float(found.item())
+        return heat._replace(coulomb=coulomb)
+
+    @cached_property
+    def _interface_known(self) -> float:
+        """The largest rise at which the law of the interface is known, or up to which states are looked for, K."""
+        assert self.interface is not None
+        return _last(lambda rise: not self._interface_ends(rise), 0.0, _HOTTEST)
+
+    def _interface_ends(self, rise: float) -> bool:
+        assert self.interface is not None
+        try:
+            self.interface(self.heating.sliding(self.speed), self.kelvin + rise)
+        except InputError:
+            return True
+        return False
+
+    def at(
+        self, rise: float, accuracy: float, relative: ThermalResistances | None = None, *, hot: bool = False
+    ) -> Warmed:
+        """Solve the contact at a rise of temperature; `relative` as in `heat`, `hot` as in `State`."""
         kelvin = self.kelvin + rise
         solution = self.isothermal(self.speed, kelvin, accuracy)
-        heat = self.heat(solution, kelvin, relative)
+        heat = self.with_interface(self.heat(solution, kelvin, relative), rise, hot=hot)
         friction = solution.friction_coefficient
         return Warmed(rise, friction, self.kept(solution), heat, self.heating.rise(heat.balance))
+
+    def hottest(self, one: Warmed) -> Warmed:
+        """Return the same solved contact with its interface in the hottest state."""
+        heat = self.with_interface(one.heat, one.rise, hot=True)
+        return one._replace(heat=heat, produced=self.heating.rise(heat.balance))
 
     def ended_by(self, rise: float) -> str:
         """Return the name of the law that is not known at a rise of temperature; empty if all are."""
@@ -137,13 +177,8 @@ class ThermalContact:
             self.log10_shift(self.kelvin + rise)
         except InputError:
             return SHIFT
-        slip = self.heating.sliding(self.speed)
-        if self.interface is not None and slip > 0.0:
-            try:
-                self.interface(slip, self.kelvin + rise)
-            except InputError:
-                return INTERFACE
-        return ""
+        slides = self.interface is not None and self.heating.sliding(self.speed) > 0.0
+        return INTERFACE if slides and self._interface_ends(rise) else ""
 
     def reach(self, rise: float, wanted: float) -> tuple[float, str]:
         """Return the largest rise up to a wanted one at which all laws are known, and which one ends there.
@@ -153,12 +188,8 @@ class ThermalContact:
         ended = self.ended_by(wanted)
         if not ended:
             return wanted, ""
-        low, high = rise, wanted
-        while high - low > _END:
-            middle = 0.5 * (low + high)
-            by = self.ended_by(middle)
-            low, high, ended = (low, middle, by) if by else (middle, high, ended)
-        return low, ended
+        last = _last(lambda one: not self.ended_by(one), rise, wanted)
+        return last, self.ended_by(last + 2.0 * _END) or ended
 
     def next_rise(self, rise: float) -> tuple[float, str]:
         """Return a rise at which α is noticeably smaller, or the largest one at which all laws are known.
@@ -172,14 +203,23 @@ class ThermalContact:
         return self.reach(near, rise + min(_KELVIN, _DECADES / max(slope, 1e-6)))
 
 
-def coulomb_heat(
-    heating: Heating, interface: InterfaceLaw | None, speed: float, load: float, area: float, kelvin: float
-) -> float:
-    """Return the heat at the interface of a contact: of a constant friction on its load, or of a stress on its area."""
-    slip = heating.sliding(speed)
-    if interface is None:
-        return heating.coulomb * load * slip
-    return float(interface(slip, kelvin)) * area * slip if slip > 0.0 else 0.0
+def _last(known: Callable[[float], bool], low: float, high: float) -> float:
+    """Return the largest rise up to `high` at which all is known, K, as it is at `low`."""
+    if known(high):
+        return high
+    while high - low > _END:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if known(middle) else (low, middle)
+    return low
+
+
+def outermost(cold: HeatCurve, hot: HeatCurve) -> list[State]:
+    """Return the coldest and the hottest state, or both as one, of contacts with their interface cold and hot."""
+    first, last = cold.states(), hot.states()
+    if not first or not last:
+        return first[:1]
+    end = last[-1]
+    return first[:1] if end == first[0] else [first[0], end._replace(hot=True)]
 
 
 def enough(rise: float, produced: list[float]) -> bool:
@@ -201,10 +241,10 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
         if rise > scanned[-1].rise:
             scanned.append(contact.at(rise, max(LOOSE, accuracy)))
     curve = HeatCurve.of(scanned)
-    states = curve.states()
+    states = outermost(curve, HeatCurve.of([contact.hottest(one) for one in scanned]))
     if not states:
         raise beyond(ended, contact.kelvin + scanned[-1].rise)
-    found = [settle(contact, curve, one, accuracy) for one in dict.fromkeys((states[0], states[-1]))]
+    found = [settle(contact, curve, one, accuracy) for one in states]
     order = found if contact.heating.branch == "cold" else found[::-1]
     heating, notes = described(contact, order, isothermal.friction)
     return finished(contact, order[0].solution, heating, (*notes, *sought(curve, ended, contact.kelvin)))
@@ -293,10 +333,13 @@ def settle(
     last: list[Warmed] = []
 
     def produced(rise: float) -> float:
-        last[:] = [contact.at(rise, accuracy, relative)]
+        last[:] = [contact.at(rise, accuracy, relative, hot=state.hot)]
         return last[0].produced
 
     settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
+    face = last[0].heat.balance.face_rise
+    if contact.ended_by(max(face - _LEFT * abs(face), last[0].rise)) == INTERFACE:
+        raise beyond(INTERFACE, contact.kelvin + face)
     return last[0]
 
 

@@ -15,10 +15,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heated import LOOSE, HeatCurve, beyond, described, enough, settle, sought
+from viscofric.contact.heated import LOOSE, Heat, HeatCurve, beyond, described, enough, outermost, settle, sought
 from viscofric.contact.heated_knots import Between, Knot, knots_of
-from viscofric.heat.branches import State
-from viscofric.heat.heating import HeatBalance
 from viscofric.heat.result import OF_CONTACT
 from viscofric.processes import Workers, call_all
 
@@ -27,6 +25,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.heated import ThermalContact, Warmed
+    from viscofric.heat.branches import State
     from viscofric.heat.heating import ThermalResistances
     from viscofric.heat.result import ContactHeating
     from viscofric.notes import Note
@@ -151,7 +150,7 @@ class _Curve:
             for branch, state in enumerate(states):
                 near = None if at_knots else self._near(row, self._branch(len(states), branch))
                 rise = state.rise if near is None else min(state.rise * math.exp(near.rise), curve.limits[1])
-                start = {"curve": curve, "state": State(rise, state.slope), **_relative(near)}
+                start = {"curve": curve, "state": state._replace(rise=rise), **_relative(near)}
                 found.append((self, row, {**self._call(row), **start}))
         return found
 
@@ -194,16 +193,17 @@ class _Curve:
         while True:
             reached, ended = contact.reach(0.0, last)
             rise = _PLACES * reached
-            curve = self._produced(contact, cold, rise)
-            states = curve.states()
+            curve, hottest = self._produced(contact, cold, rise)
+            states = outermost(curve, hottest)
             if ended or enough(reached, curve.produced.tolist()) or last > _MOST:
                 break
             last *= _FARTHER
         if not states:
             raise beyond(ended, contact.kelvin + reached)
-        return curve, list(dict.fromkeys((states[0], states[-1]))), sought(curve, ended, contact.kelvin)
+        return curve, states, sought(curve, ended, contact.kelvin)
 
-    def _produced(self, contact: ThermalContact, cold: Warmed, rise: Array) -> HeatCurve:
+    def _produced(self, contact: ThermalContact, cold: Warmed, rise: Array) -> tuple[HeatCurve, HeatCurve]:
+        """Return what one contact produces at its rises, with its interface in the coldest and the hottest state."""
         from scipy.interpolate import PchipInterpolator
 
         speed, heat = abs(contact.speed), cold.heat
@@ -218,14 +218,16 @@ class _Curve:
             )
         log_friction = log_friction - log_friction[0]
         larger = np.exp(log_area - log_area[0])
-        coulomb: Any = np.full(len(rise), heat.coulomb)
-        interface = contact.interface
-        if interface is not None and heat.coulomb > 0.0:
-            stress = np.asarray(interface(contact.heating.sliding(speed), contact.kelvin + rise))
-            coulomb *= stress / stress[0] * larger
-        balance = HeatBalance.of(contact.scaled(heat, larger), coulomb, heat.loss * np.exp(log_friction))
+        columns: Any = heat.coulomb * np.ones(len(rise)), heat.loss * np.exp(log_friction), heat.area * larger
+        every = Heat(contact.scaled(heat, larger), columns[0], columns[1], columns[2], heat.size)
         log_friction = log_friction + np.log(max(abs(cold.friction), 1e-300))
-        return HeatCurve(rise, np.asarray(contact.heating.rise(balance)), log_friction)
+
+        def curve(hot: bool) -> HeatCurve:
+            balance = contact.with_interface(every, rise, hot=hot).balance
+            return HeatCurve(rise, np.asarray(contact.heating.rise(balance)), log_friction)
+
+        only = curve(False)
+        return only, only if contact.interface is None or contact.heating.average == "contact" else curve(True)
 
     def _extend(self, lowest: float) -> None:
         """Solve contacts at lower speeds, so that the curve begins at the lowest reduced speed wanted."""

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.fields.dissipation import dissipation
-from viscofric.contact.heated import Heat, ThermalContact, coulomb_heat
+from viscofric.contact.heated import Heat, ThermalContact
 from viscofric.heat.heating import HeatBalance, ThermalResistances
 from viscofric.heat.influence import Diffusion
 from viscofric.heat.means import disc_mean, strip_mean
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from viscofric.contact.fields.dissipation import Dissipation, Modes
     from viscofric.contact.solution import ContactSolution
     from viscofric.heat.heating import Heating
-    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.thermal import ThermalProperties
 
 
@@ -77,7 +76,7 @@ class FreeThermalContact(ThermalContact):
             resistances = ThermalResistances(*parts)
         return Heat(
             resistances,
-            self.coulomb_heat(solution.load, solution.contact_area, kelvin),
+            self.heating.coulomb_heat(solution.load, self.speed),
             abs(solution.friction_force * solution.speed),
             solution.contact_area,
             0.5 * (solution.front + solution.rear),
@@ -157,16 +156,14 @@ def face_temperature(
     modes: Modes,
     poisson_ratio: float,
     heating: Heating,
-    interface: InterfaceLaw | None = None,
+    coulomb: float,
 ) -> FaceTemperature:
     """Return where the rubber's surface is how warm, under and behind a contact; see `thermal_resistances`.
 
-    The heat is shared such that both faces are equally warm on average; where they touch they may differ.
+    The Coulomb heat, W or W/m, is shared such that both faces are equally warm on average; where they touch they may
+    differ.
     """
     loss = abs(solution.friction_force * solution.speed)
-    assert solution.temperature is not None
-    area, kelvin = solution.contact_area, solution.temperature
-    coulomb = coulomb_heat(heating, interface, solution.speed, solution.load, area, kelvin)
     balance = HeatBalance.of(thermal_resistances(solution, modes, poisson_ratio, heating), coulomb, loss)
     speed, cells = abs(solution.speed), Cells.of(solution, _MAPPED)
     radius = cells.radius(solution)

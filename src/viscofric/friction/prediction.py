@@ -151,7 +151,7 @@ def predict_friction(
     rise = None
     if heating is not None:
         curves: FrictionCurves = (heated := predict_heated(contacts, heating, workers, report, interface))
-        slip, rise = heating.slip, heated.temperature_rise
+        slip, rise = heating.slip, heated.face_rise
     elif drawn is None:
         curves = FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
     else:

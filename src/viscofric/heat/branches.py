@@ -25,6 +25,7 @@ class State(NamedTuple):
 
     rise: float  # K
     slope: float
+    hot: bool = False  # the interface in its hottest state, where it has several at this rise
 
 
 def stable_states(rise: Array, produced: Array) -> list[State]:
@@ -54,7 +55,7 @@ def settled(
     of a contact come and go, has its state where both are no farther apart than the tolerance.  Raises ConvergenceError
     if the solves do not settle.
     """
-    rise, slope = start
+    rise, slope, _ = start
     before: tuple[float, float] | None = None
     low = high = None
     widths = [math.inf, math.inf]

@@ -32,9 +32,10 @@ class Heating:
     passes : int
         Earlier passes on that circle, whose heat is still in the rubber; `math.inf` for the final state.
     average : {"contact", "loss"}
-        Which mean rise of temperature the rubber responds to: that of the face of the contact, or that of the rubber
-        weighted with the loss that is released there.  They differ where the heat of a passing contact reaches a thin
-        skin only, at Péclet numbers va/(2κ) well above one.
+        Which mean rise of temperature the rubber responds to: that of the rubber weighted with the loss that is
+        released there, which is the one that changes friction to first order, or that of the face of the contact.  They
+        differ where the heat of a passing contact reaches a thin skin only, at Péclet numbers va/(2κ) well above one.
+        The shear stress of an interface responds to the temperature of the face.
     branch : {"cold", "hot"}
         Where a contact has a cold and a hot state: the one that a rising speed reaches from slow sliding, or the one
         that a falling speed reaches from fast sliding.
@@ -61,7 +62,7 @@ class Heating:
     slip: Quantity | None = None
     track_radius: Quantity | None = None
     passes: float = 0
-    average: Literal["contact", "loss"] = "contact"
+    average: Literal["contact", "loss"] = "loss"
     branch: Literal["cold", "hot"] = "cold"
     nominal_radius: Quantity | None = None
 
@@ -91,6 +92,10 @@ class Heating:
     def sliding(self, speed: float) -> float:
         """Return the sliding velocity, m/s, of a contact that moves at a speed, m/s."""
         return abs(speed) if self.slip is None else float(self.slip)
+
+    def coulomb_heat(self, load: float, speed: float) -> float:
+        """Return the heat of constant Coulomb friction, W (W/m, W/m²), of a load, N (N/m, Pa), at a speed, m/s."""
+        return self.coulomb * load * self.sliding(speed)
 
     def rise(self, balance: HeatBalance) -> float:
         """Return the rise that the rubber responds to, K."""

@@ -5,7 +5,8 @@ Heat released a time t ago over a contact that has moved on by d since raises th
     M(d/a, κt/a²) / (ρc √(πκt) aⁿ)  per heat,      n = 2 of a disc, n = 1 of a strip, whose heat is per length,
 
 M the density of the distance between a point of the source, distributed as Hertz's pressure, and one of the face, after
-heat has spread by diffusion.  Heat is constant between two times.
+heat has spread by diffusion.  The loss is released below the face: it warms the face, heat on the face warms it, and it
+warms itself, by M times means of the same kernel over its depths.  Heat is constant between two times.
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ _LEAST, _MOST = 1e-4, 10.0
 _TIMES, _PLACES, _RADII = 41, 81, 400
 #: The loss is released over the depth z like z exp(−z/b), with b in sizes of the contact (see the theory page on heat).
 _DEPTH = {"disc": 0.5, "strip": 0.65}
+#: Over it, √(κt)/b is large.
+_WIDE = 20.0
 #: Standard deviations of diffusion beyond the reach of source and face at which nothing is left.
 _REACH = 7.0
 #: Of the distance between two points, along one axis: under Hertz's pressure and on the face.
@@ -53,13 +56,16 @@ class Passage(NamedTuple):
 
 
 class PathRise(NamedTuple):
-    """Mean rise of the face, the same in both bodies, and its part by the loss, K; heat that the counterface takes.
+    """Mean rises, K, of the face, the same in both bodies, and of the rubber where the loss is released; shared heat.
 
-    At each time, (n,); heat since the time before, J or J/m.
+    Each with its part by the loss before the counterface has taken any of it; at each time, (n,).  Heat that the
+    counterface takes since the time before, J or J/m.
     """
 
-    rise: Array
-    by_loss: Array
+    face: Array
+    face_by_loss: Array
+    below: Array
+    below_by_loss: Array
     counterface: Array
 
 
@@ -71,9 +77,9 @@ def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -
     """
     count = len(passage.time)
     still = passage._replace(position=np.zeros_like(passage.position))
-    rubber, below = _responses(passage, heating.rubber)
-    other, _ = _responses(still, heating.counterface)
-    from_loss = below @ loss
+    rubber, across, within = _responses(passage, heating.rubber)
+    other = _responses(still, heating.counterface)[0]
+    from_loss = across @ loss
     taken, rise = np.zeros(count), np.zeros(count)
     for row in range(1, count):
         both = rubber[row, row] + other[row, row]
@@ -81,22 +87,26 @@ def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -
             warmth = from_loss[row] + rubber[row, : row + 1] @ coulomb[: row + 1] - rubber[row, :row] @ taken[:row]
             taken[row] = (warmth - other[row, :row] @ taken[:row]) / both
         rise[row] = other[row, : row + 1] @ taken[: row + 1]
-    return PathRise(rise, from_loss, taken)
+    by_loss = within @ loss
+    return PathRise(rise, from_loss, across @ (coulomb - taken) + by_loss, by_loss, taken)
 
 
-def _responses(passage: Passage, body: ThermalProperties) -> tuple[Array, Array]:
-    """Return rises at each time per heat of each interval before, (n, n): on the face, and below it."""
+def _responses(passage: Passage, body: ThermalProperties) -> Array:
+    """Return rises at each time per heat of each interval before, (3, n, n).
+
+    Of the face by heat on it; of the face by the loss, or where that is released by heat on the face; there by it.
+    """
     count = len(passage.time)
-    face, below = np.zeros((2, count, count))
+    found = np.zeros((3, count, count))
     for row in range(1, count):
         for last in range(1, row + 1):
             radius = 0.5 * float(passage.size[last - 1] + passage.size[last])
             if passage.time[last] > passage.time[last - 1] and radius > 0.0:
-                face[row, last], below[row, last] = _response(passage, body, row, last, radius)
-    return face, below
+                found[:, row, last] = _response(passage, body, row, last, radius)
+    return found
 
 
-def _response(passage: Passage, body: ThermalProperties, row: int, last: int, radius: float) -> tuple[float, float]:
+def _response(passage: Passage, body: ThermalProperties, row: int, last: int, radius: float) -> Array:
     time, places = passage.time, passage.position
     start, end = math.sqrt(time[row] - time[last - 1]), math.sqrt(time[row] - time[last])
     way = places[last] - places[last - 1]
@@ -113,15 +123,38 @@ def _response(passage: Passage, body: ThermalProperties, row: int, last: int, ra
     scale = body.volume_heat * math.sqrt(math.pi * body.diffusivity) * radius ** _POWER[passage.shape]
     each = 2.0 * (half * _WEIGHTS).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
     each /= scale * (start**2 - end**2)
-    return float(each.sum()), float(each @ _from_below(spread, passage.shape))
+    return np.asarray(between_depths(spread, passage.shape) @ each)
 
 
-def _from_below(spread: Array, shape: str) -> Array:
-    """Return what heat released below the face does to it over heat on it: the mean of exp(−z²/4κt) over its depth."""
+def between_depths(spread: Array, shape: str) -> Array:
+    """Return what heat does over what heat on the face does to the face, (3, n), as in `_responses`.
+
+    At a depth z it is exp(−z²/4κt), between two depths ½ exp(−(z − z')²/4κt) + ½ exp(−(z + z')²/4κt).  In the mean over
+    depths of the density z exp(−z/b)/b² their difference has the density (1 + d/b) exp(−d/b)/2b, their sum that of
+    s³ exp(−s/b)/6b⁴: with Iₙ = ∫ uⁿ exp(−u − b²u²/4κt) du these are I₁ and ¼ (I₀ + I₁) + I₃/12.
+    """
+    zeroth, first, third = _moments(np.sqrt(spread) / _DEPTH[shape])
+    return np.array([np.ones_like(spread), first, 0.25 * (zeroth + first) + third / 12.0])
+
+
+def _moments(x: Array) -> tuple[Array, Array, Array]:
+    """Return Iₙ = ∫ uⁿ exp(−u − u²/4x²) du over u > 0 for n = 0, 1, 3."""
     from scipy.special import erfcx
 
-    x = np.sqrt(spread) / _DEPTH[shape]
-    return np.asarray(2.0 * x**2 * (1.0 - math.sqrt(math.pi) * x * erfcx(x)))
+    near = np.minimum(x, _WIDE)
+    zeroth = math.sqrt(math.pi) * near * erfcx(near)
+    first = 2.0 * near**2 * (1.0 - zeroth)
+    second = 2.0 * near**2 * (zeroth - first)
+    third = 2.0 * near**2 * (2.0 * first - second)
+    # Beyond, differences of nearly equal numbers: by powers of 1/4x².
+    power = 0.25 / np.maximum(x, _WIDE) ** 2
+
+    def series(n: int) -> Array:
+        terms = [math.factorial(n + 2 * k) / math.factorial(k) * (-power) ** k for k in range(5)]
+        return np.asarray(np.sum(terms, axis=0))
+
+    wide = x > _WIDE
+    return tuple(np.where(wide, series(n), one) for n, one in ((0, zeroth), (1, first), (3, third)))  # type: ignore[return-value]
 
 
 def density(distance: Array, spread: Array, shape: str) -> Array:

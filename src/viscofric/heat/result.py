@@ -187,10 +187,15 @@ class TransientHeating:
     Attributes
     ----------
     temperature_rise : array
-        Mean rise of the face by the heat of the solved contact, the same in both bodies, K.  The contact was solved so
-        much warmer, but for `residual`, which changes its friction by less than the accuracy.
+        Mean rise that the rubber responds to by the heat of the solved contact, of the face or weighted with the loss
+        (`Heating.average`), K.  The contact was solved so much warmer, but for `residual`, which changes its friction
+        by less than the accuracy.
     loss_rise : array
         Its part by the viscoelastic loss, before the counterface has taken any of it, K.
+    face_rise : array
+        Mean rise of the face of the contact, the same in both bodies, K.
+    loss_weighted_rise : array
+        Mean rise of the rubber where the loss is released, K.
     coulomb_heat, loss_heat : array
         Heat of Coulomb friction and of the viscoelastic loss.
     counterface_heat : array
@@ -204,6 +209,8 @@ class TransientHeating:
 
     temperature_rise: Array
     loss_rise: Array
+    face_rise: Array
+    loss_weighted_rise: Array
     coulomb_heat: Array
     loss_heat: Array
     counterface_heat: Array
@@ -219,9 +226,15 @@ class TransientHeating:
     def columns(self, force: str, energy: str) -> dict[str, tuple[Array, str, str]]:
         """Return all with the units of force and energy, and long names."""
         return {
-            "temperature_rise": (self.temperature_rise, "K", "mean rise of temperature of the face"),
+            "temperature_rise": (self.temperature_rise, "K", "rise of temperature that the rubber responds to"),
             "temperature_rise_error": (self.error + self.residual, "K", "estimated error of the rise of temperature"),
             "loss_rise": (self.loss_rise, "K", "rise of temperature due to the viscoelastic loss"),
+            "face_rise": (self.face_rise, "K", "mean rise of temperature of the face"),
+            "loss_weighted_rise": (
+                self.loss_weighted_rise,
+                "K",
+                "mean rise of temperature where the loss is released",
+            ),
             "coulomb_heat": (self.coulomb_heat, energy, "heat of Coulomb friction"),
             "loss_heat": (self.loss_heat, energy, "heat of the viscoelastic loss"),
             "counterface_heat": (self.counterface_heat, energy, "heat that the counterface has taken up"),

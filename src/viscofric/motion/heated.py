@@ -1,8 +1,8 @@
 """Contacts over time at the temperature to which their own friction heats them.
 
-The rubber responds at the temperature of its history plus the mean rise of the contact's face, one number at each time,
-through its clock.  The rise follows from the heat of a solved run along its path; runs are repeated with it until it no
-longer changes.  Heat acts on the future only, so that this converges quickly.
+The rubber responds at the temperature of its history plus a mean rise, one number at each time, through its clock.  The
+rise follows from the heat of a solved run along its path; runs are repeated with it until it no longer changes.  Heat
+acts on the future only, so that this converges quickly.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.contact.heated import THIN
+from viscofric.contact.heated import AT_THE_LOSS, THIN
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
 from viscofric.heat.path import Passage, path_rise
@@ -68,11 +68,12 @@ def solve_heated(
             return replace(run, warnings=(*run.warnings, Note("not-heated", said)), _restart=None)
         heats = _heats(run, heating)
         found = _rise(problem, run, heating, heats)
-        change = np.abs(np.asarray(law.log10(around + found.rise)) - np.asarray(law.log10(around + rise)))
-        residual = np.abs(found.rise - rise)
+        warmer, by_loss = _answered(found, heating)
+        change = np.abs(np.asarray(law.log10(around + warmer)) - np.asarray(law.log10(around + rise)))
+        residual = np.abs(warmer - rise)
         if float(change.max()) * _STEEPEST <= problem.accuracy:
             break
-        rise = found.rise
+        rise = warmer
         if told is not None:
             told.next()
         run = solve(_warmer(problem, history, grid, around + rise), grid, told)
@@ -86,32 +87,41 @@ def solve_heated(
         told.end_all()
     # The rise by the heat of the last run, even where that run could do without it.
     heated = TransientHeating(
-        found.rise, found.by_loss, *heats, np.cumsum(found.counterface), isothermal.friction_force, residual,
-        _change_with_half(problem, run, heating, heats, found),
+        warmer, by_loss, found.face, found.below, *heats, np.cumsum(found.counterface), isothermal.friction_force,
+        residual, _change_with_half(problem, run, heating, heats, warmer),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
-    run = replace(run, warnings=(*run.warnings, *_thin_skin(problem, run, heating, found.rise)))
+    run = replace(run, warnings=(*run.warnings, *_thin_skin(problem, run, heating, found)))
     # A state of the last run is no state of the heated contact.
     chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
     return chosen
 
 
-def _thin_skin(problem: Problem, run: TransientSolution, heating: Heating, rise: Array) -> tuple[Note, ...]:
-    """Return a note where only a skin of the rubber is as warm as the face while the contact passes."""
+def _answered(found: PathRise, heating: Heating) -> tuple[Array, Array]:
+    """Return the rise that the rubber responds to and its part by the loss, (n,) each, K."""
+    face = heating.average == "contact"
+    return (found.face, found.face_by_loss) if face else (found.below, found.below_by_loss)
+
+
+def _thin_skin(problem: Problem, run: TransientSolution, heating: Heating, found: PathRise) -> tuple[Note, ...]:
+    """Return a note where only a skin of the rubber is as warm as the face, which it is to respond to."""
+    if heating.average == "loss":
+        return ()
     lasting = np.diff(run.time) > 0.0
     speed = np.hypot(*np.diff(run.position, axis=0).T)[lasting] / np.diff(run.time)[lasting]
     size = _sizes(problem, run)
-    if not len(speed) or speed.max() * size.max() == 0.0 or not rise.any():
+    if not len(speed) or speed.max() * size.max() == 0.0 or not found.face.any():
         return ()
     skin = float(np.sqrt(2.0 * heating.rubber.diffusivity / (speed.max() * size.max())))
     if skin >= THIN:
         return ()
+    face, below = float(found.face.max()), float(found.below.max())
     said = (
-        f"While the contact passes, heat spreads {skin:.2g} contact radii deep: the face is up to {rise.max():.2g} K "
-        "warmer than the body, the rubber below it, where the loss is released, less. The friction is likely to lie "
-        "between the one given and the isothermal one."
+        f"While the contact passes, heat spreads {skin:.2g} contact radii deep: its face is up to {face:.2g} K warmer, "
+        f"but the rubber where the loss is released {below:.2g} K"
     )
-    return (Note("thin-skin", said, values={"skin": skin, "face_rise": float(rise.max())}),)
+    values = {"skin": skin, "face_rise": face, "loss_weighted_rise": below}
+    return (Note("thin-skin", said, remedy="; for friction at the latter, give " + AT_THE_LOSS + ".", values=values),)
 
 
 def _sizes(problem: Problem, run: TransientSolution) -> Array:
@@ -127,7 +137,6 @@ def _insist_on_heatable(problem: Problem, history: History, heating: Heating) ->
         "a layer": problem.layer is not None,
         "before = 'sliding', whose heat has no beginning": history.before == "sliding",
         "slip or passes, which follow from the history": heating.slip is not None or heating.passes > 0,
-        "average = 'loss'": heating.average != "contact",
         "the hot branch, which a history reaches by itself": heating.branch != "cold",
         "a material without shift factors, or a history without temperature": problem.material.shift is None
         or history.temperature is None,
@@ -189,11 +198,11 @@ def _heats(run: TransientSolution, heating: Heating) -> tuple[Array, Array]:
 
 
 def _change_with_half(
-    problem: Problem, run: TransientSolution, heating: Heating, heats: tuple[Array, Array], found: PathRise
+    problem: Problem, run: TransientSolution, heating: Heating, heats: tuple[Array, Array], rise: Array
 ) -> Array:
     """Return how much the rise changes with every other time left out, interpolated."""
     rows = np.unique(np.append(np.arange(0, len(run.time), 2), len(run.time) - 1))
-    change = np.abs(_rise(problem, run, heating, heats, rows).rise - found.rise[rows])
+    change = np.abs(_answered(_rise(problem, run, heating, heats, rows), heating)[0] - rise[rows])
     return np.asarray(np.interp(np.arange(len(run.time)), rows, change))
 
 

@@ -160,7 +160,7 @@ def predict_rough_friction(
     numbers = {name: column.reshape(shape) for name, column in (numbers | columns).items()}
     kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
     if interface is not None:
-        warm = kelvin_or_nan[:, None, None] + numbers.get("temperature_rise", np.zeros(shape))
+        warm = kelvin_or_nan[:, None, None] + numbers.get("face_rise", np.zeros(shape))
         slip = velocities if heating is None else np.array([heating.sliding(float(one)) for one in velocities])
         numbers |= friction_on_area(interface, slip, warm, load, numbers["corrected_area_fraction"])
     if heating is not None:

@@ -218,7 +218,7 @@ class Heatings(Singles):
         (cases, first, second), outcome = best
         case: Any = self._sweep.cases[cases[0]]
         speed, rise = (float(outcome.columns[name].values[row]) for name in ("speed", "temperature_rise"))
-        arguments = self._arguments(case, first, second) | {"speed": speed, "rise": rise}
+        arguments = self._arguments(case, first, second) | {"speed": speed, "rise": rise, "face_rise": warmest}
         self._shown = {"speed": speed, "temperature": case.temperature, "load": float(case.load), "face_rise": warmest}
         return [Task(solve_temperature_map, arguments, f"temperature of {moved(case, speed=speed).label}")]
 

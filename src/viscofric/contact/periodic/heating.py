@@ -54,7 +54,7 @@ class PeriodicThermalContact(ThermalContact):
         assert relative is None, "spots come and go: resistances are not smooth"
         return Heat(
             periodic_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating),
-            self.coulomb_heat(solution.mean_pressure, self.area(solution), kelvin),
+            self.heating.coulomb_heat(solution.mean_pressure, self.speed),
             abs(solution.friction_coefficient * solution.mean_pressure * solution.speed),
             self.area(solution),
             0.5 * _length(solution),

@@ -120,6 +120,7 @@ def solve_temperature_map(
     speed: float,
     temperature: float,
     rise: float,
+    face_rise: float,
     heating: Heating,
     interface: InterfaceLaw | None = None,
     fields: bool = False,
@@ -127,12 +128,16 @@ def solve_temperature_map(
 ) -> HistoryRecord:
     """Return the rise of temperature of the rubber's face in and around a contact that is so much warmer, K.
 
+    Its rubber by `rise`, its faces, and with them the interface, on average by `face_rise`.
     `x` and `y` are those of each cell, and `contact` the part of it in the contact.  See `solve_heated`.
     """
     solution = solve_steady(material, indenter, speed=speed, temperature=temperature + rise, **settings)
     spectrum = material.modes_at(temperature + rise)
     modes = Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
-    found = face_temperature(solution, modes, material.poisson_ratio, heating, interface)
+    coulomb, slip = heating.coulomb_heat(solution.load, speed), heating.sliding(speed)
+    if interface is not None:
+        coulomb = float(interface(slip, temperature + face_rise)) * solution.contact_area * slip if slip > 0.0 else 0.0
+    found = face_temperature(solution, modes, material.poisson_ratio, heating, coulomb)
     x, y = np.meshgrid(found.x, found.y, indexing="ij")
     columns = {
         "x": Column(x.ravel().tolist(), "m", "position along the motion, from the axis"),

@@ -40,8 +40,8 @@ _OF_IMPACT = {
 }
 #: Without the numbers of one contact, so that a study counts it over all.
 _THIN_SKIN = (
-    "While the contact passes, heat warms only a thin skin of the rubber: the loss is released in colder rubber below. "
-    "The friction is likely to lie between the one given and the isothermal one."
+    "While the contact passes, heat warms only a thin skin of the rubber: the loss is released in colder rubber below, "
+    "the temperature of which the friction should be asked for."
 )
 
 

@@ -86,8 +86,8 @@ class HeatingTable(Table):
         None, description="Of a rough surface: radius of the nominal contact, whose mean heat then counts too."
     )
     average: Literal["contact", "loss"] = Field(
-        "contact",
-        description="Which mean rise the rubber responds to: that of its face, or that weighted with the loss below.",
+        "loss",
+        description="Which mean rise the rubber responds to: that where the loss is released, or that of its face.",
     )
     branch: Literal["cold", "hot"] = Field(
         "cold", description="State of contacts that have two: that of a rising speed, or that of a falling one."
@@ -107,8 +107,7 @@ class HeatingTable(Table):
     @property
     def suits_histories(self) -> bool:
         """Whether contacts over time can be heated like this: what a history itself brings about is not prescribed."""
-        prescribed = self.slip is not None or self.passes > 0 or self.branch == "hot"
-        return not prescribed and self.average == "contact"
+        return not (self.slip is not None or self.passes > 0 or self.branch == "hot")
 
     def heating(self, coulomb: float, slip: float | None) -> Heating:
         """Return the heating of one value of Coulomb friction and of slip."""

@@ -254,10 +254,10 @@ const HEATING = [
       path: "heating.average",
       label: "Temperature of the rubber",
       as: Choose,
-      otherwise: "contact",
+      otherwise: "loss",
       options: [
-        ["contact", "mean of the face"],
         ["loss", "where the loss is released"],
+        ["contact", "mean of the face"],
       ],
     },
     {
