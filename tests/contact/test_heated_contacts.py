@@ -129,6 +129,36 @@ def test_all_of_the_loss_is_released_over_the_whole_memory(seed: int) -> None:
         assert loss == pytest.approx(contact.friction_force * contact.speed, rel=1e-3)
 
 
+def released_below_ball(contact: vf.ContactSolution, modes: Modes) -> float:
+    """Return the same below a ball, W, of waves in all directions."""
+    steps = np.array([contact.x[1] - contact.x[0], contact.y[1] - contact.y[0]])
+    wave = np.geomspace(1e-4 / (len(contact.x) * steps[0] + contact.speed * modes.tau.max()), 40.0 / steps[0], 1200)
+    node, weight = np.polynomial.legendre.leggauss(40)
+    found = 0.0
+    for sine, part in zip(0.5 * (1.0 + node), 0.5 * weight, strict=True):
+        along, across = wave * np.sqrt(1.0 - sine**2), wave * sine
+        load = np.exp(-1j * np.multiply.outer(along, contact.x)) @ contact.pressure
+        load = np.sum(load * np.exp(-1j * np.multiply.outer(across, contact.y)), axis=1) * steps.prod()
+        load *= np.sinc(0.5 * steps[0] / np.pi * along) * np.sinc(0.5 * steps[1] / np.pi * across)
+        lag = np.multiply.outer(along * contact.speed, modes.tau)
+        loss = (modes.C * lag / (1.0 + lag**2)).sum(1)
+        found += part * float(np.trapezoid(np.abs(load) ** 2 * loss * wave**2, np.log(wave)))
+    return 1.5 * contact.speed / np.pi**2 * found
+
+
+@pytest.mark.apart  # a minute
+def test_all_of_the_loss_below_random_balls_is_released() -> None:
+    """Friction times speed, to 1e-3: the accuracy of the contact; memories from 1/20 of the radius to 100 of it."""
+    generator = np.random.default_rng(1)
+    for _ in range(12):
+        count = int(generator.integers(1, 5))
+        tau, C = 10.0 ** generator.uniform(-4.0, -1.0, count), 10.0 ** generator.uniform(-7.0, -6.0, count)
+        solid = vf.Material(vf.RetardationSpectrum(1.0 / (1e-7 + C.sum()), 1e7, C, tau))
+        contact = vf.solve_steady(solid, BALL, speed=1.0, load=float(10.0 ** generator.uniform(-1.0, 1.0)))
+        loss = released_below_ball(contact, Modes(C, tau))
+        assert loss == pytest.approx(contact.friction_force * contact.speed, rel=1e-3)
+
+
 def test_a_ball_warms_like_a_disc_of_its_area() -> None:
     """Hertz's pressure nearly, on 18 cells along the contact: 1 % of the rise of discs on both bodies."""
     contact = vf.solve_steady(SOLID, BALL, speed=0.02, load=1.0, accuracy=1e-2)

@@ -148,7 +148,7 @@ def test_warming_is_that_of_the_heated_contact(counterbody: vf.ThermalProperties
     Below, all of the loss is counted near the contact, of which the solved one releases a fifth farther behind.
     """
     place = {"speed": 0.2, "load": 25.0, "temperature": 333.15}
-    heating = vf.Heating(rubber=FILLED_RUBBER, counterface=counterbody, coulomb=0.5, slip=0.04)
+    heating = vf.Heating(rubber=FILLED_RUBBER, counterface=counterbody, coulomb=0.5, slip=0.04, average="contact")
     contact = vf.solve_steady(RUBBER, BALL, **place, heating=heating)
     assert contact.heating is not None
     friction = np.array([contact.heating.isothermal_friction])

@@ -18,6 +18,7 @@ from viscofric.study.measurement import read_measurement
 from viscofric.study.planning.estimates import (
     HEATED_CURVE,
     HEATED_RUNS,
+    HEATED_SURFACE,
     HEATED_TIMES,
     SECONDS_OF_IMPACT,
     estimate,
@@ -73,7 +74,8 @@ class CheckedStudy:
         if self.study.heating is not None:
             alone = estimate(cases, materials, accuracy=self.study.solver.accuracy, each=True)
             times = len(self.study.heating.coulomb) * len(self.study.heating.slip or (0.0,))
-            found["heating"] = (times * len(cases), times * HEATED_CURVE * alone.seconds)
+            longer = HEATED_SURFACE if self.sweep.geometry == "rough" else HEATED_CURVE
+            found["heating"] = (times * len(cases), times * longer * alone.seconds)
         if history is not None:
             each, runs, points = len(history.dwell), 1.0, history.points
             if self.study.heating is not None and is_heated(self.study, materials):
