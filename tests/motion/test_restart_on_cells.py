@@ -189,6 +189,10 @@ def test_a_normal_motion_that_goes_on_by_sliding_is_solved_again_on_cells(tmp_pa
     same(again, at_once)
     known = pressed.indentation  # by springs
     assert np.all(np.abs(again.indentation[:2] - known) <= again.errors.indentation[:2] + pressed.errors.indentation)
+    jumps = vf.History([0.0, 0.02, 0.02, 0.03], load=[1.0, 1.0, 2.0, 2.0], position=[0.0, 0.0, 0.0, 1e-3])
+    both = vf.solve_transient(RUBBER, BALL, jumps, accuracy=5e-2, times=[0.03], resume=pressed)
+    assert both.time.tolist() == [0.01, 0.02, 0.02, 0.03]
+    assert both.load == pytest.approx([1.0, 1.0, 2.0, 2.0])
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -209,8 +210,9 @@ def _resumed(
     restart.insist_on_same(problem)
     if method == "springs" and on_cells:
         if times is not None:
-            known = [one.instant.time for one in restart.track.moments]
-            times = known + [one for one in times if not known or one > known[-1]]
+            known = Counter(one.instant.time for one in restart.track.moments)
+            known |= Counter({time: 2 for time in known if problem.schedule.jumps_at(time)})  # before and after it
+            times = sorted((known | Counter(times)).elements())
         return _on_cells(problem, history, times, progress, (_AGAIN,))
     if method == "grid":
         problem, levels = restart.levels(problem, times)
