@@ -57,6 +57,8 @@ class Difference(NamedTuple):
     across: float = 0.0
     work: float = 0.0
     dissipated: float = 0.0
+    slopes_along: float = 0.0  # friction from the pressure on slopes
+    slopes_across: float = 0.0
 
 
 #: Of equal chains.
@@ -104,22 +106,24 @@ def difference(pair: Pair[State]) -> Difference:
     """Return fine less coarse."""
     coarse, fine = pair.coarse.seen, pair.fine.seen
     along, across = (two - one for one, two in zip(coarse.friction_force, fine.friction_force, strict=True))
-    work = pair.fine.work - pair.coarse.work
-    return Difference(
-        fine.load - coarse.load, fine.depth - coarse.depth, along, across, work, fine.dissipated - coarse.dissipated
-    )
+    slopes = (two - one for one, two in zip(coarse.force_on_slopes, fine.force_on_slopes, strict=True))
+    work, dissipated = pair.fine.work - pair.coarse.work, fine.dissipated - coarse.dissipated
+    return Difference(fine.load - coarse.load, fine.depth - coarse.depth, along, across, work, dissipated, *slopes)
 
 
 def over_scales(off: Difference, scales: Scales) -> tuple[float, ...]:
-    """Return a difference in parts of the scales."""
+    """Return the differences that steps are judged by, in parts of the scales."""
     energy = scales.energy / _ENERGIES
     each = (scales.load, scales.depth, scales.friction, scales.friction, energy, energy)
-    return tuple(one / scale for one, scale in zip(off, each, strict=True))
+    return tuple(one / scale for one, scale in zip(off, each, strict=False))
 
 
 @dataclass(frozen=True, eq=False)
 class Moment(Generic[State]):
-    """One returned time: what was seen, the work so far, the estimated errors, and the part of friction in the work."""
+    """One returned time: what was seen, the work so far, the estimated errors, and the part of friction in the work.
+
+    `slopes` is the estimated error of the friction from the pressure on slopes.
+    """
 
     instant: Instant
     seen: Observation
@@ -127,6 +131,12 @@ class Moment(Generic[State]):
     errors: Errors
     field: Field | None
     rubbed: float = 0.0
+    slopes: float = 0.0
+
+    def on_slopes(self) -> Moment[State]:
+        """Return the moment with the friction from the pressure on slopes in place of the other."""
+        seen = self.seen._replace(friction_force=self.seen.force_on_slopes)
+        return replace(self, seen=seen, errors=self.errors._replace(friction=self.slopes))
 
 
 def faded(spread: Difference, pair: Pair[State]) -> Difference:
@@ -167,6 +177,7 @@ def moment_of(
     each = spread.load, spread.depth, math.hypot(spread.along, spread.across), max(spread.work, spread.dissipated)
     steps = (part * one for part, one in zip(_OF_STEPS, each, strict=True))
     errors = Errors(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))
+    slopes = _OF_STEPS.friction * math.hypot(spread.slopes_along, spread.slopes_across) + left_out[2] + floor.friction
     # Sums over all steps are smooth enough to be extrapolated.
     stored, dissipated, work, rubbed = (
         two + (two - one) / 3.0
@@ -179,11 +190,14 @@ def moment_of(
     )
     seen = fine.seen._replace(stored=stored, dissipated=dissipated, left_out=left_out)  # type: ignore[arg-type]
     if extrapolate:
-        x, y = seen.friction_force
-        force = x + off.along / 3.0, y + off.across / 3.0
-        load, depth = seen.load + off.load / 3.0, seen.depth + off.depth / 3.0
-        seen = seen._replace(load=load, depth=depth, friction_force=force)
-    return Moment(instant, seen, work, errors, held, rubbed)
+        (x, y), (along, across) = seen.friction_force, seen.force_on_slopes
+        seen = seen._replace(
+            load=seen.load + off.load / 3.0,
+            depth=seen.depth + off.depth / 3.0,
+            friction_force=(x + off.along / 3.0, y + off.across / 3.0),
+            force_on_slopes=(along + off.slopes_along / 3.0, across + off.slopes_across / 3.0),
+        )
+    return Moment(instant, seen, work, errors, held, rubbed, slopes)
 
 
 @dataclass(frozen=True, eq=False)

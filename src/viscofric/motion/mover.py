@@ -31,7 +31,7 @@ class Observation(NamedTuple):
     depth : float
         Indentation, m.
     friction_force : (float, float)
-        Force of the indenter on the material along x and y.
+        Force of the indenter on the material along x and y, whose work is that of friction.
     area : float
         Of contact, m² (m; a fraction).
     stored, dissipated : float
@@ -42,6 +42,8 @@ class Observation(NamedTuple):
     left_out : (float, float, float, float)
         Errors of load, depth, friction and dissipated energy that shorter steps do not reduce: by the number of
         springs, and by merged modes.
+    force_on_slopes : (float, float)
+        Friction from the pressure on the indenter's slopes, of contacts on cells; zero for others.
     """
 
     load: float
@@ -52,6 +54,7 @@ class Observation(NamedTuple):
     dissipated: float
     extents: Mapping[str, float]
     left_out: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    force_on_slopes: tuple[float, float] = (0.0, 0.0)
 
 
 class Scales(NamedTuple):

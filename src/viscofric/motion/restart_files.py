@@ -34,7 +34,8 @@ _FORMAT = "viscofric state 2"
 _MARCHES = "", "coarser/"
 _DAMAGED = (KeyError, ValueError, TypeError, IndexError, OSError, EOFError, zipfile.BadZipFile, InputError)
 _REACHED = ("time", "jumped", "told", "pace", "share", "stored", "limited")
-_SEEN = ("load", "depth", "friction_force", "area", "stored", "dissipated")
+_FORCES = "friction_force", "force_on_slopes"
+_SEEN = ("load", "depth", *_FORCES, "area", "stored", "dissipated")
 
 
 def reached(restart: Restart | None) -> Restart:
@@ -99,6 +100,7 @@ def _march(march: Begun) -> dict[str, Any]:
     named["moments/position"] = [one.instant.position for one in moments]
     named["moments/work"] = [one.work for one in moments]
     named["moments/rubbed"] = [one.rubbed for one in moments]
+    named["moments/slopes"] = [one.slopes for one in moments]
     named["moments/left_out"] = [one.seen.left_out for one in moments]
     named["moments/errors"] = [one.errors for one in moments]
     named |= {f"moments/{name}": [getattr(one.seen, name) for one in moments] for name in _SEEN}
@@ -187,17 +189,15 @@ _BASES = {"springs": {"s"}, "waves": {"C", "tau"}, "grid": {"scale", "toward", "
 
 
 def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Observation:
-    x, y = values["friction_force"].tolist()
-    numbers: dict[str, Any] = {one: float(values[one]) for one in _SEEN if one != "friction_force"}
-    return Observation(**numbers, friction_force=(x, y), extents={one: float(value) for one, value in extents.items()})
+    seen: dict[str, Any] = {one: tuple(values[one].tolist()) if one in _FORCES else float(values[one]) for one in _SEEN}
+    return Observation(**seen, extents={one: float(value) for one, value in extents.items()})
 
 
 def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
     columns, extents = {one: named[f"moments/{one}"] for one in _SEEN}, _below(named, "moments/extents/")
     count = len(named["moments/time"])
-    rubbed, left_out = (
-        named.get(f"moments/{one}", np.zeros(shape)) for one, shape in (("rubbed", count), ("left_out", (count, 4)))
-    )
+    shapes = {"rubbed": count, "slopes": count, "left_out": (count, 4)}
+    rubbed, slopes, left_out = (named.get(f"moments/{one}", np.zeros(shape)) for one, shape in shapes.items())
     moments: list[Moment[Any]] = []
     for place, time in enumerate(named["moments/time"].tolist()):
         axes, field = _below(named, f"field/{place}/axes/"), None
@@ -211,5 +211,5 @@ def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
         seen = seen._replace(left_out=tuple(left_out[place].tolist()))
         errors = Errors(*named["moments/errors"][place].tolist())
         work = float(named["moments/work"][place])
-        moments.append(Moment(instant, seen, work, errors, field, float(rubbed[place])))
+        moments.append(Moment(instant, seen, work, errors, field, float(rubbed[place]), float(slopes[place])))
     return moments

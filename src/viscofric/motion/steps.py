@@ -31,11 +31,13 @@ class StepParts(NamedTuple):
 
 
 def even_steps(edges: Array) -> Array:
-    """Return the edges of an even number of steps: the longest one is divided if their number is odd."""
+    """Return the edges of an even number of steps: the first one is divided if their number is odd.
+
+    Steps of whole cells stay whole: after half a cell, friction is off for the next two.
+    """
     if len(edges) % 2:
         return edges
-    longest = int(np.argmax(np.diff(edges)))
-    return np.insert(edges, longest + 1, 0.5 * (edges[longest] + edges[longest + 1]))
+    return np.insert(edges, 1, 0.5 * (edges[0] + edges[1]))
 
 
 def step_parts(x: Array) -> StepParts:

@@ -197,7 +197,17 @@ class FreeMover(Cells):
             dissipated=work * state.dissipated,
             extents=extents,
             left_out=tuple(setting.body.merged * one for one in left_out),  # type: ignore[arg-type]
+            force_on_slopes=setting.unturned(*(force * one for one in self._on_slopes(state, window))),
         )
+
+    def _on_slopes(self, state: FreeState, window: Grid) -> tuple[float, float]:
+        """Return the friction force along and across the lattice, ∫ p ∇h dA."""
+        i, j = np.nonzero(state.pressure)
+        x, y, pressure = window.x[i] - state.place.x, window.y[j] - state.place.y, state.pressure[i, j]
+        along = window.cell_area * float(pressure @ self.setting.shape.slope(x, y))
+        if self.setting.is_line:
+            return along, 0.0
+        return along, window.cell_area * float(pressure @ self.setting.shape.slope_across(x, y))
 
     def _sheared(self, state: FreeState, window: Grid) -> float:
         """Return ∫ p |∇h| dA, the friction of a displacement that does not cancel over the contact; zero at rest."""

@@ -183,7 +183,7 @@ class Setting:
 
     @cached_property
     def stroke(self) -> float:
-        """Distance to the first stop or turn of the indenter; zero where there is none, or it moves on a curve."""
+        """Distance to the first stop or turn of the indenter, or to its end; zero where it moves on a curve."""
         kinks = self.schedule.kinks
         places = np.array([self.turned(self.schedule.at(float(time)).position) for time in kinks])
         moves = np.diff(places, axis=0)
@@ -192,7 +192,7 @@ class Setting:
         forward = moves[:, 0] > 0.0
         first = int(np.argmax(forward))
         ends = np.flatnonzero(~forward[first:])
-        return float(moves[first : first + ends[0], 0].sum()) if len(ends) else 0.0
+        return float(moves[first : first + ends[0] if len(ends) else None, 0].sum()) if forward.any() else 0.0
 
     def shortest_time(self, spacing: float, times: Sequence[float] | None) -> float:
         """Return the least time, s of the clock, in which the pressure at a point changes noticeably on a grid."""

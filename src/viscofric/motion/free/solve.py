@@ -252,7 +252,10 @@ def _largest(level: Level) -> Scales:
 
 
 def _compared(level: Level, coarser: Level) -> list[Moment[Any]]:
-    """Return the moments of the finer grid with the errors of steps and cells, the work of friction extrapolated."""
+    """Return the moments of the finer grid with the errors of steps and cells, the work of friction extrapolated.
+
+    Friction is that of the memory, or of the pressure on the indenter's slopes if that has changed less.
+    """
     fine, coarse = level.track.moments, coarser.track.moments
     kinks = level.mover.setting.schedule.kinks
     here, there = np.array([_values(one) for one in fine]), np.array([_values(one) for one in coarse])
@@ -260,16 +263,18 @@ def _compared(level: Level, coarser: Level) -> list[Moment[Any]]:
     left = _LEFT * (here - _interpolated(clock, before, there, kinks))
     # One change may be small by chance.
     usual = np.sqrt(np.mean(left**2, axis=0))
-    load, depth, energy, along, across = np.maximum(np.abs(left), usual).T[:5]
-    friction = _MARGIN * np.hypot(along, across)
+    load, depth, energy, *forces = np.maximum(np.abs(left), usual).T[:7]
+    on_slopes = bool(math.hypot(*usual[5:7]) < math.hypot(*usual[3:5]))
+    friction = _MARGIN * np.hypot(*(forces[2:] if on_slopes else forces[:2]))
     # All energies share the change by the first indentation, so that their mean is no measure.
     energy = _MARGIN * np.maximum(energy, _LEAST_ENERGY * here[:, 2] / max(level.cells, 1.0) ** 2)
     found = []
     for place, one in enumerate(fine):
         of_cells = load[place], depth[place], friction[place], energy[place]
-        parts = zip(one.errors, one.seen.left_out, of_cells, strict=True)
+        known = one.on_slopes() if on_slopes else one
+        parts = zip(known.errors, one.seen.left_out, of_cells, strict=True)
         errors = Errors(*(_STEPS_LEFT * (steps - rest) + rest + float(cells) for steps, rest, cells in parts))
-        found.append(replace(one, errors=errors, work=one.work + float(left[place, 5])))
+        found.append(replace(known, errors=errors, work=one.work + float(left[place, 7])))
     return found
 
 
@@ -331,9 +336,9 @@ def _after_starts(
     return (Note("coarse-start", said, values={"steps": len(errors), "error": worst, "time": time}),)
 
 
-def _values(moment: Moment[Any]) -> tuple[float, float, float, float, float, float]:
+def _values(moment: Moment[Any]) -> tuple[float, ...]:
     seen = moment.seen
-    return seen.load, seen.depth, seen.dissipated, *seen.friction_force, moment.rubbed
+    return seen.load, seen.depth, seen.dissipated, *seen.friction_force, *seen.force_on_slopes, moment.rubbed
 
 
 def _order(times: list[float]) -> Array:
