@@ -196,7 +196,7 @@ def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Obser
 def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
     columns, extents = {one: named[f"moments/{one}"] for one in _SEEN}, _below(named, "moments/extents/")
     count = len(named["moments/time"])
-    shapes = {"rubbed": count, "slopes": count, "left_out": (count, 4)}
+    shapes: dict[str, tuple[int, ...]] = {"rubbed": (count,), "slopes": (count,), "left_out": (count, 4)}
     rubbed, slopes, left_out = (named.get(f"moments/{one}", np.zeros(shape)) for one, shape in shapes.items())
     moments: list[Moment[Any]] = []
     for place, time in enumerate(named["moments/time"].tolist()):
