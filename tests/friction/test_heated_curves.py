@@ -10,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.notes import codes
 
 RUBBER = vf.ThermalProperties(0.2, 1200.0, 1500.0, "rubber")
 PTFE = vf.ThermalProperties(0.25, 2170.0, 1010.0, "PTFE")
@@ -78,6 +79,32 @@ def test_the_heat_of_an_interface_is_its_stress_on_the_contact(average: Literal[
     for refused_one in (constant, "warm"):
         with refused("heating"):
             vf.predict_friction(WARM, CYLINDER, **one, heating=refused_one, interface=law)
+
+
+@pytest.mark.slow
+def test_an_interface_that_shears_harder_when_warm_has_a_hot_branch() -> None:
+    """Far above the speed of its largest stress; a law that ends below the hot face leaves the cold state."""
+    asked = {"speeds": [0.5, 1.0], "load": 100.0, "temperatures": 300.0, "accuracy": 0.1}
+    ends = vf.Arrhenius("120 kJ/mol", 300.0, covariance=[[1e6]], fitted_range=(298.0, 302.0))
+    found = {}
+    for shift in (vf.Arrhenius("120 kJ/mol", 300.0), ends):
+        law = vf.GaussianShearStress("3 MPa", "1 mm/s", 0.7, shift=shift)
+        for branch in ("cold", "hot"):
+            heating = vf.Heating(rubber=RUBBER, counterface=PTFE, slip="0.5 m/s", branch=branch)
+            if shift is ends and branch == "hot":
+                with refused("beyond-interface"):
+                    vf.predict_friction(WARM, CYLINDER, **asked, interface=law, heating=heating)
+                continue
+            one = vf.predict_friction(WARM, CYLINDER, **asked, interface=law, heating=heating)
+            assert isinstance(one, vf.HeatedFrictionCurves)
+            assert one.coulomb == pytest.approx(law(0.5, 300.0 + one.face_rise) / one.mean_pressure)
+            found[shift is ends, branch] = one
+    cold, hot, held = found.values()
+    assert hot.face_rise[0] > 50.0 > 0.1 > cold.face_rise[0]
+    assert hot.face_rise[1] == pytest.approx(cold.face_rise[1])  # one state
+    assert held.face_rise == pytest.approx(cold.face_rise)
+    assert "two-thermal-states" in codes(cold.notes)
+    assert "states-beyond" in codes(held.notes)
 
 
 def test_heating_is_refused_with_samples_and_columns_are_checked(curves: vf.HeatedFrictionCurves) -> None:

@@ -39,7 +39,7 @@ _LEAST, _BEYOND = 30.0, 2.0
 #: Share of the rise that may be left; its effect on friction may be half of the accuracy.
 _LEFT = 0.01
 #: Temperatures at which laws end are found to this, K; faces that the heat of an interface warms are followed so far.
-_END, _HOTTEST = 1e-3, 2000.0
+_END, _HOTTEST = 1e-3, 1000.0
 #: Laws that end at some temperature, as codes and sentences call them.
 SHIFT, INTERFACE = "shift", "interface"
 _NAMES = {SHIFT: "α(T) of the rubber", INTERFACE: "the law of the interface"}
@@ -138,15 +138,20 @@ class ThermalContact:
             found = heat_at(np.asarray(rise))
         else:
             loss = np.atleast_1d(heat.loss)
-            found = interface_heat(heat.resistances, loss, heat_at, self._interface_known, hot=hot)
+            found = interface_heat(heat.resistances, loss, heat_at, self.interface_known, hot=hot)
         coulomb: Any = found if np.ndim(rise) else float(found.item())
         return heat._replace(coulomb=coulomb)
 
     @cached_property
-    def _interface_known(self) -> float:
+    def interface_known(self) -> float:
         """The largest rise at which the law of the interface is known, or up to which states are looked for, K."""
         assert self.interface is not None
         return _last(lambda rise: not self._interface_ends(rise), 0.0, _HOTTEST)
+
+    def interface_ends_below(self, rise: float) -> bool:
+        """Whether a face so much warmer, K, to a part of it, is warmer than the law of the interface is known to."""
+        slides = self.interface is not None and self.heating.sliding(self.speed) > 0.0
+        return slides and rise * (1.0 - _LEFT) > self.interface_known
 
     def _interface_ends(self, rise: float) -> bool:
         assert self.interface is not None
@@ -244,10 +249,11 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
     states = outermost(curve, HeatCurve.of([contact.hottest(one) for one in scanned]))
     if not states:
         raise beyond(ended, contact.kelvin + scanned[-1].rise)
-    found = [settle(contact, curve, one, accuracy) for one in states]
+    found, left_out = within_law(contact, [settle(contact, curve, one, accuracy) for one in states])
     order = found if contact.heating.branch == "cold" else found[::-1]
     heating, notes = described(contact, order, isothermal.friction)
-    return finished(contact, order[0].solution, heating, (*notes, *sought(curve, ended, contact.kelvin)))
+    said = dict.fromkeys((*notes, *left_out, *sought(curve, ended, contact.kelvin)))
+    return finished(contact, order[0].solution, heating, tuple(said))
 
 
 def finished(contact: ThermalContact, solution: Any, heating: ContactHeating, notes: tuple[Note, ...]) -> Any:
@@ -274,9 +280,12 @@ def sought(curve: HeatCurve, ended: str, kelvin: float) -> tuple[Note, ...]:
     last = float(curve.rise[-1])
     if not ended or last >= _BEYOND * float(curve.produced.max()):
         return ()
-    end = kelvin + last
-    said = f"Thermal states were looked for up to {shown_celsius(end)} °C only, where {_NAMES[ended]} ends."
-    return (Note("states-beyond", said, values={"temperature": end}),)
+    return (_ends(ended, kelvin + last),)
+
+
+def _ends(law: str, kelvin: float) -> Note:
+    said = f"Thermal states were looked for up to {shown_celsius(kelvin)} °C only, where {_NAMES[law]} ends."
+    return Note("states-beyond", said, values={"temperature": kelvin})
 
 
 class HeatCurve(NamedTuple):
@@ -337,10 +346,19 @@ def settle(
         return last[0].produced
 
     settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
-    face = last[0].heat.balance.face_rise
-    if contact.ended_by(max(face - _LEFT * abs(face), last[0].rise)) == INTERFACE:
-        raise beyond(INTERFACE, contact.kelvin + face)
     return last[0]
+
+
+def within_law(contact: ThermalContact, found: list[Warmed]) -> tuple[list[Warmed], tuple[Note, ...]]:
+    """Return those of one or two states whose face is no warmer than the law of the interface is known to.
+
+    And a note where the other state is left out; raise InputError if it is the one wanted.
+    """
+    known = [one for one in found if not contact.interface_ends_below(one.heat.balance.face_rise)]
+    end = contact.kelvin + contact.interface_known if len(known) < len(found) else math.inf
+    if not known or (len(known) < len(found) and contact.heating.branch == "hot"):
+        raise beyond(INTERFACE, end)
+    return known, () if len(known) == len(found) else (_ends(INTERFACE, end),)
 
 
 def described(
@@ -368,21 +386,23 @@ def described(
         other_rise=found[1].rise if len(found) > 1 else None,
         other_friction=found[1].friction if len(found) > 1 else None,
     )
-    notes = [] if len(found) == 1 else [_two_states(result)]
+    notes = [] if len(found) == 1 else [_two_states(result, found[1].heat.balance.face_rise)]
     if heating.average == "contact" and result.skin < THIN and rise > 0.0:
         notes.append(_thin_skin(result))
     return result, tuple(notes)
 
 
-def _two_states(result: ContactHeating) -> Note:
+def _two_states(result: ContactHeating, other_face: float) -> Note:
     assert result.other_rise is not None
     assert result.other_friction is not None
     cold, hot = sorted((result.temperature_rise, result.other_rise))
+    cold_face, hot_face = sorted((result.face_rise, other_face))
     return Note(
         "two-thermal-states",
-        f"The contact has two stable states, {cold:.3g} K and {hot:.3g} K warmer than the body; which one it is in "
-        "depends on the speeds before.",
-        values={"cold": cold, "hot": hot, "other_friction": result.other_friction},
+        f"The contact has two stable states: the rubber {cold:.3g} K or {hot:.3g} K warmer than the body, its face "
+        f"{cold_face:.3g} K or {hot_face:.3g} K; which one it is in depends on the speeds before.",
+        values={"cold": cold, "hot": hot, "cold_face": cold_face, "hot_face": hot_face}
+        | {"other_friction": result.other_friction},
     )
 
 

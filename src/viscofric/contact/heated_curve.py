@@ -15,7 +15,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heated import LOOSE, Heat, HeatCurve, beyond, described, enough, outermost, settle, sought
+from viscofric.contact.heated import (
+    LOOSE,
+    Heat,
+    HeatCurve,
+    beyond,
+    described,
+    enough,
+    outermost,
+    settle,
+    sought,
+    within_law,
+)
 from viscofric.contact.heated_knots import Between, Knot, knots_of
 from viscofric.heat.result import OF_CONTACT
 from viscofric.processes import Workers, call_all
@@ -108,9 +119,11 @@ def _relative(knot: Knot | None) -> dict[str, ThermalResistances]:
 
 
 def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed], said: tuple[Note, ...]) -> States:
+    found, left_out = within_law(contact, found)
     order = found if contact.heating.branch == "cold" else found[::-1]
     heating, notes = described(contact, order, isothermal.friction)
-    return States(contact, isothermal, found[0], found[-1], order[0], heating, (*notes, *said))
+    notes = tuple(dict.fromkeys((*notes, *left_out, *said)))
+    return States(contact, isothermal, found[0], found[-1], order[0], heating, notes)
 
 
 class _Curve:

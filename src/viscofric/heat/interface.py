@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from viscofric.heat.heating import ThermalResistances
 
 #: Rises at which states are looked for, dense at small ones; halvings of the interval of one.
-_PLACES = np.linspace(0.0, 1.0, 401) ** 2
+_PLACES = np.linspace(0.0, 1.0, 1601) ** 2
 _HALVINGS = 45
 
 
@@ -25,7 +25,8 @@ def interface_heat(
     """Return the heats (n,) of interfaces at the temperature to which they and the loss (n,) below warm the faces.
 
     `heat_at` gives heats at rises of the faces (m, 1) or (n,), known from zero to `reach`, K, where a hotter one is
-    held.  The coldest state, or the hottest one.
+    held; so is one that the loss, released beside it, leaves colder than the body.  The coldest state, or the hottest
+    one.
     """
     by_loss = np.asarray(HeatBalance.of(resistances, 0.0, loss).face_rise)  # type: ignore[arg-type]
     per_heat = np.asarray(HeatBalance.of(resistances, 1.0, np.zeros_like(loss)).face_rise)  # type: ignore[arg-type]
