@@ -48,7 +48,7 @@ def test_a_heated_contact_has_the_numbers_of_python() -> None:
 @pytest.mark.apart
 def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None:
     picture = tmp_path / "curve.svg"
-    options = ["--speed", "0.05 m/s, 0.2 m/s", *HEAT]
+    options = ["--speed", "0.05 m/s, 0.2 m/s", *HEAT, "--heating-average", "contact"]
     said = run("curve", *LINE, *options, "--picture", str(picture))
     heading = next(line for line in said.splitlines() if "speed" in line)
     assert heading.split()[-3:] == ["isothermal", "rise", "(K)"]
@@ -62,7 +62,9 @@ def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None
 def test_a_contact_over_time_is_heated() -> None:
     options = ["--slide", "1 mm", "--speed", "0.1 m/s", "--times", "5 ms, 10 ms", "--heating", "PTFE", *HEAT[2:]]
     found = json.loads(run("transient", *LINE, *options, "--json"))
-    assert found["results"]["temperature_rise"][1] > found["results"]["temperature_rise"][0] > 0.0
+    rises = found["results"]["face_rise"]
+    assert rises[1] > rises[0] > 0.0
+    assert found["results"]["temperature_rise"] == found["results"]["loss_weighted_rise"]
 
 
 @pytest.mark.parametrize(

@@ -42,7 +42,7 @@ def test_resistances_between_knots_are_those_of_the_contacts(monkeypatch: pytest
     """To 1 % of the rise: the residual of each state may be as large; the friction to the accuracy of the contacts."""
     solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     material = vf.Material(solid.spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))
-    heating = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.3, slip="0.05 m/s")
+    heating = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.3, slip="0.05 m/s", average="contact")
 
     def curve() -> vf.FrictionCurves:
         return vf.predict_friction(
