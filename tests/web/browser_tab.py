@@ -76,8 +76,8 @@ class Tab:
             self.page.wait_for_timeout(150)  # asking costs time, too
 
     def value(self, expression: str, *arguments: Any) -> Any:
-        """Return what JavaScript finds; ``page`` holds modules: state, jobs, units, figures, fields."""
-        modules = "const page = {}; for (const name of ['state', 'jobs', 'units', 'figures', 'fields']) "
+        """Return what JavaScript finds; ``page`` holds modules: state, jobs, units, figures, fields, reactive."""
+        modules = "const page = {}; for (const name of ['state', 'jobs', 'units', 'figures', 'fields', 'reactive']) "
         modules += "page[name] = await import(`/static/js/${name}.js`);"
         return self.page.evaluate(f"async (given) => {{ {modules} return ({expression}); }}", list(arguments))
 

@@ -50,20 +50,22 @@ def test_a_figure_that_changes_while_it_is_hidden_is_drawn_when_it_is_seen(tab: 
           const place = document.createElement('div');
           document.getElementById('main').append(place);
           const frame = () => new Promise((resolve) => setTimeout(resolve, 150));
-          const draw = (y) => ({ traces: [{ name: 'friction', x: [1, 2], y }] });
-          const handle = page.figures.figure(place, { id: 'hidden', title: 'hidden', x: {}, y: {}, ...draw([1, 2]) });
-          const shown = () => Array.from(handle.plot.data[0].y);
-          while (!handle.plot.data) await frame();
+          const { render, html } = page.reactive;
+          const draw = (y) => render(html`<${page.figures.Figure} id="hidden" title="hidden" x=${{}} y=${{}}
+            traces=${[{ name: 'friction', x: [1, 2], y }]} />`, place);
+          draw([1, 2]);
+          const shown = () => Array.from(place.querySelector('.plot').data[0].y);
+          while (!place.querySelector('.plot').data) await frame();
           const before = shown();
           place.hidden = true;
           await frame();
-          handle.update(draw([3, 4]));
+          draw([3, 4]);
           await frame();
           place.hidden = false;
           await frame();
           await frame();
           const after = shown();
-          handle.remove();
+          render(null, place);
           place.remove();
           return [before, after];
         })()"""
@@ -73,18 +75,13 @@ def test_a_figure_that_changes_while_it_is_hidden_is_drawn_when_it_is_seen(tab: 
 
 def test_results_of_earlier_inputs_are_grey_until_the_inputs_are_theirs_again(tab: Tab) -> None:
     def grey(change: str) -> bool:
-        return tab.value(f"({change}, window.numbers.classList.contains('stale'))")
+        return tab.value(f"({change}, page.jobs.isStale(window.numbers))")
 
     tab.value(
         """(() => {
-          window.numbers = document.createElement('p');
           const study = () => page.state.state.study;
           const job = new page.jobs.Job('measured-again', { name: 'curve', inputs: () => ({ study: study() }) });
-          window.show = () => {
-            const answer = {};
-            job.put({ study: study() }, answer);
-            page.jobs.shows(window.numbers, answer);
-          };
+          window.show = () => job.put({ study: study() }, (window.numbers = {}));
         })()"""
     )
     load = f"{STATE}.set('conditions.load', '25 N')"

@@ -103,7 +103,10 @@ def drawing(browser: Browser, server: Server) -> Iterator[Tab]:
         yield tab
 
 
-_FIGURE = """page.figures.figure(document.querySelector('#step-export .step-body'), {
+_FIGURE = """(({render, html}, figure, place = document.createElement('div')) => {
+  document.querySelector('#step-export').append(place);
+  render(html`<${page.figures.Figure} ...${figure} />`, place);
+})(page.reactive, {
   id: 'drawn', title: 'Two curves', caption: 'Of a test', synthetic: true,
   x: {label: 'speed', kind: 'speed', log: true}, y: {label: 'friction'},
   traces: [303.15, 363.15].map((temperature) => ({name: page.units.show(temperature, 'temperature'), temperature,
@@ -111,7 +114,7 @@ _FIGURE = """page.figures.figure(document.querySelector('#step-export .step-body
 
 
 def test_figures_come_with_their_numbers_and_as_files(drawing: Tab) -> None:
-    drawing.value(f"{_FIGURE}.element.id")
+    drawing.value(_FIGURE)
     figure = drawing.page.locator("#figure-drawn")
     figure.locator(".main-svg").first.wait_for()
     label = figure.locator(".plot").get_attribute("aria-label") or ""
@@ -138,7 +141,7 @@ def test_figures_come_with_their_numbers_and_as_files(drawing: Tab) -> None:
 
 
 def test_figures_follow_light_dark_and_units(drawing: Tab) -> None:
-    drawing.value(f"{_FIGURE}.element.id".replace("'drawn'", "'again'"))
+    drawing.value(_FIGURE.replace("'drawn'", "'again'"))
     drawing.page.wait_for_selector("#figure-again .main-svg")
 
     def drawn() -> tuple[str, str]:

@@ -2,6 +2,7 @@
 
 import { uploadFiles } from "./api.js";
 import { Amount, Choose, Form, Range, Ticks, Toggle, where, within } from "./fields.js";
+import { announce } from "./page.js";
 import { computed, html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import { Card, Drop, Notes } from "./views.js";
@@ -27,7 +28,15 @@ const FIRST = {
   ellipsoid: { indenter: { shape: "ellipsoid", radius_x: "5 mm", radius_y: "10 mm" }, load: "25 N" },
   cone: { indenter: { shape: "cone", angle: "10 deg" }, load: "25 N" },
   made: {
-    surface: { hurst: 0.8, rms_slope: 0.2, shortest: "80 um", rolloff: "640 um", points: 128, spacing: "10 um", seed: 1 },
+    surface: {
+      hurst: 0.8,
+      rms_slope: 0.2,
+      shortest: "80 um",
+      rolloff: "640 um",
+      points: 128,
+      spacing: "10 um",
+      seed: 1,
+    },
     pressure: "0.5 MPa",
   },
   scan: { surface: { file: "", prepare: ["fill", "remove tilt", "window"] }, pressure: "0.5 MPa" },
@@ -85,7 +94,15 @@ const elastic = (table, label) => [
 ];
 
 const SHAPE = [
-  { id: "contact-shape", path: "indenter.shape", label: "Shape", as: Choose, options: SHAPES, shown: () => shape.value, onChange: become },
+  {
+    id: "contact-shape",
+    path: "indenter.shape",
+    label: "Shape",
+    as: Choose,
+    options: SHAPES,
+    shown: () => shape.value,
+    onChange: become,
+  },
   ...of(["ball", "cylinder"], quantity("indenter.radius", "Radius", "length", { slider: [1e-4, 1] })),
   ...of(
     ["ellipsoid"],
@@ -132,17 +149,13 @@ const LOAD = [
   ...of([...POINTS, "cylinder"], ...elastic("indenter", "Elastic indenter")),
   ...of(ROUGH, ...elastic("surface", "Elastic surface")),
   { path: "layer", label: "Layer on a rigid base", as: Toggle, value: { thickness: "2 mm" } },
-  ...within(
-    "layer",
-    quantity("layer.thickness", "Thickness", "length"),
-    {
-      path: "layer.base",
-      label: "Base",
-      as: Choose,
-      otherwise: "bonded",
-      options: ["bonded", ["sliding", "sliding, no friction"]],
-    },
-  ),
+  ...within("layer", quantity("layer.thickness", "Thickness", "length"), {
+    path: "layer.base",
+    label: "Base",
+    as: Choose,
+    otherwise: "bonded",
+    options: ["bonded", ["sliding", "sliding, no friction"]],
+  }),
 ];
 
 const CONDITIONS = [
@@ -240,16 +253,12 @@ const HEATING = [
       onChange: (radius) =>
         state.change({ "heating.track_radius": radius, "heating.passes": radius === undefined ? undefined : 100 }),
     }),
-    ...where(
-      passed,
-      quantity("heating.track_radius", "Radius of the track", "length"),
-      {
-        path: "heating.passes",
-        label: "Earlier passes",
-        read: (text) => (/^\s*\d+\s*$/.test(text) ? Number(text) : text.trim()),
-        help: "A whole number, or inf for the final state.",
-      },
-    ),
+    ...where(passed, quantity("heating.track_radius", "Radius of the track", "length"), {
+      path: "heating.passes",
+      label: "Earlier passes",
+      read: (text) => (/^\s*\d+\s*$/.test(text) ? Number(text) : text.trim()),
+      help: "A whole number, or inf for the final state.",
+    }),
     {
       path: "heating.average",
       label: "Temperature of the rubber",
@@ -276,20 +285,20 @@ const HEATING = [
 
 const failed = signal(null); // why a height map could not be brought
 
-async function bring(app, files) {
+async function bring(files) {
   try {
     const [name] = await uploadFiles(files.slice(0, 1));
     state.set("surface.file", name);
-    app.announce(`${name} was uploaded.`);
+    announce(`${name} was uploaded.`);
     failed.value = null;
   } catch (error) {
     failed.value = error.message;
   }
 }
 
-export const ContactForm = view(({ app }) => {
+export const ContactForm = view(() => {
   const help = "text matrix, x y z points, or a microscope file";
-  const take = (files) => bring(app, files);
+  const take = (files) => bring(files);
   return html`
     <${Card} title="Indenter or surface">
       <${Form} of=${SHAPE} />

@@ -1,26 +1,24 @@
 // What is shown of one contact: its numbers with their errors, why the pressure leans forward, the map of the pressure with
 // outline and motion, and cuts along the motion.
 
+import { Figure } from "./figures.js";
 import { html, view } from "./reactive.js";
 import * as units from "./units.js";
-import { Figure } from "./views.js";
 
 const EDGE = "#d55e00";
 const MARK = "#8a949e";
-// Viridis, out of nothing where there is no pressure.
-const VIRIDIS =
-  "#440154 #482878 #3e4989 #31688e #26828e #1f9e89 #35b779 #6ece58 #b5de2b #fde725".split(" ");
-const SCALE = [
-  [0, "rgba(68,1,84,0)"],
-  ...VIRIDIS.map((colour, at) => [0.012 + (0.988 * at) / (VIRIDIS.length - 1), colour]),
-];
 const PRESSURE = { label: "pressure", kind: "pressure" };
 const length = (label) => ({ label, kind: "length" });
 const aside = { legend: false, decoration: true };
 
 /** The figures of a result of the job "contact", or their empty frames. */
 export const Pictures = view(({ of, noun, synthetic, children }) => {
-  const shared = { of, synthetic, empty: "Computing the contact.", x: length(of?.kind === "rough" ? "x" : "along the motion") };
+  const shared = {
+    of,
+    synthetic,
+    empty: "Computing the contact.",
+    x: length(of?.kind === "rough" ? "x" : "along the motion"),
+  };
   return html`<div class="grid contact-figures ${of && !of.map ? "without-map" : ""}">
     ${of?.map !== null && html`<${Figure} id="pressure-map" title="Contact pressure" ...${shared} ...${mapOf(of)} />`}
     <${Figure} id="pressure-profile" title="Pressure along the motion" y=${PRESSURE} ...${shared} ...${pressureOf(of)} />
@@ -36,18 +34,20 @@ function mapOf(result) {
     y: { ...length(rough ? "y" : "across"), equal: true },
     z: PRESSURE,
   };
-  if (!result) return { x: [], y: [], z: [], axes };
+  if (!result) return axes;
   const { x, y, pressure: z } = result.map;
   return {
-    ...{ x, y, z, axes, zero: true, scale: SCALE, smooth: rough ? false : "best" },
-    lines: [...outlines(result), ...axisMarks(result), ...arrow(result)],
+    ...axes,
+    map: { x, y, z, smooth: rough ? false : "best" },
+    traces: [...outlines(result), ...axisMarks(result), ...arrow(result)],
     caption: rough
       ? "One period of the surface; white is not in contact. The arrow is the surface's motion."
       : "Top view: outline of the contact, + the indenter's axis, ● the centre of pressure. The indenter moves to the right; the leading edge is on the right.",
   };
 }
 
-const outlines = ({ outline }) => outline.map(({ x, y }) => ({ x, y, mode: "lines", width: 1.5, colour: MARK, ...aside }));
+const outlines = ({ outline }) =>
+  outline.map(({ x, y }) => ({ x, y, mode: "lines", width: 1.5, colour: MARK, ...aside }));
 
 function axisMarks({ kind, numbers }) {
   if (kind === "rough") return [];
@@ -85,7 +85,12 @@ function pressureOf(result) {
   const trace = { name: "pressure", x: places, y: pressures, fill: "tozeroy", colour: "blue" };
   const y = { ...PRESSURE, range: [0, 1.15 * Math.max(...pressures, 1e-9)] }; // with room for the words at the top
   if (rough)
-    return { y, x: { ...length("x"), range: ends }, traces: [trace], title: "Pressure along x, through the highest peak" };
+    return {
+      y,
+      x: { ...length("x"), range: ends },
+      traces: [trace],
+      title: "Pressure along x, through the highest peak",
+    };
   const mirrored = {
     name: "mirror image",
     x: places.map((place) => -place).reverse(),

@@ -66,11 +66,11 @@ function placed(layout, view, rows, values) {
 }
 
 /** The traces of a curve: a line for each temperature, and rings around what is doubtful. */
-export function curveTraces(curve, look, { units, figures }) {
+export function curveTraces(curve, look, { units, temperatureColour }) {
   const lines = curvesOf(curve.layout, look.combination).flatMap(([kelvin, rows]) => {
     const shared = { temperature: kelvin, group: `T${kelvin}`, name: units.show(kelvin, "temperature") };
     if (curve.result) return [{ ...shared, ...finished(curve, look, rows) }, ...beside(curve, look, rows, shared)];
-    return drafted(curve, look, rows, shared, figures.temperatureColour(kelvin, curve.layout.temperature));
+    return drafted(curve, look, rows, shared, temperatureColour(kelvin, curve.layout.temperature));
   });
   return [...masterLine(curve, look), ...lines, ...ringed(curve, look)];
 }

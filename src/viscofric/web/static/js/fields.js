@@ -28,10 +28,17 @@ const readable = (words) =>
     .replace(/(?<=\d\s*)u(?=[ms]\b)/, "µ");
 
 /** Label, controls, help and error of one path; `controls` gets what each of them has, `beside` is in the label's row. */
-function field(self, { path, label, help, classes = "", beside, isHome = true, id = `field-${self.number}` }, controls) {
+function field(
+  self,
+  { path, label, help, classes = "", beside, isHome = true, id = `field-${self.number}` },
+  controls,
+) {
   settle(self, isHome && path ? path : null);
   const message = isHome ? [...(sentencesOf.value.get(path) ?? [])].join(" ") : "";
-  const described = { "aria-describedby": `${help ? `${id}-help ` : ""}${id}-error`, "aria-invalid": message ? "true" : undefined };
+  const described = {
+    "aria-describedby": `${help ? `${id}-help ` : ""}${id}-error`,
+    "aria-invalid": message ? "true" : undefined,
+  };
   const group = beside ? { role: "group", "aria-labelledby": `${id}-label` } : {};
   return html`<div class=${`field ${classes} ${message ? "wrong" : ""}`.trim()} ...${group}>
     ${
@@ -109,7 +116,8 @@ export const Amount = view(({ min, max, step = "any", placeholder, ...about }, s
   field(
     self,
     about,
-    (own) => html`<${Box} type="number" ...${at(about.path, asNumber, orNothing)} ...${{ min, max, step, placeholder }} ...${own} />`,
+    (own) =>
+      html`<${Box} type="number" ...${at(about.path, asNumber, orNothing)} ...${{ min, max, step, placeholder }} ...${own} />`,
   ),
 );
 
@@ -130,7 +138,8 @@ export const Toggle = view(({ value = true, shown, onChange, ...about }, self) =
   return field(
     self,
     { ...about, classes: "switch", isHome: typeof now !== "string" },
-    (own) => html`<input type="checkbox" role="switch" checked=${shown ? shown() : now !== undefined} onChange=${take} ...${own} />`,
+    (own) =>
+      html`<input type="checkbox" role="switch" checked=${shown ? shown() : now !== undefined} onChange=${take} ...${own} />`,
   );
 });
 
@@ -159,13 +168,20 @@ export const Range = view(({ spacing = ["log", "linear"], otherwise = {}, ...abo
   const value = state.get(path);
   const form = isRange(value) ? "range" : Array.isArray(value) && value.length !== 1 ? "list" : "one";
   const read = (text) => units.typed(text, kind);
-  const beside = (own) => html`<${Select} class="mode" aria-label="${label}: how to give it" options=${FORMS} value=${form} ...${own}
+  const beside = (
+    own,
+  ) => html`<${Select} class="mode" aria-label="${label}: how to give it" options=${FORMS} value=${form} ...${own}
     onChange=${(next) => state.set(path, inForm(next, state.get(path), { spacing, otherwise }))} />`;
-  const end = (key, own) => html`<${Box} aria-label="${label} ${key}" ...${at(`${path}.${key}`, read, readable)} ...${own} />`;
-  const gap = (own) => html`<${Select} aria-label="${label}: spacing" options=${spacing} value=${value.spacing ?? spacing[0]}
+  const end = (key, own) =>
+    html`<${Box} aria-label="${label} ${key}" ...${at(`${path}.${key}`, read, readable)} ...${own} />`;
+  const gap = (
+    own,
+  ) => html`<${Select} aria-label="${label}: spacing" options=${spacing} value=${value.spacing ?? spacing[0]}
     onChange=${(one) => state.set(`${path}.spacing`, one)} ...${own} />`;
   const controls = {
-    one: (own) => html`<${Box} key="one" aria-label=${label} ...${at(path, read, (now) => readable(listed(now)[0]))} ...${own} />
+    one: (
+      own,
+    ) => html`<${Box} key="one" aria-label=${label} ...${at(path, read, (now) => readable(listed(now)[0]))} ...${own} />
       ${about.slider && slider({ kind, ...about })}`,
     list: (own) => html`<${Box} key="list" aria-label="${label}: list, separated by commas"
       ...${at(
@@ -235,7 +251,9 @@ function settle(self, path) {
 
 /** The field's path that is nearest to the place of an error; undefined where the page shows none. */
 export const homeOf = (place) =>
-  [...homes.value.values()].filter((path) => isIn(place ?? "", path)).sort((one, other) => other.length - one.length)[0];
+  [...homes.value.values()]
+    .filter((path) => isIn(place ?? "", path))
+    .sort((one, other) => other.length - one.length)[0];
 
 /** All paths that have a field, shown or not. */
 export const paths = () => [...declared].filter(Boolean);

@@ -1,79 +1,111 @@
-// From a figure's specification (figures.js) to what plotly draws: traces, axes with sane ticks, layout.
+// What plotly draws of a figure's specification (figures.js): traces, axes with ticks that are read at once, marks.
 
-import { colours, faded, hue, temperatureLook } from "./figure_look.js";
-import { titled } from "./figure_numbers.js";
+import { ORDER, colours, faded, hue, scaleOf, temperatureLook } from "./figure_look.js";
 import * as units from "./units.js";
 
-/** Numbers that lie along an axis, in the user's unit. */
-function along(spec, axis, name) {
-  if (axis?.range) return axis.range.map((value) => units.number(value, axis.kind));
-  if (spec.z) return units.number(spec[name], axis?.kind);
-  return spec.traces.filter((trace) => !trace.hidden).flatMap((trace) => units.number(trace[name] ?? [], axis?.kind));
+const MOST_TICKS = 9;
+const NEAR = 0.05; // K: the same isotherm
+const isThere = (value) => value !== null && value !== undefined && Number.isFinite(value);
+const unitOf = (axis) => units.label(axis?.kind);
+
+/** An axis's quantity and its unit. */
+export const titled = (axis) => `${axis?.label ?? ""}${unitOf(axis) ? ` (${unitOf(axis)})` : ""}`;
+
+/** The least and the largest value drawn along an axis, SI; bars and bands count of those that are shown. */
+function endsOf(spec, name) {
+  if (spec[name]?.range) return spec[name].range;
+  const spread = (trace) => [
+    trace[name] ?? [],
+    ...(name === "y" ? [trace.lower ?? [], trace.upper ?? []] : []),
+    ...(name === "y" && trace.error ? [trace.y.map((value, at) => isThere(value) && value + trace.error[at])] : []),
+  ];
+  const columns = spec.map ? [spec.map[name]] : spec.traces.filter((trace) => !trace.hidden).flatMap(spread);
+  return columns
+    .flat()
+    .reduce(
+      ([low, high], value) => (isThere(value) ? [Math.min(low, value), Math.max(high, value)] : [low, high]),
+      [Infinity, -Infinity],
+    );
 }
 
-/** Ticks of a log axis: a label at each decade, or at every few; numbers in full where they are short. */
-function logTicks(values) {
-  const sound = values.filter((value) => value > 0 && Number.isFinite(value));
-  const [low, high] = sound.reduce(
-    ([least, most], value) => [Math.min(least, value), Math.max(most, value)],
-    [Infinity, 0],
-  );
+/** Ticks of a log axis from its ends: of few decades 1, 2 and 5 of each, of many each one or every few, in full words. */
+export function logTicks([low, high]) {
   const decades = Math.log10(high / low);
   const plain = low >= 9e-4 && high <= 3e4;
-  // plotly draws powers a quarter larger than other ticks
-  const look = plain ? { exponentformat: "none" } : { exponentformat: "power", tickfont: { size: 10 } };
-  if (decades > 1.8) return { ...look, dtick: Math.max(1, Math.ceil(decades / 9)) };
-  return decades > 0.7 ? { ...look, dtick: "D2" } : look; // 1, 2, 5 of each decade
+  const look = plain ? { exponentformat: "none" } : { exponentformat: "power" };
+  if (!(low > 0) || !(decades > 0.7)) return { tickmode: "auto", ...look };
+  const every = Math.max(1, Math.ceil(decades / MOST_TICKS));
+  const digits = decades > 1.8 ? [1] : [1, 2, 5];
+  const first = every * Math.floor(Math.log10(low) / every);
+  const powers = Array.from({ length: Math.ceil(decades / every) + 2 }, (_, at) => first + every * at);
+  const words = (digit, power) => {
+    if (plain) return String(Number((digit * 10 ** power).toPrecision(1)));
+    return `${digit === 1 ? "" : `${digit}×`}10<sup>${String(power).replace("-", "−")}</sup>`;
+  };
+  const all = powers.flatMap((power) => digits.map((digit) => [digit * 10 ** power, words(digit, power)]));
+  const between = every > 1 ? [] : powers.flatMap((power) => [2, 3, 4, 5, 6, 7, 8, 9].map((one) => one * 10 ** power));
+  return {
+    tickmode: "array",
+    tickvals: all.map(([value]) => value),
+    ticktext: all.map(([, text]) => text),
+    minor: { tickmode: "array", tickvals: between, ticks: "inside", ticklen: 3 },
+  };
 }
 
-function plotlyAxis(axis = {}, dark, values = [], side = "bottom") {
-  const look = colours(dark);
-  const range = axis.range?.map((value) => {
-    const shown = units.number(value, axis.kind);
-    return axis.log ? Math.log10(shown) : shown;
-  });
+function plotlyAxis(spec, name, look) {
+  const axis = spec[name] ?? {};
+  const drawn = endsOf(spec, name);
+  const fromZero = axis.zero && !axis.log && drawn[0] >= 0 && drawn[1] > 0; // with some room above
+  const ends = fromZero ? [0, axis.zero * drawn[1]] : drawn;
+  const shown = ends.map((end) => units.number(end, axis.kind));
   return {
     title: { text: titled(axis), standoff: 8, font: { size: 13, color: look.ink } },
     type: axis.log ? "log" : "linear",
     tickfont: { size: 12 },
-    ...(axis.log ? logTicks(values) : { exponentformat: "power", minexponent: 4 }),
-    showline: true,
-    mirror: true,
-    linecolor: look.quiet,
-    linewidth: 1,
-    ticks: "inside",
-    ticklen: 5,
-    tickcolor: look.quiet,
-    minor: axis.log ? { ticks: "inside", ticklen: 3, tickcolor: look.quiet, showgrid: false } : undefined,
-    gridcolor: look.line,
-    zeroline: false,
-    automargin: side,
-    ...(range ? { range, autorange: false } : {}),
+    ...(axis.log ? logTicks(shown) : { exponentformat: "power", minexponent: 4 }),
+    ...{ showline: true, mirror: true, linecolor: look.quiet, linewidth: 1 },
+    ...{ ticks: "inside", ticklen: 5, tickcolor: look.quiet, gridcolor: look.line, zeroline: false },
+    automargin: name === "x" ? "bottom" : "left",
+    ...(axis.range || fromZero ? { range: axis.log ? shown.map(Math.log10) : shown, autorange: false } : {}),
     ...(axis.equal ? { scaleanchor: "x", scaleratio: 1 } : {}),
   };
 }
 
 export function layoutOf(spec, dark, forFile) {
   const look = colours(dark);
-  const named = (spec.traces ?? spec.lines ?? []).filter((trace) => trace.name && trace.legend !== false);
-  const top = forFile ? 60 : 12;
-  const { x, y } = spec.axes ?? spec;
+  const named = spec.traces.filter((trace) => trace.name && trace.legend !== false);
+  const { shapes, annotations } = marks(spec, look);
+  const place = { showarrow: false, xref: "paper", yref: "paper" };
+  const said = {
+    ...place,
+    x: 1,
+    y: 1,
+    xanchor: "right",
+    yanchor: "bottom",
+    font: { size: 11, color: hue("vermilion", false) },
+  };
+  const foot = {
+    ...place,
+    x: 0,
+    y: 0,
+    yshift: -62,
+    xanchor: "left",
+    yanchor: "top",
+    font: { size: 10, color: look.quiet },
+  };
+  const title = { text: `<b>${spec.title}</b>`, font: { size: 16 }, x: 0.02, xanchor: "left", y: 0.97, yanchor: "top" };
   return {
-    paper_bgcolor: look.paper,
-    plot_bgcolor: look.paper,
-    autosize: !forFile,
+    ...{ paper_bgcolor: look.paper, plot_bgcolor: look.paper, autosize: !forFile },
     font: {
       family: 'system-ui, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif',
       size: 13,
       color: look.ink,
     },
-    margin: { l: 56, r: 14, t: top, b: 48, pad: 0 },
-    title: forFile
-      ? { text: `<b>${spec.title}</b>`, font: { size: 16 }, x: 0.02, xanchor: "left", y: 0.97, yanchor: "top" }
-      : undefined,
+    margin: { l: 56, r: 14, t: forFile ? 60 : 12, b: forFile ? 84 : 48, pad: 0 },
+    title: forFile ? title : undefined,
     hovermode: "closest",
     hoverlabel: { bgcolor: look.hover, bordercolor: look.quiet, font: { color: look.ink, size: 12 } },
-    showlegend: named.length > 1,
+    showlegend: named.length > 1 && !barOf(spec, dark),
     legend: {
       orientation: "h",
       x: 0,
@@ -84,170 +116,147 @@ export function layoutOf(spec, dark, forFile) {
       bgcolor: "rgba(0,0,0,0)",
     },
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
-    xaxis: plotlyAxis(x, dark, along(spec, x, "x")),
-    yaxis: plotlyAxis(y, dark, along(spec, y, "y"), "left"),
-    shapes: marks(spec, look).shapes,
-    annotations: [...marks(spec, look).annotations, ...(forFile ? syntheticMark(spec) : [])],
+    xaxis: plotlyAxis(spec, "x", look),
+    yaxis: plotlyAxis(spec, "y", look),
+    shapes,
+    annotations: [
+      ...annotations,
+      ...(forFile && spec.synthetic ? [{ ...said, text: "synthetic data" }] : []),
+      ...(forFile && spec.origin ? [{ ...foot, text: spec.origin }] : []),
+    ],
     uirevision: spec.id,
     separators: ".\u2009",
-    ...(spec.layout ?? {}),
   };
 }
 
+/** Lines across the figure. */
 function marks(spec, look) {
-  const shapes = [];
-  const annotations = [];
-  for (const mark of spec.marks ?? []) {
+  const all = spec.marks.map((mark) => {
     const across = mark.x !== undefined;
     const axis = across ? spec.x : spec.y;
     const at = units.number(across ? mark.x : mark.y, axis?.kind);
     const ends = across
       ? { x0: at, x1: at, y0: 0, y1: 1, yref: "paper" }
       : { y0: at, y1: at, x0: 0, x1: 1, xref: "paper" };
-    shapes.push({ type: "line", layer: "below", line: { color: look.quiet, width: 1, dash: "dot" }, ...ends });
+    const where = axis?.log ? Math.log10(at) : at;
     const place = across
-      ? { x: axis?.log ? Math.log10(at) : at, y: 1, yref: "paper", yanchor: "top", xanchor: "left" }
-      : { y: axis?.log ? Math.log10(at) : at, x: 1, xref: "paper", xanchor: "right", yanchor: "bottom" };
-    if (mark.label)
-      annotations.push({ text: mark.label, showarrow: false, font: { size: 11, color: look.quiet }, ...place });
-  }
-  return { shapes, annotations };
+      ? { x: where, y: 1, yref: "paper", yanchor: "top", xanchor: "left" }
+      : { y: where, x: 1, xref: "paper", xanchor: "right", yanchor: "bottom" };
+    return {
+      shape: { type: "line", layer: "below", line: { color: look.quiet, width: 1, dash: "dot" }, ...ends },
+      note: mark.label && { text: mark.label, showarrow: false, font: { size: 11, color: look.quiet }, ...place },
+    };
+  });
+  return { shapes: all.map(({ shape }) => shape), annotations: all.map(({ note }) => note).filter(Boolean) };
 }
 
-function syntheticMark(spec) {
-  if (!spec.synthetic) return [];
-  const font = { size: 11, color: hue("vermilion", false) };
-  return [
-    {
-      text: "synthetic data",
-      xref: "paper",
-      yref: "paper",
-      x: 1,
-      y: 1,
-      xanchor: "right",
-      yanchor: "bottom",
-      showarrow: false,
-      font,
-    },
-  ];
-}
+const temperaturesOf = ({ temperatures, traces }) =>
+  temperatures ?? traces.map((one) => one.temperature).filter((one) => one !== undefined);
 
 /** The look of a trace: its own, that of its temperature, or the next hue. */
 function lookOf(trace, index, spec, dark) {
-  const all = spec.traces.map((one) => one.temperature).filter((one) => one !== undefined);
-  if (trace.temperature !== undefined) {
-    const look = temperatureLook(trace.temperature, spec.temperatures ?? all, dark);
-    return {
-      ...look,
-      ...(trace.dash ? { dash: trace.dash } : {}),
-      ...(trace.symbol ? { symbol: trace.symbol } : {}),
-      ...(trace.colour ? { colour: hue(trace.colour, dark) } : {}),
+  const own = trace.colour ? { colour: hue(trace.colour, dark) } : {};
+  const { dash = "solid", symbol = "circle", temperature } = trace;
+  if (temperature === undefined) return { colour: hue(ORDER[index % ORDER.length], dark), symbol, dash, ...own };
+  const look = temperatureLook(temperature, temperaturesOf(spec), dark);
+  return { ...look, ...(trace.dash ? { dash } : {}), ...(trace.symbol ? { symbol } : {}), ...own };
+}
+
+/** All that plotly draws; lines on a map are always bright, since the map is dark in either theme. */
+export function dataOf(spec, dark) {
+  const { map, picked } = spec;
+  const isPicked = ({ temperature }) => Math.abs(temperature - picked) < NEAR;
+  const some = spec.traces.some(isPicked);
+  const drawn = spec.traces.flatMap((trace, index) => {
+    const look = lookOf(trace, index, spec, dark || Boolean(map));
+    const x = trace.x.length ? units.number(trace.x, spec.x?.kind) : [null]; // in the legend from the start
+    const legendgroup = trace.group ?? `${index}`;
+    const beside = some && trace.temperature !== undefined && !isPicked(trace);
+    const shared = { x, legendgroup, visible: trace.hidden ? "legendonly" : true, opacity: beside ? 0.3 : 1 };
+    const line = plotlyTrace(trace, look, spec, dark, some && isPicked(trace) ? 1.6 : 1);
+    if (!trace.lower || !trace.upper) return [{ ...line, ...shared }];
+    const edge = {
+      ...shared,
+      mode: "lines",
+      line: { width: 0, color: look.colour },
+      hoverinfo: "skip",
+      showlegend: false,
     };
-  }
-  const order = ["blue", "vermilion", "green", "purple", "orange", "sky"];
-  return {
-    colour: hue(trace.colour ?? order[index % order.length], dark),
-    symbol: trace.symbol ?? "circle",
-    dash: trace.dash ?? "solid",
-  };
-}
-
-export function plotlyTraces(spec, dark) {
-  const drawn = [];
-  spec.traces.forEach((trace, index) => {
-    const look = lookOf(trace, index, spec, dark);
-    const x = units.number(trace.x, spec.x?.kind);
-    const group = trace.group ?? `${index}`;
-    if (trace.lower && trace.upper) {
-      const edge = {
-        x,
-        mode: "lines",
-        line: { width: 0, color: look.colour },
-        hoverinfo: "skip",
-        showlegend: false,
-        legendgroup: group,
-        visible: trace.hidden ? "legendonly" : true,
-      };
-      drawn.push({ ...edge, y: units.number(trace.lower, spec.y?.kind) });
-      drawn.push({
-        ...edge,
-        y: units.number(trace.upper, spec.y?.kind),
-        fill: "tonexty",
-        fillcolor: faded(look.colour, dark ? 0.25 : 0.16),
-      });
-    }
-    drawn.push(plotlyTrace(trace, look, x, spec, group, dark));
+    const fill = { fill: "tonexty", fillcolor: faded(look.colour, beside ? 0.04 : dark ? 0.25 : 0.16) };
+    const [lower, upper] = [trace.lower, trace.upper].map((values) => units.number(values, spec.y?.kind));
+    return [
+      { ...edge, y: lower },
+      { ...edge, y: upper, ...fill },
+      { ...line, ...shared },
+    ];
   });
-  return drawn;
+  return [...(map ? [heatOf(spec)] : []), ...drawn, ...(barOf(spec, dark) ?? [])];
 }
 
-function plotlyTrace(trace, look, x, spec, group, dark) {
-  const y = units.number(trace.y, spec.y?.kind);
-  const mode = trace.mode ?? "lines";
+function plotlyTrace(trace, look, spec, dark, strong) {
+  const kind = spec.y?.kind;
   const open = trace.open ? "-open" : "";
-  const bars = trace.error && {
-    type: "data",
-    array: spec.y?.kind
-      ? trace.error.map((one) => (one === null ? null : units.number(one, spec.y.kind) - units.number(0, spec.y.kind)))
-      : trace.error,
-    thickness: 1.1,
-    width: 3,
-    color: look.colour,
-  };
+  const end = (axis) => (unitOf(axis) ? ` ${unitOf(axis)}` : "");
+  const text = `${trace.name ? `<b>${trace.name}</b><br>` : ""}${spec.x?.label ?? "x"} %{x:.4g}${end(spec.x)}<br>`;
+  const bars = trace.error?.map((one) => (isThere(one) ? units.number(one, kind) - units.number(0, kind) : null));
   return {
     type: "scatter",
-    x,
-    y,
-    mode,
+    y: units.number(trace.y, kind),
+    mode: trace.mode ?? "lines",
     name: trace.name ?? "",
-    legendgroup: group,
     text: trace.text,
     showlegend: Boolean(trace.name) && trace.legend !== false,
-    visible: trace.hidden ? "legendonly" : true,
-    line: { color: look.colour, width: trace.width ?? 2, dash: look.dash, shape: trace.shape },
+    line: { color: look.colour, width: strong * (trace.width ?? 2), dash: look.dash },
     marker: {
       color: look.colour,
       symbol: `${look.symbol}${open}`,
-      size: trace.size ?? 7,
+      size: strong * (trace.size ?? 7),
       line: { width: open ? 1.5 : 0.8, color: open ? look.colour : colours(dark).paper },
     },
     fill: trace.fill,
     fillcolor: trace.fill ? faded(look.colour, 0.2) : undefined,
     connectgaps: false,
-    error_y: bars || undefined,
+    error_y: bars && { type: "data", array: bars, thickness: 1.1, width: 3, color: look.colour },
     customdata: trace.data,
-    hovertemplate: hover(trace, spec),
-    cliponaxis: trace.clip ?? true,
+    meta: trace.temperature,
+    hovertemplate: `${text}${spec.y?.label ?? "y"} %{y:.4g}${end(spec.y)}${trace.text ? "<br>%{text}" : ""}<extra></extra>`,
   };
 }
 
-function hover(trace, spec) {
-  const end = (axis) => (axis?.kind && units.label(axis.kind) ? ` ${units.label(axis.kind)}` : "");
-  const text = trace.text ? "<br>%{text}" : "";
-  return `${trace.name ? `<b>${trace.name}</b><br>` : ""}${spec.x?.label ?? "x"} %{x:.4g}${end(spec.x)}<br>${spec.y?.label ?? "y"} %{y:.4g}${end(spec.y)}${text}<extra></extra>`;
+/** A colour bar of temperatures that are too many for a legend, as a trace without points. */
+function barOf(spec, dark) {
+  const scale = scaleOf(temperaturesOf(spec), dark);
+  if (!scale) return null;
+  const [cmin, cmax] = scale.ends.map((end) => units.number(end, "temperature"));
+  const title = { text: `temperature (${units.label("temperature")})`, side: "right", font: { size: 12 } };
+  const colorbar = { title, thickness: 10, outlinewidth: 0, tickfont: { size: 11 } };
+  const marker = { color: [cmin], cmin, cmax, colorscale: scale.colours, showscale: true, colorbar };
+  return [
+    { type: "scatter", x: [null], y: [null], mode: "markers", marker, hoverinfo: "skip", showlegend: false, name: "" },
+  ];
 }
 
-// Lines on a map are always bright: the map is dark in either theme.
-export function mapTraces(spec) {
-  const { x, y, z } = spec.axes;
-  const size = {
-    thickness: 12,
-    outlinewidth: 0,
-    tickfont: { size: 12 },
-    title: { text: titled(z), side: "right", font: { size: 13 } },
-  };
-  const heat = {
+// Viridis, out of nothing where there is no pressure.
+const VIRIDIS = "#440154 #482878 #3e4989 #31688e #26828e #1f9e89 #35b779 #6ece58 #b5de2b #fde725".split(" ");
+const OUT_OF_NOTHING = [[0, "rgba(68,1,84,0)"], ...VIRIDIS.map((colour, at) => [0.012 + (0.988 * at) / 9, colour])];
+
+function heatOf({ x, y, z, map }) {
+  const [across, up] = [units.number(map.x, x.kind), units.number(map.y, y.kind)];
+  const words = [
+    [x, "x"],
+    [y, "y"],
+    [z, "z"],
+  ].map(([axis, key]) => `${axis.label} %{${key}:.4g} ${unitOf(axis)}`);
+  return {
     type: "heatmap",
-    x: units.number(spec.x, x.kind),
-    y: units.number(spec.y, y.kind),
-    z: spec.z.map((row) => units.number(row, z.kind)),
-    colorscale: spec.scale ?? "Viridis",
-    zsmooth: spec.smooth ?? false,
-    zmin: spec.zero ? 0 : undefined,
-    colorbar: size,
-    hoverongaps: false,
-    hovertemplate: `${x.label} %{x:.4g} ${units.label(x.kind)}<br>${y.label} %{y:.4g} ${units.label(y.kind)}<br>${z.label} %{z:.4g} ${units.label(z.kind)}<extra></extra>`,
+    ...{ x: across, y: up, z: map.z.map((row) => units.number(row, z.kind)) },
+    ...{ colorscale: OUT_OF_NOTHING, zsmooth: map.smooth ?? false, zmin: 0, hoverongaps: false },
+    colorbar: {
+      thickness: 12,
+      outlinewidth: 0,
+      tickfont: { size: 12 },
+      title: { text: titled(z), side: "right", font: { size: 13 } },
+    },
+    hovertemplate: `${words.join("<br>")}<extra></extra>`,
   };
-  const lines = plotlyTraces({ ...spec, x, y, traces: spec.lines ?? [] }, true);
-  return [heat, ...lines];
 }

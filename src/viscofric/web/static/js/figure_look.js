@@ -9,24 +9,16 @@ const HUES = {
   green: ["#009e73", "#3cc79d"],
   orange: ["#d38f00", "#f0b73c"],
   vermilion: ["#d55e00", "#ff8a4a"],
-  purple: ["#b5528c", "#e39ac5"],
   red: ["#a31f34", "#f2707f"],
+  purple: ["#b5528c", "#e39ac5"],
+  grey: ["#8a949e", "#8a949e"],
 };
-
-const BY_COUNT = [
-  ["blue"],
-  ["blue", "vermilion"],
-  ["blue", "green", "vermilion"],
-  ["blue", "green", "orange", "vermilion"],
-  ["blue", "sky", "green", "orange", "vermilion"],
-  ["blue", "sky", "green", "orange", "vermilion", "red"],
-];
-
+const WARMER = Object.keys(HUES).slice(0, 6);
+const BY_COUNT = ["0", "04", "024", "0234", "01234", "012345"]; // places in WARMER of so many temperatures
 const SCALE = [["#16306b", "#5a7fe0"], HUES.blue, HUES.green, HUES.orange, HUES.vermilion, ["#8f1230", "#ff5d77"]];
-
 const SYMBOLS = ["circle", "square", "triangle-up", "diamond", "triangle-down", "pentagon", "x"];
-
 const DASHES = ["solid", "9px,3px", "3px,3px", "9px,3px,3px,3px"];
+export const ORDER = ["blue", "vermilion", "green", "purple", "orange", "sky"]; // of curves that say nothing
 
 const darkSystem = matchMedia("(prefers-color-scheme: dark)");
 const chosenTheme = signal(document.documentElement.dataset.theme); // none: as the system
@@ -46,53 +38,49 @@ export function chooseTheme(theme) {
   }
 }
 
+const parts = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+
 function mixed(one, other, share) {
-  const parts = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
   const [from, to] = [parts(one), parts(other)];
-  return `#${from
-    .map((value, at) =>
-      Math.round(value + share * (to[at] - value))
-        .toString(16)
-        .padStart(2, "0"),
-    )
-    .join("")}`;
+  const hex = (value) => Math.round(value).toString(16).padStart(2, "0");
+  return `#${from.map((value, at) => hex(value + share * (to[at] - value))).join("")}`;
 }
 
-export function faded(colour, share) {
-  const [r, g, b] = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
-  return `rgba(${r},${g},${b},${share})`;
-}
+export const faded = (colour, share) => `rgba(${parts(colour)},${share})`;
 
 /** Colour of a named hue on the page's background: hue("blue"). */
-export function hue(name, dark = isDark()) {
-  return HUES[name]?.[dark ? 1 : 0] ?? name;
-}
+export const hue = (name, dark = isDark()) => HUES[name]?.[dark ? 1 : 0] ?? name;
 
-function distinct(all) {
-  return [...new Set(all.map((kelvin) => Math.round(kelvin * 10) / 10))].sort((one, other) => one - other);
+const distinct = (all) =>
+  [...new Set(all.map((kelvin) => Math.round(kelvin * 10) / 10))].sort((one, other) => one - other);
+
+/** The ends of temperatures that are too many for a legend, and the colours between them; null of a few. */
+export function scaleOf(all, dark) {
+  const sorted = distinct(all);
+  if (sorted.length <= BY_COUNT.length) return null;
+  const colours = SCALE.map((both, at) => [at / (SCALE.length - 1), both[dark ? 1 : 0]]);
+  return { ends: [sorted[0], sorted.at(-1)], colours };
 }
 
 /** One colour per temperature, blue where cold and red where warm; `all` are those that are shown together. */
 export function temperatureColour(kelvin, all = [kelvin], dark = isDark()) {
   const sorted = distinct([...all, kelvin]);
-  const rank = sorted.indexOf(Math.round(kelvin * 10) / 10);
-  if (sorted.length <= BY_COUNT.length) return hue(BY_COUNT[sorted.length - 1][rank], dark);
-  const place = ((kelvin - sorted[0]) / (sorted.at(-1) - sorted[0])) * (SCALE.length - 1);
+  const scale = scaleOf(sorted, dark);
+  if (!scale) return hue(WARMER[BY_COUNT[sorted.length - 1][sorted.indexOf(Math.round(kelvin * 10) / 10)]], dark);
+  const [low, high] = scale.ends;
+  const place = ((kelvin - low) / (high - low)) * (SCALE.length - 1);
   const at = Math.min(Math.max(Math.floor(place), 0), SCALE.length - 2);
-  return mixed(SCALE[at][dark ? 1 : 0], SCALE[at + 1][dark ? 1 : 0], Math.min(Math.max(place - at, 0), 1));
+  return mixed(scale.colours[at][1], scale.colours[at + 1][1], Math.min(Math.max(place - at, 0), 1));
 }
 
 /** Colour, symbol and dashes of a temperature, which differ in grey, too. */
 export function temperatureLook(kelvin, all = [kelvin], dark = isDark()) {
   const rank = distinct([...all, kelvin]).indexOf(Math.round(kelvin * 10) / 10);
-  return {
-    colour: temperatureColour(kelvin, all, dark),
-    symbol: SYMBOLS[rank % SYMBOLS.length],
-    dash: DASHES[rank % DASHES.length],
-  };
+  const colour = temperatureColour(kelvin, all, dark);
+  return { colour, symbol: SYMBOLS[rank % SYMBOLS.length], dash: DASHES[rank % DASHES.length] };
 }
 
-export function colours(dark) {
-  const light = { ink: "#1d2329", quiet: "#5b6570", line: "#dfe3e7", paper: "#ffffff", hover: "#ffffff" };
-  return dark ? { ink: "#e4e8ec", quiet: "#a0abb5", line: "#343c44", paper: "#1b2025", hover: "#2a3138" } : light;
-}
+export const colours = (dark) =>
+  dark
+    ? { ink: "#e4e8ec", quiet: "#a0abb5", line: "#343c44", paper: "#1b2025", hover: "#2a3138" }
+    : { ink: "#1d2329", quiet: "#5b6570", line: "#dfe3e7", paper: "#ffffff", hover: "#ffffff" };

@@ -1,30 +1,30 @@
-// Figures in the page's house style: light and dark, in the user's units, each with a table of its numbers and downloads.
+// Figures as views of results: light and dark, in the user's units, each with a table of its numbers and downloads.
 //
-// const handle = figure(container, {
-//   id: "friction-curve", title: "Friction against speed", caption: "what it shows, in a sentence",
-//   x: {label: "speed", kind: "speed", log: true}, y: {label: "friction coefficient"},
-//   traces: [{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size,
-//             lower, upper (a band around y), error (bars, SI), hidden, legend: false, text, width}],
-//   of: the result of a job that is drawn: the figure is grey while the inputs are others (jobs.js),
-//   marks: [{x | y, label}] (lines across the figure), height, empty: "text without data", synthetic: true,
-//   layout: {…plotly}, onClick: (point) => … })
-// handle.update({traces: …})    changes parts of the spec, or all of it with {} as second argument, and draws again
-// handle.element, handle.plot (plotly's div), handle.remove()
+// <${Figure} of=${result} id="friction-curve" title="…" caption="…"
+//   x=${{label: "speed", kind: "speed", log: true}} y=${{label: "friction coefficient", zero: 1.06}}
+//   traces=${[{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size, width, open,
+//              lower, upper (a band around y), error (bars), hidden, legend: false, text, group, decoration, fill}, …]}
+//   temperatures=${all that share colours} marks=${[{x | y, label}, …]} map=${{x, y, z: [[…]], smooth}} z=${axis of the map}
+//   height=${400} empty="text without data" synthetic onClick=${(point) => …} onPlot=${(plot) => …} />
 //
-// All numbers are SI.  An axis is {label, kind, log, range: [from, to], equal}.  map(container, {…, x, y, axes: {x, y, z}, z: [[…]],
-// lines: [traces on top]}) draws a heat map; z's rows go along y.
-// temperatureColour(kelvin, all) and temperatureLook(kelvin, all) are one look per temperature, the same in all figures.
+// What is not given is that of the result: of.figures[id], or `spec`.  All numbers are SI; columns may be paths into the result
+// ("profile.x"), and words may hold quantities (units.js: filled).  An axis is {label, kind, log, range: [from, to], equal, zero:
+// factor above the largest value}.  A figure of other inputs than those of now is grey with a word (views.js: shown).
+// A click on a curve of some temperature picks that isotherm, which is then strong in all figures.
 
-import { layoutOf, mapTraces, plotlyTraces } from "./figure_drawing.js";
+import { dataOf, layoutOf, logTicks, titled } from "./figure_drawing.js";
 import { isDark } from "./figure_look.js";
-import { csv, described, hasData, numbers } from "./figure_numbers.js";
-import { forget, shows } from "./jobs.js";
-import { button, h, table } from "./parts.js";
-import { effect } from "./reactive.js";
+import { isStale, studyOf } from "./jobs.js";
+import { isSynthetic, originOf } from "./page.js";
+import { html, view } from "./reactive.js";
+import { state, valueAt } from "./state.js";
 import * as units from "./units.js";
+import { Button, Table, shown } from "./views.js";
 
-export { chooseTheme, hue, isDark, temperatureColour, temperatureLook } from "./figure_look.js";
-export { csv, numbers } from "./figure_numbers.js";
+export { chooseTheme, hue, isDark, temperatureColour } from "./figure_look.js";
+
+const MOST_ROWS = 2000;
+const COLUMNS = ["x", "y", "lower", "upper", "error"];
 
 let plotly = null;
 
@@ -42,25 +42,93 @@ function drawing() {
 /** Hand a file to the user. */
 export function save(name, content, type = "text/plain") {
   const blob = content instanceof Blob ? content : new Blob([content], { type });
-  const link = h("a", { href: URL.createObjectURL(blob), download: name });
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-async function savePicture(spec, format) {
-  const Plotly = await drawing();
-  const [width, height] = spec.z ? [900, 700] : [900, 600];
-  const layout = { ...layoutOf(spec, false, true), width, height };
-  const data = spec.z ? mapTraces(spec) : plotlyTraces(spec, false);
-  const url = await Plotly.toImage({ data, layout }, { format, width, height, scale: format === "png" ? 2 : 1 });
-  const content = format === "svg" ? decodeURIComponent(url.slice(url.indexOf(",") + 1)) : await await blobOf(url);
-  save(`${spec.id}.${format}`, content, "image/svg+xml");
+/** The isotherm that is strong in all figures, K; null for none. */
+export const picked = () => state.view("isotherm", null);
+export const pick = (kelvin) => state.setView("isotherm", kelvin);
+
+const hasData = ({ map, traces }) => Boolean(map) || traces.some((trace) => trace.x.length > 0);
+
+/** Rows of a figure's numbers in the user's units: {head, rows}. */
+export function numbers({ x, y, z, map, traces }) {
+  if (map) {
+    const [across, up] = [units.number(map.x, x.kind), units.number(map.y, y.kind)];
+    const rows = map.z.flatMap((row, at) =>
+      row.map((one, place) => [across[place], up[at], units.number(one, z.kind)]),
+    );
+    return { head: [x, y, z].map(titled), rows };
+  }
+  const all = traces.filter((trace) => trace.x.length > 0 && !trace.decoration);
+  const words = { y: "", lower: "lower ", upper: "upper ", error: "error of " };
+  const parts = Object.keys(words).filter((part) => all.some((trace) => trace[part]));
+  const column = (trace, part) => units.number(trace[part] ?? [], y?.kind);
+  const label = (part) => `${words[part]}${titled(y)}`;
+  if (all.every((trace) => JSON.stringify(trace.x) === JSON.stringify(all[0].x))) {
+    const columns = all.flatMap((trace) =>
+      parts
+        .filter((part) => trace[part])
+        .map((part) => [`${label(part)}${trace.name ? `, ${trace.name}` : ""}`, column(trace, part)]),
+    );
+    const rows = units
+      .number(all[0]?.x ?? [], x?.kind)
+      .map((one, at) => [one, ...columns.map(([, values]) => values[at])]);
+    return { head: [titled(x), ...columns.map(([head]) => head)], rows };
+  }
+  const rows = all.flatMap((trace) => {
+    const columns = parts.map((part) => column(trace, part));
+    return units
+      .number(trace.x, x?.kind)
+      .map((one, at) => [trace.name ?? "", one, ...columns.map((values) => values[at] ?? null)]);
+  });
+  return { head: ["curve", titled(x), ...parts.map(label)], rows };
 }
 
-/** Bytes of a data address, without a request. */
-function blobOf(url) {
-  const bytes = atob(url.slice(url.indexOf(",") + 1));
-  return new Blob([Uint8Array.from(bytes, (one) => one.charCodeAt(0))], { type: "image/png" });
+/** The numbers as CSV text, units in the headings. */
+function csv(spec) {
+  const { head, rows } = numbers(spec);
+  const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+  const cell = (value) => quoted(String(typeof value === "number" ? Number(value.toPrecision(9)) : (value ?? "")));
+  const title = `${spec.title}${spec.synthetic ? " (synthetic material)" : ""}`;
+  const remarks = [title, spec.caption, spec.origin].filter(Boolean).map((text) => `# ${text.replaceAll("\n", " ")}`);
+  return `${[...remarks, ...[head, ...rows].map((row) => row.map(cell).join(","))].join("\n")}\n`;
+}
+
+/** The text of a figure for screen readers: its curves and their ranges. */
+function described(spec) {
+  const { title, x, y, z, map, traces } = spec;
+  if (!hasData(spec)) return `${title}: ${spec.empty ?? "no data yet"}.`;
+  const ends = (values, axis) => {
+    const sound = values.filter((value) => Number.isFinite(value));
+    const [low, high] = [Math.min(...sound), Math.max(...sound)].map((end) => units.show(end, axis?.kind));
+    return sound.length ? `${low} to ${high}` : "nothing";
+  };
+  const table = "Its numbers are in the table.";
+  if (map) return `${title}: map of ${z.label}, ${ends(map.z.flat(), z)}, over ${x.label} and ${y.label}. ${table}`;
+  const [across, up] = [x?.label ?? "x", y?.label ?? "y"];
+  const curves = traces.filter((trace) => trace.x.length > 0 && trace.legend !== false).slice(0, 12);
+  const sentences = curves.map((one) => `${one.name || up}: ${ends(one.y, y)} for ${across} ${ends(one.x, x)}`);
+  return `${title}: ${up} against ${across}. ${sentences.join("; ")}. ${table}`;
+}
+
+async function savePicture(spec, format) {
+  const Plotly = await drawing();
+  const [width, height] = spec.map ? [900, 720] : [900, 620];
+  const picture = { data: dataOf(spec, false), layout: { ...layoutOf(spec, false, true), width, height } };
+  const url = await Plotly.toImage(picture, { format, width, height, scale: format === "png" ? 2 : 1 });
+  const content = url.slice(url.indexOf(",") + 1);
+  if (format === "svg") return save(`${spec.id}.svg`, decodeURIComponent(content), "image/svg+xml");
+  const bytes = Uint8Array.from(atob(content), (one) => one.charCodeAt(0));
+  return save(`${spec.id}.png`, new Blob([bytes], { type: "image/png" }));
+}
+
+function download(spec, format) {
+  const earlier = { ...spec, id: `${spec.id}_earlier_inputs`, title: `${spec.title} (earlier inputs)` };
+  const kept = isStale(spec.of) ? earlier : spec;
+  return format === "CSV" ? save(`${kept.id}.csv`, csv(kept), "text/csv") : savePicture(kept, format.toLowerCase());
 }
 
 let busy = Promise.resolve();
@@ -69,168 +137,132 @@ let owed = 0;
 /** Whether all figures that are seen show what they were told last. */
 export const areDrawn = () => owed === 0;
 
-/** A figure of curves; see the head of this file. */
-export function figure(container, first) {
-  let spec = { traces: [], ...first };
-  let drawnOnce = false;
-  let waiting = false;
-  let drawn = null; // the spec that was drawn; another one is owed
-  const plot = h("div", { class: "plot", role: "img" });
-  const empty = h("p", { class: "plot-empty" });
-  const stage = h("div", { class: "stage" }, plot, empty);
-  const heading = h("span", { class: "figure-title" });
-  const badge = h("span", { class: "badge small", hidden: true }, "synthetic");
-  const caption = h("span", { class: "figure-caption" });
-  const details = h("div", { class: "figure-table", hidden: true });
-  const toggle = button({
-    label: h("span", { class: "word" }, "Table"),
-    kind: "quiet small",
-    symbol: "table",
-    onClick: () => showTable(details.hidden),
-  });
-  toggle.setAttribute("aria-expanded", "false");
-  const downloads = ["PNG", "SVG", "CSV"].map((format) =>
-    button({
-      label: h("span", { class: "format" }, format),
-      kind: "quiet small",
-      symbol: format === "PNG" ? "down" : undefined,
-      onClick: () => download(format.toLowerCase()),
-    }),
-  );
-  const tools = h("div", { class: "figure-tools" }, toggle, ...downloads);
-  const element = h(
-    "figure",
-    { class: "figure", id: `figure-${spec.id}` },
-    h("div", { class: "figure-head" }, heading, tools),
-    stage,
-    h("figcaption", {}, badge, caption),
-    details,
-  );
-  container.append(element);
+/** What draws one figure again, each time that it has another spec or is seen. */
+class Painter {
+  drawn = null; // the spec that is drawn; another one is owed
+  waits = false;
 
-  function download(format) {
-    const stale = element.classList.contains("stale");
-    const kept = stale ? { ...spec, id: `${spec.id}_earlier_inputs`, title: `${spec.title} (earlier inputs)` } : spec;
-    if (format === "csv") return save(`${kept.id}.csv`, csv(kept), "text/csv");
-    return savePicture(kept, format);
-  }
-
-  function showTable(open) {
-    details.hidden = !open;
-    toggle.setAttribute("aria-expanded", String(open));
-    fillTable();
-  }
-
-  function fillTable() {
-    if (details.hidden) return;
-    const { head, rows } = numbers(spec);
-    const most = 2000;
-    const cut =
-      rows.length > most
-        ? h("p", { class: "help" }, `The first ${most} of ${rows.length} rows; the CSV file has all.`)
-        : "";
-    details.replaceChildren(table(head, rows.slice(0, most), `Numbers of: ${spec.title}`), cut);
-  }
-
-  async function draw() {
-    waiting = false;
-    heading.textContent = spec.title ?? "";
-    caption.textContent = spec.caption ?? "";
-    caption.hidden = !spec.caption;
-    badge.hidden = !spec.synthetic;
-    const there = hasData(spec);
-    empty.textContent = spec.empty ?? "Nothing to draw yet.";
-    empty.hidden = there;
-    for (const one of [toggle, ...downloads]) {
-      one.disabled = !there;
-      one.setAttribute("aria-label", `${one.textContent}: ${spec.title}`);
-    }
-    plot.setAttribute("aria-label", described(spec));
-    if (spec.height) stage.style.height = `${spec.height}px`;
-    fillTable();
-    if (!stage.isConnected || stage.clientWidth === 0) {
-      drawn = null;
-      return; // drawn when it is seen
-    }
-    const Plotly = await drawing();
-    drawn = spec;
-    const dark = isDark();
-    const data = spec.z ? mapTraces(spec) : plotlyTraces(spec, dark);
-    await Plotly.react(plot, there ? data : [], layoutOf(spec, dark, false), {
-      displayModeBar: false,
-      displayNotifier: false,
-      responsive: false,
-      doubleClick: "reset+autosize",
+  constructor(plot) {
+    this.plot = plot;
+    this.size = new ResizeObserver(() => {
+      if (this.drawn && this.drawn === this.spec) window.Plotly.Plots.resize(plot);
+      else this.request();
     });
-    if (!drawnOnce) {
-      drawnOnce = true;
-      // a close look needs closer ticks
-      plot.on("plotly_relayout", (change) => {
-        const loose = ["xaxis", "yaxis"].filter((axis) => `${axis}.range[0]` in change && plot.layout[axis].dtick);
-        if (loose.length)
-          Plotly.relayout(
-            plot,
-            Object.fromEntries(
-              loose.flatMap((axis) => [
-                [`${axis}.dtick`, null],
-                [`${axis}.tickmode`, "auto"],
-              ]),
-            ),
-          );
-      });
-      plot.on("plotly_click", (event) => spec.onClick?.(event.points[0], event));
-    }
-    element.dataset.drawn = String(Number(element.dataset.drawn ?? 0) + 1);
+    this.size.observe(plot);
   }
 
-  function request() {
-    if (waiting) return;
-    waiting = true;
+  request(spec = this.spec) {
+    this.spec = spec;
+    if (this.waits || !spec) return;
+    this.waits = true;
     owed += 1;
     requestAnimationFrame(() => {
       busy = busy
-        .then(draw)
-        .catch((error) => (empty.textContent = error.message))
+        .then(() => this.draw())
+        .catch(console.error)
         .finally(() => (owed -= 1));
     });
   }
 
-  const size = new ResizeObserver(() => {
-    if (stage.clientWidth === 0) return;
-    if (drawnOnce && drawn === spec) window.Plotly.Plots.resize(plot);
-    else request();
-  });
-  size.observe(stage);
-  const handle = {
-    element,
-    plot,
-    get spec() {
-      return spec;
-    },
-    update(changes, before = spec) {
-      spec = { ...before, ...changes };
-      shows(element, spec.of);
-      request();
-      return handle;
-    },
-    remove() {
-      size.disconnect();
-      follow();
-      forget(element);
-      if (drawnOnce) window.Plotly.purge(plot);
-      element.remove();
-    },
-  };
-  // another choice of units, or of light and dark
-  const follow = effect(() => {
-    isDark();
-    units.choices();
-    request();
-  });
-  return handle;
+  async draw() {
+    this.waits = false;
+    const { plot, spec } = this;
+    if (!plot.isConnected || plot.clientWidth === 0) return; // drawn when it is seen
+    const Plotly = await drawing();
+    const options = { displayModeBar: false, displayNotifier: false, responsive: false, doubleClick: "reset+autosize" };
+    const data = hasData(spec) ? dataOf(spec, isDark()) : [];
+    const first = !this.drawn;
+    this.drawn = spec;
+    await Plotly.react(plot, data, layoutOf(spec, isDark(), false), options);
+    if (!first) return;
+    plot.on("plotly_relayout", () => this.ticks(Plotly));
+    plot.on("plotly_click", ({ points: [point] }) => {
+      if (point.data.meta !== undefined) pick(point.data.meta === picked() ? null : point.data.meta);
+      this.spec.onClick?.(point);
+    });
+    spec.onPlot?.(plot);
+  }
+
+  /** A close look needs closer ticks. */
+  ticks(Plotly) {
+    const { plot } = this;
+    const next = ["xaxis", "yaxis"].flatMap((name) => {
+      const { type, range, tickmode, tickvals } = plot._fullLayout[name];
+      if (type !== "log") return [];
+      const ticks = logTicks(range.map((power) => 10 ** power));
+      const same = tickmode === ticks.tickmode && String(tickvals) === String(ticks.tickvals);
+      return same ? [] : Object.entries(ticks).map(([key, value]) => [`${name}.${key}`, value]);
+    });
+    if (next.length) Plotly.relayout(plot, Object.fromEntries(next));
+  }
+
+  end() {
+    this.size.disconnect();
+    if (this.drawn) window.Plotly.purge(this.plot);
+  }
 }
 
-/** A heat map, with curves on top if given; see the head of this file. */
-export function map(container, spec) {
-  return figure(container, { z: [], ...spec });
+/** All that a figure shows: its properties and what its result says of it, with columns and words filled in. */
+function specOf(given) {
+  const { of, id } = given;
+  const all = { title: id, traces: [], marks: [], ...given, ...(given.spec ?? of?.figures?.[id]) };
+  const each = (from, names, change) =>
+    Object.fromEntries(names.filter((name) => from[name]).map((name) => [name, change(from[name])]));
+  const column = (values) => (typeof values === "string" ? valueAt(of, values) : Array.from(values));
+  return {
+    ...all,
+    ...each(all, ["x", "y", "z"], (axis) => ({ ...axis, label: units.filled(axis.label) })),
+    ...each(all, ["title", "caption"], units.filled),
+    map: all.map && { ...all.map, ...each(all.map, ["x", "y", "z"], column) },
+    marks: all.marks.map((mark) => ({ ...mark, ...each(mark, ["label"], units.filled) })),
+    traces: all.traces.map((one) => ({ ...one, ...each(one, ["name"], units.filled), ...each(one, COLUMNS, column) })),
+    synthetic: all.synthetic ?? Boolean(of && (of.synthetic || isSynthetic(studyOf(of)))),
+    origin: of ? originOf(studyOf(of)) : "",
+    picked: picked(),
+  };
 }
+
+export const Figure = view((given, self) => {
+  const { of, id } = given;
+  const spec = specOf(given);
+  const there = hasData(spec);
+  const open = self.open && there && numbers(spec);
+  const toggle = () => {
+    self.open = !self.open;
+    self.setState({});
+  };
+  const tool = (name, icon, act, words) => html`<${Button} kind="quiet small" symbol=${icon} disabled=${!there}
+    aria-label="${name}: ${spec.title}" aria-expanded=${name === "Table" ? String(Boolean(self.open)) : undefined} onClick=${act}>
+    <span class=${words}>${name}</span>
+  <//>`;
+  const strong = spec.traces.some(({ temperature }) => temperature !== undefined && temperature === spec.picked);
+  // what is told to the plot once it is there
+  const tell = (plot) => {
+    if (plot) (self.painter ??= new Painter(plot)).request(spec);
+  };
+  self.gone = () => self.painter?.end();
+  void [isDark(), units.choices()];
+  self.painter?.request(spec);
+  return html`<figure ...${shown(of, "figure")} id="figure-${id}">
+    <div class="figure-head">
+      <span class="figure-title">${spec.title}</span>
+      <div class="figure-tools">
+        ${tool("Table", "table", toggle, "word")}
+        ${["PNG", "SVG", "CSV"].map((name) => tool(name, name === "PNG" && "down", () => download(spec, name), "format"))}
+      </div>
+    </div>
+    <div class="stage" style=${spec.height ? `height: ${spec.height}px` : ""}>
+      <div class="plot" role="img" aria-label=${described(spec)} ref=${self.painter ? undefined : tell} />
+      <p class="plot-empty" hidden=${there}>${spec.empty ?? "Nothing to draw yet."}</p>
+    </div>
+    <figcaption>
+      <span class="badge small" hidden=${!spec.synthetic}>synthetic</span>
+      <span class="figure-caption" hidden=${!spec.caption}>${spec.caption}</span>
+      ${strong && html`<${Button} kind="quiet small" symbol="close" onClick=${() => pick(null)}>${units.show(spec.picked, "temperature")} picked<//>`}
+    </figcaption>
+    <div class="figure-table" hidden=${!self.open}>
+      ${open && html`<${Table} head=${open.head} rows=${open.rows.slice(0, MOST_ROWS)} caption="Numbers of: ${spec.title}" />`}
+      ${open?.rows.length > MOST_ROWS && html`<p class="help">The first ${MOST_ROWS} of ${open.rows.length} rows; the CSV file has all.</p>`}
+    </div>
+  </figure>`;
+});

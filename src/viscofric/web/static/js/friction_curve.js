@@ -1,12 +1,23 @@
 // The card of the friction curve: computed after each change, its points drawn as they are known, till then the one before.
 
-import { QUANTITIES, curveTraces, ghostTraces, hasQuantity, liveTrace, quantityOf, speedsOf, valuesOf } from "./curve_traces.js";
+import { Figure, temperatureColour } from "./figures.js";
+import {
+  QUANTITIES,
+  curveTraces,
+  ghostTraces,
+  hasQuantity,
+  liveTrace,
+  quantityOf,
+  speedsOf,
+  valuesOf,
+} from "./curve_traces.js";
 import { Select } from "./fields.js";
 import { Job, isStale, studyOf } from "./jobs.js";
+import { announce, isSynthetic, waits } from "./page.js";
 import { computed, html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
-import { Button, Card, Figure, Folded, Notes, Progress } from "./views.js";
+import { Button, Card, Folded, Notes, Progress } from "./views.js";
 
 const VIEWS = [
   ["speed", "against speed"],
@@ -44,7 +55,12 @@ function curveOf(source) {
   if (!source) return null;
   if (source.layout) return { source, ...source, result: null };
   const { friction } = source;
-  return { source, layout: source, points: { friction, known: friction.map((value) => value !== null) }, result: source };
+  return {
+    source,
+    layout: source,
+    points: { friction, known: friction.map((value) => value !== null) },
+    result: source,
+  };
 }
 
 /** The newest curve, of whatever inputs. */
@@ -86,14 +102,14 @@ function caption({ result, ...shownCurve }, shifted) {
 }
 
 /** What the figure shows of a curve and of the live contact. */
-function drawing(shownCurve, live, app) {
+function drawing(shownCurve, live) {
   const look = { view: against(), quantity: quantity.value, combination: combination.value };
   const { label, kind } = quantityOf(look.quantity, shownCurve.layout);
   const shifted = look.view === "shifted";
   const traces = [
     ...ghostTraces(pinned.value, look, "kept", "6px,4px"),
     ...(hasPoints(shownCurve) ? [] : ghostTraces(before, look, "before", "solid")),
-    ...curveTraces(shownCurve, look, { units, figures: app.figures }),
+    ...curveTraces(shownCurve, look, { units, temperatureColour }),
     ...liveTrace(isStale(live.result) ? null : live.result, look, units),
   ];
   const speed = shifted ? `α(T)·v at ${units.show(shownCurve.layout.reference, "temperature")}` : "speed";
@@ -104,12 +120,12 @@ function drawing(shownCurve, live, app) {
     x: { label: speed, kind: "speed", log: true, range: speedsOf(shownCurve, look) },
     y: state.view("curve.log", false) ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
     temperatures: shownCurve.layout.temperature,
-    synthetic: app.isSynthetic(studyOf(shownCurve.source)),
+    synthetic: isSynthetic(studyOf(shownCurve.source)),
     traces,
   };
 }
 
-const Curve = view(({ app, live, onPick }) => {
+const Curve = view(({ live, onPick }) => {
   const pick = (point) => {
     const at = point?.customdata;
     const { layout } = drawn.peek() ?? {};
@@ -117,21 +133,21 @@ const Curve = view(({ app, live, onPick }) => {
   };
   const x = { label: "speed", kind: "speed", log: true };
   const shownCurve = drawn.value;
-  const found = shownCurve && drawing(shownCurve, live, app);
+  const found = shownCurve && drawing(shownCurve, live);
   if (hasPoints(shownCurve)) before = shownCurve;
   return html`<${Figure} id="friction-curve" title="Friction against speed" x=${x} y=${{ label: QUANTITIES.friction.label }}
     empty=${curve.error ? "No curve yet." : "Computing the first points."} onClick=${pick} ...${found} />`;
 });
 
 /** What is shown, of what there is of this kind of contact and this study. */
-const Tools = view(({ app }) => {
+const Tools = view(() => {
   const layout = drawn.value?.layout ?? { kind: "point" };
   const of = Object.keys(QUANTITIES).filter((name) => hasQuantity(name, layout));
   const combinations = layout.combinations ?? [];
   const { result } = drawn.value ?? {};
   const pin = () => {
     pinned.value = pinned.value ? null : drawn.value;
-    app.announce(pinned.value ? "The curve is kept, in grey." : "The kept curve is removed.");
+    announce(pinned.value ? "The curve is kept, in grey." : "The kept curve is removed.");
   };
   return html`<div class="row curve-tools">
     <${Select} aria-label="Against" options=${VIEWS} value=${against()} onChange=${(one) => state.setView("curve.view", one)} />
@@ -169,12 +185,12 @@ function failuresOf(result) {
 }
 
 const MARKS = { passed: "✓ ", warning: "Warning: ", noted: "Unknown: " };
-const Words = view(({ app }) => {
+const Words = view(() => {
   const { source: of, result } = drawn.value ?? {};
   const failures = curve.current && result ? failuresOf(result) : [];
   const { checks = [], notes = [] } = result ?? {};
   return html`
-    <${Notes} kind="error" list=${curve.error ? [app.waits("the friction curve", curve.error)] : failures} />
+    <${Notes} kind="error" list=${curve.error ? [waits("the friction curve", curve.error)] : failures} />
     <${Notes} of=${of} kind="warning" list=${result ? warningsOf(result) : []} />
     <${Folded} title="Checks" hidden=${checks.length + notes.length === 0}>
       <${Notes} of=${of} list=${checks.map(({ verdict, words }) => `${MARKS[verdict]}${words}`)} />
@@ -184,12 +200,12 @@ const Words = view(({ app }) => {
 });
 
 /** The card; onPick({speed, temperature}) is called for a point that was clicked, `live` is the job of the marked contact. */
-export const FrictionCard = ({ app, live, onPick }) => {
-  curve.done = (result) => app.announce(`The friction curve is complete, ${pointsOf(result)}.`);
+export const FrictionCard = ({ live, onPick }) => {
+  curve.done = (result) => announce(`The friction curve is complete, ${pointsOf(result)}.`);
   return html`<${Card} title="Friction">
-    <${Curve} app=${app} live=${live} onPick=${onPick} />
+    <${Curve} live=${live} onPick=${onPick} />
     <${Progress} job=${curve} label="Solving" ended=${endOf} />
-    <${Tools} app=${app} />
-    <${Words} app=${app} />
+    <${Tools} />
+    <${Words} />
   <//>`;
 };

@@ -1,6 +1,7 @@
 // Tools in the page's header: undo and redo, the menu of units, light and dark.
 
 import { chooseTheme, isDark } from "./figures.js";
+import { announce } from "./page.js";
 import { html, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
@@ -35,27 +36,24 @@ const WAYS = [
   ["undo", "Undo", "Ctrl+Z", "canUndo"],
   ["redo", "Redo", "Ctrl+Shift+Z", "canRedo"],
 ];
-const change = (announce, way) => state[way]() && announce(way === "undo" ? "Undone." : "Redone.");
+const change = (way) => state[way]() && announce(way === "undo" ? "Undone." : "Redone.");
 
-const History = view(({ announce }) =>
+const History = view(() =>
   WAYS.map(
     ([way, label, keys, can]) =>
       html`<${Button} kind="quiet" symbol=${way} title="${label} (${keys})" aria-label=${label} disabled=${!state[can]}
-        onClick=${() => change(announce, way)} />`,
+        onClick=${() => change(way)} />`,
   ),
 );
 
-/** All tools; `announce` gives screen readers a sentence on what was done. */
-export function Tools({ announce }) {
-  return html`<${History} announce=${announce} /><${Units} /><${Theme} />`;
-}
+export const Tools = () => html`<${History} /><${Units} /><${Theme} />`;
 
 /** Undo and redo by the keyboard; in a text field they are the field's. */
-export function followKeys(announce) {
+export function followKeys() {
   document.addEventListener("keydown", (event) => {
     const asked = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
     if (!asked || /^(text|number)$/.test(event.target.type ?? "")) return;
     event.preventDefault();
-    change(announce, event.shiftKey ? "redo" : "undo");
+    change(event.shiftKey ? "redo" : "undo");
   });
 }

@@ -16,8 +16,6 @@
 // curve.error                why there is none of the inputs as they are; curve.progress {done, total, label}; curve.ended
 //
 // isStale(result)            whether its inputs are others than those of the study and the page
-// shows(element, result)     the element shows this result: it is grey with a word (class "stale") while that is so, and has
-//                            the key of the inputs in data-inputs
 // result(name), newest(name)  what a job has of the inputs as they are, to its end, or null; what it has of whatever inputs
 
 import { JobError, runJob, stopJob } from "./api.js";
@@ -248,18 +246,3 @@ export const busy = () => [...jobs.value.values()].some((job) => job.progress);
 
 /** Errors of all jobs for the inputs as they are. */
 export const errors = () => [...jobs.value.values()].map((job) => job.error).filter(Boolean);
-
-const marked = new WeakMap(); // element -> what ends its effect
-
-export function shows(element, result) {
-  forget(element);
-  const end = effect(() => {
-    const origin = result && origins.get(result);
-    if (origin) element.dataset.inputs = origin.key;
-    else delete element.dataset.inputs;
-    element.classList.toggle("stale", isStale(result));
-  });
-  marked.set(element, end);
-}
-
-export const forget = (element) => marked.get(element)?.();

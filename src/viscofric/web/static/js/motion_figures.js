@@ -1,8 +1,8 @@
 // Figures and numbers of a contact over time: load, indentation, friction, contact, energy, and the friction loop.
 
+import { Figure } from "./figures.js";
 import { html, view } from "./reactive.js";
 import * as units from "./units.js";
-import { Figure } from "./views.js";
 
 const CONTACT = {
   contact_radius: "radius",

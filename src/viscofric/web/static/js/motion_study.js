@@ -2,6 +2,7 @@
 
 import { runJob } from "./api.js";
 import { Amount, Form, within } from "./fields.js";
+import { announce, explain } from "./page.js";
 import { html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
@@ -29,7 +30,7 @@ const FIELDS = within(
 const error = signal(null);
 
 /** Part of the card; `rows()` returns the history of the step, `take(found)` shows another one in the step. */
-export const StudyHistory = view(({ app, rows, take }) => {
+export const StudyHistory = view(({ rows, take }) => {
   const has = state.get("history") !== undefined;
   const ask = async (options, then) => {
     error.value = null;
@@ -42,7 +43,7 @@ export const StudyHistory = view(({ app, rows, take }) => {
   const put = ({ history }) => {
     if (history.file) state.renew([history.file]);
     state.set("history", history);
-    app.announce("The study has this history.");
+    announce("The study has this history.");
   };
   const words = has
     ? "Export and viscofric run also solve the study over time; stages use its loads and speeds."
@@ -55,7 +56,7 @@ export const StudyHistory = view(({ app, rows, take }) => {
       ${has && html`<${Button} kind="small" onClick=${() => ask({}, take)}>Show the study’s<//>`}
       ${has && html`<${Button} kind="quiet small" onClick=${remove}>Remove from the study<//>`}
     </div>
-    <${Notes} kind="error" list=${[error.value && app.explain(error.value, "motion")]} />
+    <${Notes} kind="error" list=${[error.value && explain(error.value, "motion")]} />
     <${Form} of=${FIELDS} />
   <//>`;
 });

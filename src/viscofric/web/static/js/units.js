@@ -135,6 +135,14 @@ export function show(value, kind = "plain", digits = 3) {
   return unit === "°" ? `${text}°` : `${text}\u00a0${unit}`;
 }
 
+/** Words with the quantities in them as the user reads them: "{0.02|speed}" -> "20 mm/s", "{omega}" is f where it is in Hz. */
+export const filled = (text) =>
+  String(text ?? "")
+    .replace(/\{([^{}|]+)\|(\w+)(?:\|(\d))?\}/g, (_, value, kind, digits) =>
+      show(Number(value), kind, Number(digits ?? 3)),
+    )
+    .replaceAll("{omega}", label("angular_frequency") === "Hz" ? "f" : "ω");
+
 /** A value as a run file writes it, in the user's unit. */
 export function words(value, kind, digits = 6) {
   const rounded = Number(number(value, kind).toPrecision(digits));

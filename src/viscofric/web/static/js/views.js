@@ -1,12 +1,8 @@
 // Parts of the page as views of Preact: what shows a result is grey with a word while its inputs are others than those of now.
-//
 // Every part that shows something takes `of`, the result of a job that it is of.
-// <${Figure} of=${result} id="…" title="…" … />     a figure; its properties are those of figures.js, and onMade(handle)
 
-import { figure } from "./figures.js";
 import { inputsOf, isStale } from "./jobs.js";
-import { ICONS } from "./parts.js";
-import { Component, html, view } from "./reactive.js";
+import { html, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 
@@ -15,6 +11,18 @@ export const shown = (result, classes = "") => ({
   class: `${classes} ${isStale(result) ? "stale" : ""}`.trim(),
   "data-inputs": inputsOf(result),
 });
+
+const ICONS = {
+  undo: "M7.5 4 3.5 8l4 4M4 8h8a4.5 4.5 0 0 1 0 9H9",
+  redo: "m12.5 4 4 4-4 4M16 8H8a4.5 4.5 0 0 0 0 9h3",
+  theme: "M10 2.5a7.5 7.5 0 1 0 0 15zM10 2.5a7.5 7.5 0 0 1 0 15",
+  down: "M10 3v9m-4-3.5 4 4 4-4M4 16.5h12",
+  table: "M3 4.5h14v11H3zM3 8.5h14M8 8.5v7",
+  copy: "M7 7h9v9H7zM4 13V4h9",
+  file: "M5 2.5h6.5L15 6v11.5H5zM11.5 2.5V6H15",
+  units: "M3 13 13 3l4 4L7 17zM6 10l2 2M8.5 7.5l2 2M11 5l2 2",
+  close: "m5 5 10 10M15 5 5 15",
+};
 
 export const Icon = ({ name }) =>
   html`<svg class="icon" aria-hidden="true" viewBox="0 0 20 20"><path d=${ICONS[name]} /></svg>`;
@@ -152,20 +160,3 @@ export const Choice = view(({ of: { name, options, value }, ...about }) => {
     </select>
   <//>`;
 });
-
-export class Figure extends Component {
-  shouldComponentUpdate(next) {
-    this.handle.update(next, { traces: [] });
-    return false;
-  }
-  componentDidMount() {
-    this.handle = figure(this.place, this.props).update(this.props);
-    this.props.onMade?.(this.handle);
-  }
-  componentWillUnmount() {
-    this.handle.remove();
-  }
-  render() {
-    return html`<div class="placed" ref=${(place) => (this.place = place)} />`;
-  }
-}

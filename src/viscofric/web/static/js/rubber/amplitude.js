@@ -1,11 +1,13 @@
 // The amplitude sweep of the material: Kraus's law, the linear range, and the strain that the moduli are scaled to.
 
+import { Figure } from "../figures.js";
 import { Amount } from "../fields.js";
 import { Job } from "../jobs.js";
+import { explain } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Figure, Notes } from "../views.js";
+import { Button, Card, Notes } from "../views.js";
 
 export const amplitude = new Job("amplitude", {
   wait: 0,
@@ -18,7 +20,11 @@ export const amplitude = new Job("amplitude", {
 });
 const atContact = new Job("amplitude", {
   name: "amplitude-contact",
-  inputs: () => amplitude.inputs.value && { study: { ...state.study, ...amplitude.inputs.value.study }, options: { contact: true } },
+  inputs: () =>
+    amplitude.inputs.value && {
+      study: { ...state.study, ...amplitude.inputs.value.study },
+      options: { contact: true },
+    },
   done: ({ contact: { strain } }) => state.set("material.strain", Number(strain.toPrecision(2))),
 });
 
@@ -42,13 +48,13 @@ function traces(found) {
 }
 
 /** The card; nothing without an amplitude sweep. */
-export const Amplitude = view(({ app }) => {
+export const Amplitude = view(() => {
   if (state.get("material.amplitude_sweep") === undefined) return null;
   const of = amplitude.result;
   const error = amplitude.error ?? atContact.error;
   const found = atContact.current?.contact;
   return html`<${Card} title="Amplitude sweep">
-    <${Notes} kind="error" list=${[error && app.explain(error, "amplitude")]} />
+    <${Notes} kind="error" list=${[error && explain(error, "amplitude")]} />
     <${Notes} of=${of} list=${of ? [of.words, ...of.linear, ...of.notes] : []} />
     <${Figure} id="amplitude-sweep" title="Amplitude sweep" of=${of} x=${{ label: "strain amplitude (%)", log: true }}
       y=${{ label: "modulus", kind: "modulus", log: true }} caption="Points: as measured; lines: Kraus’s law."

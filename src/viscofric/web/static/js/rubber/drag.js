@@ -1,13 +1,12 @@
 // Curves of a figure dragged sideways with mouse, pen or finger.
 //
-// draggable(handle, {can, onStart, onMove, onEnd})   on a figure with a logarithmic x axis: `can(index)` says whether that
+// draggable(plot, {can, onStart, onMove, onEnd})   on a figure with a logarithmic x axis: `can(index)` says whether that
 // trace may be dragged; onMove(index, decades) and onEnd(index, decades) give its distance from where it was.  The
 // drawn points follow; what comes of it is the caller's to compute.
 
 const NEAR = { mouse: 12, pen: 14, touch: 26 }; // px from a point
 
-export function draggable(handle, { can, onStart, onMove, onEnd }) {
-  const { plot } = handle;
+export function draggable(plot, { can, onStart, onMove, onEnd }) {
   let held = null;
 
   const axes = () => [plot._fullLayout?.xaxis, plot._fullLayout?.yaxis];
@@ -84,11 +83,9 @@ export function draggable(handle, { can, onStart, onMove, onEnd }) {
     );
   }
   plot.classList.add("draggable");
-  return handle;
 }
 
 /** Move a drawn trace by so many decades from where its numbers are. */
-export function moveTrace(handle, index, x, by) {
-  if (handle.plot.data?.[index])
-    window.Plotly.restyle(handle.plot, { x: [x.map((value) => value * 10 ** by)] }, [index]);
+export function moveTrace(plot, index, x, by) {
+  if (plot?.data?.[index]) window.Plotly.restyle(plot, { x: [x.map((value) => value * 10 ** by)] }, [index]);
 }

@@ -1,7 +1,8 @@
 // Whether superposition holds, in figures: diagrams that no shift changes, distances of neighbours, E′ against E″.
 
+import { Figure } from "../figures.js";
 import { html, signal, view } from "../reactive.js";
-import { Card, Figure, Pick } from "../views.js";
+import { Card, Pick } from "../views.js";
 import { byTemperature, isothermTraces, synthetic } from "./made.js";
 
 const DIAGRAMS = {

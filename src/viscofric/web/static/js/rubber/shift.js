@@ -1,9 +1,11 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
+import { Figure } from "../figures.js";
 import { Choose, Quantity } from "../fields.js";
-import { html, render, view } from "../reactive.js";
+import { explain } from "../page.js";
+import { html, view } from "../reactive.js";
 import { state } from "../state.js";
-import { Button, Card, Drop, Figure, Notes, Numbers, Progress, shown } from "../views.js";
+import { Button, Card, Drop, Notes, Numbers, Progress, shown } from "../views.js";
 import { decades, isMade, rubber, shownRubber, synthetic } from "./made.js";
 import { Quality } from "./quality.js";
 import { Shifted, startShifted } from "./shifted.js";
@@ -34,28 +36,6 @@ const KIND = {
   fails: "error",
   untested: "warning",
 };
-
-export function mount(section, app) {
-  rubber.start();
-  startShifted(app);
-  const Shift = view(() => {
-    const of = shownRubber();
-    const none = of && !of.shift && "This material has no shift factors: it is valid at one temperature only.";
-    return html`
-      <p>All isotherms are shifted along the frequency axis at once, onto one master curve.</p>
-      <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} /></div>
-      <${Notes} kind="error" list=${[rubber.error && app.explain(rubber.error, "shift")]} />
-      <${Notes} list=${[none]} />
-      <div class="columns">
-        <div><${Settings} /></div>
-        <div>${of?.check && html`<${Verdict} of=${of} />`}<${Notes} of=${of} kind="warning" list=${of?.notes} /></div>
-      </div>
-      ${of?.shift?.isotherms?.length > 0 && html`<${Shifted} app=${app} of=${of} />`}
-      ${of?.shift && html`<${Factors} of=${of} />`}
-    `;
-  });
-  render(html`<${Shift} />`, section);
-}
 
 /** Shift factors, their laws, and whether superposition holds. */
 const Factors = view(({ of }) => {
@@ -105,7 +85,8 @@ const Factors = view(({ of }) => {
 
 /** How sweeps are shifted; nothing of it holds for a rubber that is ready. */
 const Settings = view(() => {
-  if (!isMade()) return html`<${Card} title="Shift"><p class="help">A predefined material has its own shift factors.</p><//>`;
+  if (!isMade())
+    return html`<${Card} title="Shift"><p class="help">A predefined material has its own shift factors.</p><//>`;
   const given = state.get("material.shift_factors");
   return html`<${Card} title="Shift">
     <div class="panel">
@@ -156,4 +137,24 @@ const Verdict = view(({ of }) => {
     <${Numbers} list=${numbers.filter(Boolean)} />
     <${Notes} kind=${kind === "good" ? "note" : kind} list=${check.sentences} />
   </section>`;
+});
+
+rubber.start();
+startShifted();
+
+export default view(() => {
+  const of = shownRubber();
+  const none = of && !of.shift && "This material has no shift factors: it is valid at one temperature only.";
+  return html`
+    <p>All isotherms are shifted along the frequency axis at once, onto one master curve.</p>
+    <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} /></div>
+    <${Notes} kind="error" list=${[rubber.error && explain(rubber.error, "shift")]} />
+    <${Notes} list=${[none]} />
+    <div class="columns">
+      <div><${Settings} /></div>
+      <div>${of?.check && html`<${Verdict} of=${of} />`}<${Notes} of=${of} kind="warning" list=${of?.notes} /></div>
+    </div>
+    ${of?.shift?.isotherms?.length > 0 && html`<${Shifted} of=${of} />`}
+    ${of?.shift && html`<${Factors} of=${of} />`}
+  `;
 });

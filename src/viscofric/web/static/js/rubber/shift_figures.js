@@ -46,8 +46,7 @@ export function alphaFigure(result) {
       ),
     );
   return {
-    caption:
-      "Bars and bands are 95 %. Dotted lines are extrapolated; they end at the limits of validity.",
+    caption: "Bars and bands are 95 %. Dotted lines are extrapolated; they end at the limits of validity.",
     marks: [{ x: shift.reference, label: "reference" }],
     synthetic: synthetic(result),
     traces,
@@ -106,7 +105,8 @@ export const LawTable = view(({ of }) => {
     const use =
       row.refusal ||
       row.used ||
-      (state.get("material.shift_factors") === undefined && !TESTS.some((key) => state.get(`material.${key}`) !== undefined))
+      (state.get("material.shift_factors") === undefined &&
+        !TESTS.some((key) => state.get(`material.${key}`) !== undefined))
         ? null
         : html`<${Button} kind="small" onClick=${() => state.set("material.shift", row.kind)}>Use ${row.title}<//>`;
     const valid = row.limits
@@ -165,8 +165,6 @@ export function verticalFigure({ temperature, b, upper }, result) {
     traces: [{ name: "b", legend: false, ...trace }],
     marks: [{ y: 1 }],
     synthetic: synthetic(result),
-    caption: upper
-      ? "Fitted with the shift factors; bars are 95 %."
-      : "ρT/(ρ₀T₀), from rubber elasticity.",
+    caption: upper ? "Fitted with the shift factors; bars are 95 %." : "ρT/(ρ₀T₀), from rubber elasticity.",
   };
 }

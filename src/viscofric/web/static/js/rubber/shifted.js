@@ -1,10 +1,12 @@
 // The isotherms on one another, and one of them corrected by hand: dragged, or moved by a slider or a number.
 
+import { Figure, pick, picked } from "../figures.js";
 import { Job, inputsOf } from "../jobs.js";
+import { announce } from "../page.js";
 import { computed, html, signal, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Figure, Pick } from "../views.js";
+import { Button, Card, Pick } from "../views.js";
 import { draggable, moveTrace } from "./drag.js";
 import { byTemperature, decades, isothermTraces, named, rubber, shownRubber, synthetic, worded } from "./made.js";
 
@@ -18,7 +20,6 @@ const STEP = 0.02;
 const SETTLE = 400; // ms after the last key
 
 const quantity = signal("storage_modulus");
-const wanted = signal(null); // the isotherm that the user chose, K
 const moved = signal(0); // decades, while the slider or the mouse moves it
 const isotherms = () => shownRubber()?.shift?.isotherms ?? [];
 /** Whether isotherms can be moved: neither factors of a file nor those of several kinds of tests are. */
@@ -30,8 +31,8 @@ const movable = () => {
 const chosen = computed(() => {
   const all = isotherms();
   const first = all.find((one) => !one.is_reference) ?? all[0] ?? null;
-  if (wanted.value === null || !first) return first;
-  const away = (one) => Math.abs(one.temperature - wanted.value);
+  if (picked() === null || !first) return first;
+  const away = (one) => Math.abs(one.temperature - picked());
   return all.reduce((best, one) => (away(one) < away(best) ? one : best), first);
 });
 const misfits = new Job("isotherm_misfit", {
@@ -46,7 +47,7 @@ const misfits = new Job("isotherm_misfit", {
 });
 
 /** Begin to follow the rubber. */
-export function startShifted(app) {
+export function startShifted() {
   misfits.start();
   watch(
     () => [inputsOf(shownRubber()), chosen.value?.temperature].join(),
@@ -58,33 +59,33 @@ export function startShifted(app) {
       const about = state.view("held", {})[JSON.stringify(held())];
       if (!state.get(HELD) || about === undefined || about === reference) return;
       state.set(HELD, undefined);
-      app.announce("The fixed isotherms were released: their factors referred to another reference temperature.");
+      announce("The fixed isotherms were released: their factors referred to another reference temperature.");
     },
   );
 }
 
 /** The isotherms moved onto each other, and what is needed to move one by hand. */
-export const Shifted = view(({ app, of }, self) => {
-  const drawn = (handle) => {
-    self.handle = handle;
-    draggable(handle, {
+export const Shifted = view(({ of }, self) => {
+  const drawn = (plot) => {
+    self.plot = plot;
+    draggable(plot, {
       can: (index) => movable() && isotherms()[index]?.is_reference === false,
-      onStart: (index) => (wanted.value = isotherms()[index].temperature),
+      onStart: (index) => pick(isotherms()[index].temperature),
       onMove: (index, by) => (moved.value = Math.round(by / STEP) * STEP),
-      onEnd: (index, by) => ((moved.value = 0), holdMoved(app, by)),
+      onEnd: (index, by) => ((moved.value = 0), holdMoved(by)),
     });
   };
   const move = (by) => {
     const one = chosen.value;
     moved.value = by;
-    moveTrace(self.handle, isotherms().indexOf(one), units.number(one.angular_frequency, "angular_frequency"), by);
+    moveTrace(self.plot, isotherms().indexOf(one), units.number(one.angular_frequency, "angular_frequency"), by);
   };
   return html`<div class="columns">
-    <div><${Correction} app=${app} of=${of} move=${move} /></div>
+    <div><${Correction} of=${of} move=${move} /></div>
     <div>
       <${Card} title="Shifted isotherms">
         <${Pick} label="Quantity" options=${QUANTITIES} value=${quantity.value} onChange=${(one) => (quantity.value = one)} />
-        <${Figure} id="shifted-isotherms" title="Isotherms shifted to the reference" height=${430} onMade=${drawn} ...${figureOf(of)} />
+        <${Figure} id="shifted-isotherms" title="Isotherms shifted to the reference" height=${430} onPlot=${drawn} ...${figureOf(of)} />
       <//>
     </div>
   </div>`;
@@ -117,20 +118,20 @@ const WHY = {
   joint: "The shift factors are those of sweeps and step tests together; correct one with the sweeps alone.",
 };
 const mark = ({ is_reference: reference, held: fixed }) => (reference ? " (reference)" : fixed ? " (fixed)" : "");
-const holdMoved = (app, by) => by && hold(app, chosen.value.temperature, chosen.value.log10_shift + by);
+const holdMoved = (by) => by && hold(chosen.value.temperature, chosen.value.log10_shift + by);
 
 /** The fields of the isotherm that can be moved; `move(by)` shows it elsewhere. */
-const Correction = view(({ app, of, move }, self) => {
+const Correction = view(({ of, move }, self) => {
   const { origin, joint, isotherms: all } = of.shift;
   const one = chosen.value;
   const why = WHY[origin] ?? (joint ? WHY.joint : "");
   const settle = ({ target }) => {
     clearTimeout(self.timer);
-    self.timer = setTimeout(() => holdMoved(app, Number(target.value)), SETTLE);
+    self.timer = setTimeout(() => holdMoved(Number(target.value)), SETTLE);
   };
   const exactly = ({ target }) => {
     const given = Number(target.value);
-    if (target.value !== "" && Number.isFinite(given)) hold(app, one.temperature, given);
+    if (target.value !== "" && Number.isFinite(given)) hold(one.temperature, given);
   };
   return html`<${Card} title="Correct one isotherm">
     <p class="help">Drag the isotherm in the figure, or use these fields. Its shift is then fixed, and the others are refitted.</p>
@@ -138,7 +139,7 @@ const Correction = view(({ app, of, move }, self) => {
     <div class="panel" hidden=${!movable()}>
       <div class="field">
         <label class="field-label" for="dragged-isotherm">Isotherm</label>
-        <select id="dragged-isotherm" value=${String(one.temperature)} onChange=${({ target }) => (wanted.value = Number(target.value))}>
+        <select id="dragged-isotherm" value=${String(one.temperature)} onChange=${({ target }) => pick(Number(target.value))}>
           ${all.map((each) => html`<option value=${String(each.temperature)}>${named(each.temperature)}${mark(each)}</option>`)}
         </select>
       </div>
@@ -196,9 +197,9 @@ function setHeld(factors) {
   state.set(HELD, Object.keys(factors).length ? factors : undefined);
 }
 
-function hold(app, kelvin, log10) {
+function hold(kelvin, log10) {
   setHeld({ ...held(), [keyOf(kelvin) ?? worded(kelvin)]: Number(log10.toFixed(4)) });
-  app.announce(`${named(kelvin)}: log10 α fixed at ${log10.toFixed(2)}.`);
+  announce(`${named(kelvin)}: log10 α fixed at ${log10.toFixed(2)}.`);
 }
 
 function release(kelvin) {

@@ -1,6 +1,7 @@
 // What becomes of [material] when files are brought, chosen or removed.
 
 import * as api from "../api.js";
+import { page } from "../page.js";
 import { signal } from "../reactive.js";
 import { state } from "../state.js";
 import { FIRST_REFERENCE, SOURCES, TESTS, sourceOf } from "./made.js";
@@ -52,12 +53,12 @@ async function attempt(work) {
 }
 
 /** Have another source; with it `beside`, other keys. */
-export function choose(app, source, value, { origin, ...beside } = {}) {
+export function choose(source, value, { origin, ...beside } = {}) {
   const single = one(value);
   const [before, ...others] = [state.get("material")].flat();
   const material = { ...materialOf(source, single, before), ...beside };
   // The title that the page began with is not that of another rubber.
-  const title = state.get("title") === app.start.study.title ? `Friction of ${named(single)}` : state.get("title");
+  const title = state.get("title") === page.start.study.title ? `Friction of ${named(single)}` : state.get("title");
   state.change({ material: others.length ? [material, ...others] : material, data_origin: origin, title });
 }
 
@@ -80,11 +81,11 @@ async function sorted(files) {
 }
 
 /** Tests of another rubber. */
-export const takeTests = (app, files) =>
+export const takeTests = (files) =>
   attempt(async () => {
     const kinds = await sorted(files);
     const [source, ...others] = TESTS.filter((key) => kinds[key]);
-    if (source) choose(app, source, kinds[source], Object.fromEntries(others.map((key) => [key, one(kinds[key])])));
+    if (source) choose(source, kinds[source], Object.fromEntries(others.map((key) => [key, one(kinds[key])])));
   });
 
 /** More tests of the same specimen. */
@@ -98,8 +99,8 @@ export const addTests = (files) =>
   });
 
 /** The one file of a source. */
-export const takeFile = (app, source, files) =>
-  attempt(async () => choose(app, source, (await api.uploadFiles(files.slice(0, 1)))[0]));
+export const takeFile = (source, files) =>
+  attempt(async () => choose(source, (await api.uploadFiles(files.slice(0, 1)))[0]));
 
 /** Shift factors from a file. */
 export const takeFactors = (files) =>
@@ -108,10 +109,10 @@ export const takeFactors = (files) =>
     state.change({ "material.shift_factors": name, "material.fixed_shift_factors": undefined });
   });
 
-export const useExample = (app) =>
+export const useExample = () =>
   attempt(async () => {
     await api.useExample();
-    choose(app, "dma", "dma.csv", { origin: "synthetic" });
+    choose("dma", "dma.csv", { origin: "synthetic" });
   });
 
 /** Have one file less. */

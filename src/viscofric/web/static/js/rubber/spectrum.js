@@ -1,12 +1,22 @@
 // Step 3: the spectrum, E'(ω) and E''(ω) at any temperature with their bands, and what the fit leaves unexplained.
 
+import { Figure } from "../figures.js";
 import { Job } from "../jobs.js";
-import { html, render, signal, view } from "../reactive.js";
+import { explain } from "../page.js";
+import { html, signal, view } from "../reactive.js";
 import * as units from "../units.js";
-import { Button, Card, Figure, Notes, Numbers, Pick, Progress } from "../views.js";
+import { Button, Card, Notes, Numbers, Pick, Progress } from "../views.js";
 import { named, rubber, shownRubber, synthetic, worded } from "./made.js";
 import { Settings } from "./spectrum_form.js";
-import { ModesTable, caption, keyNumbers, modesFigure, modulusTraces, residualTraces, tangentTraces } from "./spectrum_figures.js";
+import {
+  ModesTable,
+  caption,
+  keyNumbers,
+  modesFigure,
+  modulusTraces,
+  residualTraces,
+  tangentTraces,
+} from "./spectrum_figures.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
 const moduli = new Job("moduli", {
@@ -29,28 +39,6 @@ const KINDS = [
 ];
 const kind = signal("retardation");
 const FREQUENCY = { label: "frequency", kind: "angular_frequency", log: true };
-
-export function mount(section, app) {
-  for (const job of [rubber, moduli]) job.start();
-  const ended = () => (rubber.result?.no_band ? `No 95 % band: ${rubber.result.no_band}.` : "");
-  const Step = view(() => {
-    const of = shownRubber();
-    const { fit, notes } = of?.spectrum ?? {};
-    return html`
-      <p>Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors.</p>
-      <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} ended=${ended} /></div>
-      <${Notes} kind="error" list=${[rubber.error && app.explain(rubber.error, "spectrum")]} />
-      <${Numbers} of=${of} list=${of ? keyNumbers(of) : []} />
-      <${Notes} of=${of} kind="warning" list=${of ? [...(fit?.notes ?? []), ...notes, ...(of.band?.notes ?? [])] : []} />
-      <div class="columns">
-        <div><${Settings} /></div>
-        <div>${of && html`<${Modulus} of=${of} />`}</div>
-      </div>
-      ${of && html`<div class="grid thirds"><${Others} of=${of} /></div>`}
-    `;
-  });
-  render(html`<${Step} />`, section);
-}
 
 /** The moduli at the chosen temperature, or at the reference; and what the figures of them share. */
 function shownModuli(of) {
@@ -114,4 +102,24 @@ const Temperature = view(({ of: { shift, spectrum } }) => {
     </div>
     <p class=${moduli.error ? "help field-error" : "help"} aria-live="polite">${moduli.error?.message ?? doubt}</p>
   </div>`;
+});
+
+for (const job of [rubber, moduli]) job.start();
+const ended = () => (rubber.result?.no_band ? `No 95 % band: ${rubber.result.no_band}.` : "");
+
+export default view(() => {
+  const of = shownRubber();
+  const { fit, notes } = of?.spectrum ?? {};
+  return html`
+    <p>Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors.</p>
+    <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} ended=${ended} /></div>
+    <${Notes} kind="error" list=${[rubber.error && explain(rubber.error, "spectrum")]} />
+    <${Numbers} of=${of} list=${of ? keyNumbers(of) : []} />
+    <${Notes} of=${of} kind="warning" list=${of ? [...(fit?.notes ?? []), ...notes, ...(of.band?.notes ?? [])] : []} />
+    <div class="columns">
+      <div><${Settings} /></div>
+      <div>${of && html`<${Modulus} of=${of} />`}</div>
+    </div>
+    ${of && html`<div class="grid thirds"><${Others} of=${of} /></div>`}
+  `;
 });

@@ -22,7 +22,11 @@ export function keyNumbers({ spectrum, band }) {
       value: units.show(spectrum.modes.E_inf, "modulus"),
       remark: [error(band?.E_inf_error95), fit?.E_inf_remark].filter(Boolean).join("; "),
     },
-    { label: "modes", value: String(spectrum.modes.retardation_time.length), remark: fit?.method ?? "from the material file" },
+    {
+      label: "modes",
+      value: String(spectrum.modes.retardation_time.length),
+      remark: fit?.method ?? "from the material file",
+    },
     { label: "Poisson’s ratio", value: String(spectrum.poisson_ratio), remark: "" },
   ];
   if (fit && fit.rms_storage !== null)
@@ -40,8 +44,7 @@ export function caption(result, here) {
   const parts = [];
   if (here.band) parts.push(`95 % bands of each modulus (${here.band.draws} bootstrap samples).`);
   if (here.moved) parts.push("Points: all measurements, shifted to this temperature.");
-  if (here.isotherm)
-    parts.push(`Filled points: the sweep measured at ${named(here.isotherm.temperature)}.`);
+  if (here.isotherm) parts.push(`Filled points: the sweep measured at ${named(here.isotherm.temperature)}.`);
   const range = result.spectrum.fit?.frequency_range;
   if (range) parts.push("Beyond the points the spectrum is extrapolated.");
   return parts.join(" ");

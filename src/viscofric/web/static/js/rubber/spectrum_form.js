@@ -20,7 +20,8 @@ const choose = (kind) =>
 
 export const Settings = view(() => {
   const sparse = state.get("material.spectrum") === "sparse";
-  if (!isMade()) return html`<${Card} title="Spectrum"><p class="help">A predefined material has its own spectrum.</p><//>`;
+  if (!isMade())
+    return html`<${Card} title="Spectrum"><p class="help">A predefined material has its own spectrum.</p><//>`;
   return html`<${Card} title="Spectrum">
     <div class="panel">
       <${Choose} path="material.spectrum" label="Fit method" options=${KINDS} otherwise="non-negative" onChange=${choose}

@@ -1,10 +1,12 @@
 // Step 1: where the rubber comes from; what its files were taken for, what they hold, and what was flagged in them.
 
+import { Figure } from "../figures.js";
 import { Job } from "../jobs.js";
-import { effect, html, render, view, watch } from "../reactive.js";
+import { announce, explain, goTo, page } from "../page.js";
+import { effect, html, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Figure, Notes, Numbers, Progress } from "../views.js";
+import { Button, Card, Notes, Numbers, Progress } from "../views.js";
 import { Amplitude, amplitude } from "./amplitude.js";
 import { FIRST_REFERENCE, rubber, shownRubber, sourceOf, worded } from "./made.js";
 import { failed } from "./source.js";
@@ -20,16 +22,16 @@ const sweeps = new Job("sweeps", {
 });
 const isMeasured = () => MEASURED.includes(sweeps.result?.source ?? sourceOf(state.get("material")));
 
-const Data = view(({ app }) => {
+export default view(() => {
   const of = sweeps.error ? null : sweeps.result;
-  const said = failed.value?.message ?? (sweeps.error && app.explain(sweeps.error, "sweeps"));
+  const said = failed.value?.message ?? (sweeps.error && explain(sweeps.error, "sweeps"));
   const pictures = of ? figuresOf(of, isMeasured() ? null : shownRubber()) : [];
   return html`
     <div class="columns">
       <div>
-        <${Source} app=${app} result=${of} error=${sweeps.error} />
+        <${Source} result=${of} error=${sweeps.error} />
         <div class="row" hidden=${!of}>
-          <${Button} kind="main" onClick=${() => app.goTo("shift")}>Shift the isotherms<//>
+          <${Button} kind="main" onClick=${() => goTo("shift")}>Shift the isotherms<//>
         </div>
       </div>
       <div>
@@ -41,7 +43,7 @@ const Data = view(({ app }) => {
           <${FileTable} of=${of} />
           <${FlaggedTable} of=${of} />
         <//>
-        <${Amplitude} app=${app} />
+        <${Amplitude} />
       </div>
     </div>
     <div class="grid thirds">
@@ -50,20 +52,17 @@ const Data = view(({ app }) => {
   `;
 });
 
-export function mount(section, app) {
-  sweeps.done = (result) => {
-    app.announce(result.source === "dma" ? `${result.isotherms.length} isotherms read.` : "Material read.");
-    followRange(app, result);
-  };
-  for (const job of [sweeps, amplitude]) job.start();
-  watch(
-    () => sourceOf(state.get("material")),
-    (source) => source && state.setView("sweeps.source", source),
-  );
-  // a rubber without sweeps has its moduli at the reference to show
-  effect(() => void (isMeasured() || rubber.start()));
-  render(html`<${Data} app=${app} />`, section);
-}
+sweeps.done = (result) => {
+  announce(result.source === "dma" ? `${result.isotherms.length} isotherms read.` : "Material read.");
+  followRange(page, result);
+};
+for (const job of [sweeps, amplitude]) job.start();
+watch(
+  () => sourceOf(state.get("material")),
+  (source) => source && state.setView("sweeps.source", source),
+);
+// a rubber without sweeps has its moduli at the reference to show
+effect(() => void (isMeasured() || rubber.start()));
 
 /** A reference and temperatures outside the isotherms, which the user never chose, give way to those that they have. */
 function followRange({ start }, result) {

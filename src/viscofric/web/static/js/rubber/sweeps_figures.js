@@ -30,7 +30,11 @@ export function numbersOf(result) {
     const none = reference === null;
     return [
       { label: "material", value: name || "unnamed", remark: synthetic ? "synthetic, not measured" : "" },
-      { label: "reference", value: none ? "none" : named(reference), remark: none ? "valid at one temperature only" : "" },
+      {
+        label: "reference",
+        value: none ? "none" : named(reference),
+        remark: none ? "valid at one temperature only" : "",
+      },
     ];
   }
   const asked = open.includes("deformation");
@@ -57,13 +61,23 @@ export function numbersOf(result) {
   ];
   if (source !== "dma") return numbers;
   const outliers = result.flagged.filter((one) => one.why !== "left out").length;
-  const flagged = { value: String(result.left_out + outliers), remark: `${result.left_out} left out, ${outliers} outliers` };
+  const flagged = {
+    value: String(result.left_out + outliers),
+    remark: `${result.left_out} left out, ${outliers} outliers`,
+  };
   return [...numbers, { label: "flagged", ...flagged }];
 }
 
 const RESPONSES = {
   creep: { symbol: { shear: "J" }, otherwise: "D", word: "creep compliance", label: " (1/MPa)", scale: 1e6 },
-  relaxation: { symbol: { shear: "G" }, otherwise: "E", word: "relaxation modulus", label: "", kind: "modulus", scale: 1 },
+  relaxation: {
+    symbol: { shear: "G" },
+    otherwise: "E",
+    word: "relaxation modulus",
+    label: "",
+    kind: "modulus",
+    scale: 1,
+  },
 };
 
 /** Creep or relaxation tests: as measured, or with `fit` over reduced time. */
@@ -89,7 +103,11 @@ export function stepFigure({ kind, deformation, curves, fit }, synthetic) {
 /** One of the moduli of sweeps or ramps; of another rubber, at its reference. */
 function modulusFigure(result, made, [key, label, primes]) {
   const modulus = key !== "loss_tangent";
-  const axis = (letter) => ({ label: modulus ? `${label} ${letter}${primes}` : label, kind: modulus ? "modulus" : undefined, log: true });
+  const axis = (letter) => ({
+    label: modulus ? `${label} ${letter}${primes}` : label,
+    kind: modulus ? "modulus" : undefined,
+    log: true,
+  });
   const shared = {
     title: capital(label),
     of: result,
@@ -124,8 +142,11 @@ function modulusFigure(result, made, [key, label, primes]) {
 /** Readings that were left out, or are far from their neighbours. */
 function flags({ flagged }, key, left) {
   const tangent = key === "loss_tangent";
-  const value = (one) => (tangent ? (one.storage_modulus > 0 ? one.loss_modulus / one.storage_modulus : null) : one[key]);
-  const some = flagged.filter((one) => (one.why === "left out") === left && one.angular_frequency > 0 && value(one) > 0);
+  const value = (one) =>
+    tangent ? (one.storage_modulus > 0 ? one.loss_modulus / one.storage_modulus : null) : one[key];
+  const some = flagged.filter(
+    (one) => (one.why === "left out") === left && one.angular_frequency > 0 && value(one) > 0,
+  );
   const points = {
     name: left ? "left out" : "far from its neighbours",
     mode: "markers",

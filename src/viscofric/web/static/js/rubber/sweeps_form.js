@@ -2,6 +2,7 @@
 
 import { Columns } from "../columns_form.js";
 import { Amount, Choose, Quantity, Text } from "../fields.js";
+import { page } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
@@ -26,7 +27,8 @@ function temperatures(text) {
 
 // What a file may leave to the user, by the key of [material].
 const QUESTIONS = {
-  deformation: () => html`<${Choose} path="material.deformation" label="Measured in" otherwise=${null} options=${DEFORMATIONS}
+  deformation:
+    () => html`<${Choose} path="material.deformation" label="Measured in" otherwise=${null} options=${DEFORMATIONS}
     help="Not stated in the file; the moduli differ by a factor of three." />`,
   modulus_unit: () => html`<${Text} path="material.modulus_unit" label="Unit of the moduli" placeholder="MPa"
     help="Not stated in the file." />`,
@@ -35,7 +37,8 @@ const QUESTIONS = {
     help="Not stated in the file; of several files one temperature each, in their order: 145 °C, 160 °C." />`,
   assumed_shift: () => html`<${Text} path="material.assumed_shift" label="Assumed shift law" placeholder="250 kJ/mol"
     help="One frequency determines no shift factor. An activation energy (250 kJ/mol), WLF 17.44, 51.6 K, -30 degC (C₁, C₂, their reference), or universal." />`,
-  sheet: () => html`<${Text} path="material.sheet" label="Sheet" help="Name of the only sheet of the workbook to read." />`,
+  sheet: () =>
+    html`<${Text} path="material.sheet" label="Sheet" help="Name of the only sheet of the workbook to read." />`,
 };
 
 /** What the files leave to the user; one question at a time after an error. */
@@ -61,22 +64,22 @@ const Files = view(({ of }) => {
   return html`<ul class="files">${of.flatMap((key) => source.filesOf(key).map((name) => [key, name])).map(row)}</ul>`;
 });
 
-const Tests = view(({ app }) => {
+const Tests = view(() => {
   const some = TESTS.some((key) => source.filesOf(key).length > 0);
   return html`<div class="panel">
-    <${Drop} label="Drop tests here, or choose files" onFiles=${(files) => source.takeTests(app, files)}
+    <${Drop} label="Drop tests here, or choose files" onFiles=${(files) => source.takeTests(files)}
       help="Frequency sweeps, temperature ramps, creep or relaxation tests, amplitude sweeps: exports of TA, Netzsch, Mettler-Toledo, Anton Paar and others, workbooks, delimited text; recognised by content." />
     <${Files} of=${TESTS} />
     <details hidden=${!some}>
       <summary>Add files of the same specimen</summary>
       <${Drop} label="Add files" onFiles=${source.addTests} />
     </details>
-    <${Button} kind="quiet" onClick=${() => source.useExample(app)}>Use the synthetic example's sweeps<//>
+    <${Button} kind="quiet" onClick=${() => source.useExample()}>Use the synthetic example's sweeps<//>
   </div>`;
 });
 
-const Catalogue = view(({ app }) => {
-  const { catalogue } = app.start;
+const Catalogue = view(() => {
+  const { catalogue } = page.start;
   const told = ({ name, synthetic, description }) => [
     name,
     html`<strong>${name}</strong>${" "}${synthetic && html`<span class="badge small">synthetic</span>`}
@@ -84,7 +87,7 @@ const Catalogue = view(({ app }) => {
   ];
   const take = (name) => {
     const { synthetic } = catalogue.find((one) => one.name === name);
-    source.choose(app, "catalogue", name, { origin: synthetic ? "synthetic" : undefined });
+    source.choose("catalogue", name, { origin: synthetic ? "synthetic" : undefined });
   };
   return html`<div class="panel">
     <${Radios} name="material-catalogue" aria-label="Materials of the catalogue" value=${state.get("material.catalogue")}
@@ -93,15 +96,15 @@ const Catalogue = view(({ app }) => {
 });
 
 const PANELS = {
-  master_curve: ({ app }) => html`<div class="panel">
-    <${Drop} label="Drop a master curve" multiple=${false} onFiles=${(files) => source.takeFile(app, "master_curve", files)}
+  master_curve: () => html`<div class="panel">
+    <${Drop} label="Drop a master curve" multiple=${false} onFiles=${(files) => source.takeFile("master_curve", files)}
       help="Moduli against reduced frequency: delimited text, a workbook or a .tts file of RepTate." />
     <${Drop} label="Drop its shift factors" multiple=${false} onFiles=${source.takeFactors}
       help="A table of temperature and α; without it the curve is valid at its reference temperature only." />
     <${Files} of=${["master_curve", "shift_factors"]} />
   </div>`,
-  file: ({ app }) => html`<div class="panel">
-    <${Drop} label="Drop a material file" multiple=${false} onFiles=${(files) => source.takeFile(app, "file", files)}
+  file: () => html`<div class="panel">
+    <${Drop} label="Drop a material file" multiple=${false} onFiles=${(files) => source.takeFile("file", files)}
       help="rubber.json, or a card of Abaqus, ANSYS, LS-DYNA or COMSOL." />
     <${Files} of=${["file"]} />
   </div>`,
@@ -116,7 +119,7 @@ const Making = () => html`<div class="form">
 </div>`;
 
 /** The form; `result` and `error` are those of reading what the material has. */
-export const Source = view(({ app, result, error }) => {
+export const Source = view(({ result, error }) => {
   const rubbers = [state.get("material") ?? {}].flat();
   const name = rubbers[0].name ? `, ${rubbers[0].name}` : "";
   const several =
@@ -131,7 +134,7 @@ export const Source = view(({ app, result, error }) => {
       <span class="field-label" id="material-source-label">Source of the material</span>
     <//>
     ${asks && html`<${Questions} result=${result} error=${error} />`}
-    <${PANELS[shown] ?? Tests} key=${PANELS[shown] ? shown : "tests"} app=${app} />
+    <${PANELS[shown] ?? Tests} key=${PANELS[shown] ? shown : "tests"} />
     ${asks && html`<${Making} />`}
   <//>`;
 });

@@ -5,9 +5,10 @@ import { ContactForm, nounOf } from "../contact_form.js";
 import { Pictures, numbersOf, whyItLeans } from "../contact_result.js";
 import { Box } from "../fields.js";
 import { FrictionCard, combination, curve } from "../friction_curve.js";
-import { Job, result, studyOf } from "../jobs.js";
+import { Job, studyOf } from "../jobs.js";
 import { follow } from "../live.js";
-import { effect, html, render, untracked, view } from "../reactive.js";
+import { goTo, isSynthetic, page, waits } from "../page.js";
+import { effect, html, untracked, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Numbers, shown } from "../views.js";
@@ -27,7 +28,8 @@ const contact = new Job("contact", {
   },
 });
 const live = follow({
-  request: ({ study, options }, stages, signal) => runJob("contact", { study, options: { ...options, stages } }, { signal }),
+  request: ({ study, options }, stages, signal) =>
+    runJob("contact", { study, options: { ...options, stages } }, { signal }),
   show: (found, asked) => contact.put(asked, found),
   fail: (error, asked) => contact.refuse(asked, error),
   busy: (stage) => (contact.moving.value = stage && { done: 0, total: 0, label: stage }),
@@ -87,15 +89,16 @@ const Status = view(() => {
   return html`<span class="help live-status" role="status">${WORDS[contact.progress?.label] ?? ended}</span>`;
 });
 
-const Failed = view(({ app }) => {
+const Failed = view(() => {
   const { error } = contact;
   // a position beyond the rubber is the sliders', no field's
   const beyond = error?.field === "conditions.temperature";
-  return html`<${Notes} kind="error" list=${[error && (beyond ? error.message : app.waits("the contact", error))]} />`;
+  return html`<${Notes} kind="error" list=${[error && (beyond ? error.message : waits("the contact", error))]} />`;
 });
 
 const More = view(({ of, rows }) => {
-  const row = ({ label, value, remark }) => html`<tr><th scope="row">${label}</th><td>${value}</td><td>${remark}</td></tr>`;
+  const row = ({ label, value, remark }) =>
+    html`<tr><th scope="row">${label}</th><td>${value}</td><td>${remark}</td></tr>`;
   return html`<div class="more-numbers" tabindex="0" role="group" aria-labelledby="more-numbers">
     <h3 id="more-numbers">Results with their numerical errors</h3>
     <table ...${shown(of)}><tbody>${rows.map(row)}</tbody></table>
@@ -104,7 +107,7 @@ const More = view(({ of, rows }) => {
 
 const Why = view(({ of, words }) => html`<p ...${shown(of, "why")} aria-live="off">${words}</p>`);
 
-const Found = view(({ app }) => {
+const Found = view(() => {
   const of = contact.result;
   const study = of && studyOf(of);
   const noun = of && nounOf(study);
@@ -114,18 +117,18 @@ const Found = view(({ app }) => {
     <${Numbers} of=${of} list=${key} />
     <div class="why-box"><h3>Cause of the friction</h3><${Why} of=${of} words=${of && whyItLeans(of, noun, radius)} /></div>
     <${Notes} of=${of} kind="warning" list=${of?.warnings} />
-    <${Pictures} of=${of} noun=${noun} synthetic=${of && app.isSynthetic(study)}><${More} of=${of} rows=${others} /><//>
+    <${Pictures} of=${of} noun=${noun} synthetic=${of && isSynthetic(study)}><${More} of=${of} rows=${others} /><//>
   </div>`;
 });
 
 /** What the page is for, what it shows, and where one's own data go; short once they are there. */
-const Welcome = view(({ app }) => {
+const Welcome = view(() => {
   const name = state.get("material.catalogue");
-  if (name === undefined || name !== app.start.study.material?.catalogue)
+  if (name === undefined || name !== page.start.study.material?.catalogue)
     return html`<div class="intro"><p>Change shape, load, speed or temperature, and the friction is computed again.</p></div>`;
   const useMine = () => {
     state.setView("sweeps.source", "dma");
-    app.goTo("sweeps");
+    goTo("sweeps");
   };
   return html`<div class="intro">
     <section class="welcome" aria-label="What this page does">
@@ -136,63 +139,46 @@ const Welcome = view(({ app }) => {
       </p>
       <div class="row">
         <${Button} kind="main" onClick=${useMine}>Use my DMA file<//>
-        <${Button} onClick=${() => app.goTo("measurement")}>Compare with my friction test<//>
+        <${Button} onClick=${() => goTo("measurement")}>Compare with my friction test<//>
         <span class="help">Your files stay on this computer.</span>
       </div>
     </section>
   </div>`;
 });
 
-function mount(section, app) {
-  // where the sliders begin: what a reload keeps, or the middle of the study
-  const { speed, temperature } = position();
+// where the sliders begin: what a reload keeps, or the middle of the study
+if (!position().speed || !position().temperature) {
   const [[low, high], [cold, warm]] = [speeds(), kelvins()];
-  if (!speed || !temperature)
-    moveTo(
-      { speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) },
-      state.setView,
-    );
-  const parts = html`
-    <${Welcome} app=${app} />
-    <div class="columns">
-      <div><${ContactForm} app=${app} /></div>
-      <div>
-        <${FrictionCard} app=${app} live=${contact} onPick=${moveTo} />
-        <${Card} title="One contact, live">
-          <div class="live-controls">${CONTROLS.map((one) => html`<${Control} ...${one} />`)}<${Status} /></div>
-          <${Failed} app=${app} />
-          <${Found} app=${app} />
-        <//>
-      </div>
+  const middle = { speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) };
+  moveTo(middle, state.setView);
+}
+curve.start();
+
+// A slider is followed at once, a form when it rests.
+let timer = null;
+let about = null;
+effect(() => {
+  clearTimeout(timer);
+  void contact.mayWork;
+  if (!contact.key.value) return;
+  const rests = about !== null && about !== contact.about.value && !state.slides;
+  about = contact.about.value;
+  const want = () => live.want(contact.inputs.peek());
+  if (rests) timer = setTimeout(want, REST);
+  else untracked(want);
+});
+
+export default () => html`
+  <${Welcome} />
+  <div class="columns">
+    <div><${ContactForm} /></div>
+    <div>
+      <${FrictionCard} live=${contact} onPick=${moveTo} />
+      <${Card} title="One contact, live">
+        <div class="live-controls">${CONTROLS.map((one) => html`<${Control} ...${one} />`)}<${Status} /></div>
+        <${Failed} />
+        <${Found} />
+      <//>
     </div>
-  `;
-  render(parts, section);
-  curve.start();
-
-  // A slider is followed at once, a form when it rests.
-  let timer = null;
-  let about = null;
-  effect(() => {
-    clearTimeout(timer);
-    void contact.mayWork;
-    if (!contact.key.value) return;
-    const waits = about !== null && about !== contact.about.value && !state.slides;
-    about = contact.about.value;
-    const want = () => live.want(contact.inputs.peek());
-    if (waits) timer = setTimeout(want, REST);
-    else untracked(want);
-  });
-}
-
-function summary() {
-  const { indenter, surface, conditions } = state.study;
-  const load = conditions?.load ?? conditions?.pressure;
-  const what = surface
-    ? "rough surface"
-    : [indenter?.shape ?? "ball", [indenter?.radius ?? indenter?.angle].flat()[0]].filter(Boolean).join(" ");
-  const found = result("curve")?.friction?.filter((value) => value !== null) ?? [];
-  const range = found.length ? `, μ ${Math.min(...found).toPrecision(2)} to ${Math.max(...found).toPrecision(2)}` : "";
-  return `${what}, ${[load].flat()[0] ?? "no load"}${range}`;
-}
-
-export default { id: "contact", title: "Contact and friction", summary, mount };
+  </div>
+`;

@@ -2,6 +2,7 @@
 
 import { downloadUrl } from "../api.js";
 import { Job } from "../jobs.js";
+import { announce } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Box, Button, Card, Choice, Icon, Notes, choice } from "../views.js";
@@ -37,11 +38,11 @@ const WITH_UNITS = ["abaqus", "ansys", "ls-dyna"];
 const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
 
 /** Copies a text, and says so. */
-export function Copy({ app, text }) {
+export function Copy({ text }) {
   const copy = async ({ currentTarget: { lastChild: words } }) => {
     try {
       await navigator.clipboard.writeText(text());
-      app.announce("Copied.");
+      announce("Copied.");
       words.textContent = "Copied";
     } catch {
       words.textContent = "Select and copy it";
@@ -83,14 +84,14 @@ function write() {
 }
 
 /** Form and text of a card. */
-export const MaterialCard = view(({ app }) => {
+export const MaterialCard = view(() => {
   const of = cardJob.current;
   const own = ["json", "csv"].includes(program.value());
   const wrong =
     refused.value !== null && refused.value === typed("poisson")
       ? `Poisson's ratio: enter a number, e.g. 0.499; got ${refused.value}.`
       : cardJob.error?.message;
-  cardJob.done = ({ download }) => app.announce(`The card is written: ${download.name}.`);
+  cardJob.done = ({ download }) => announce(`The card is written: ${download.name}.`);
   return html`<${Card} title="Material card for finite elements">
     <div class="form">
       <${Choice} of=${program} label="Program" />
@@ -104,7 +105,7 @@ export const MaterialCard = view(({ app }) => {
     </div>
     <div class="row">
       <${Button} disabled=${Boolean(cardJob.progress)} onClick=${write}>Write the card<//>
-      ${of && html`<div class="row"><${Download} name=${of.download.name} /><${Copy} app=${app} text=${() => of.text} /></div>`}
+      ${of && html`<div class="row"><${Download} name=${of.download.name} /><${Copy} text=${() => of.text} /></div>`}
     </div>
     <${Notes} kind="error" aria-live="assertive" list=${[wrong]} />
     <${Notes} of=${of} list=${of?.notes} />

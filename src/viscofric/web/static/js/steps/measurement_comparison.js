@@ -1,7 +1,8 @@
 // Measured friction beside the prediction for the page's rubber and ball, and what else follows from the test.
 
+import { Figure } from "../figures.js";
 import { html, view } from "../reactive.js";
-import { Card, Figure, Folded, Notes, Numbers, Table } from "../views.js";
+import { Card, Folded, Notes, Numbers, Table } from "../views.js";
 import { checkFigure, coulombFigure, frictionFigure, zeroFigure } from "./measurement_figures.js";
 import { Checks, Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
 
@@ -33,12 +34,12 @@ const OTHERS = [
 ];
 
 /** Measured friction beside the prediction. */
-export const Comparison = view(({ app, step }) => {
+export const Comparison = view(({ step }) => {
   const measured = shownMeasured();
   const of = agreement.error ? null : agreement.result;
   const { headings, rows, caption, note } = of?.table ?? {};
   return html`<${Card} title="Measured against predicted">
-    <${Run} app=${app} job=${agreement} label="Predicting" />
+    <${Run} job=${agreement} label="Predicting" />
     <${Figure} id="measured-friction" title="Viscoelastic friction" x=${SPEED}
       empty="Drop the files of a traction test, or use the synthetic example."
       of=${of ?? measured} ...${frictionFigure(measured, of, of ? step.synthetic() : step.data())} />

@@ -1,9 +1,12 @@
 // The rubber behind measured friction: what fixes its level, the computation, and its result.
 
+import { Figure } from "../figures.js";
+import { downloadUrl, uploadFiles } from "../api.js";
+import { announce } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Box, Button, Card, Choice, Figure, Notes, Table, choice } from "../views.js";
+import { Box, Button, Card, Choice, Notes, Table, choice } from "../views.js";
 import { fitFigure, modulusFigure } from "./measurement_inverse.js";
 import { master } from "./measurement_master.js";
 import { Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
@@ -70,17 +73,17 @@ function options() {
 const identify = ofMeasured("identify", options, { manual: true });
 
 /** Make the identified rubber that of the page. */
-async function take(app, { download }) {
-  const response = await fetch(app.api.downloadUrl(download));
-  const [name] = await app.api.uploadFiles([new File([await response.blob()], download)]);
+async function take({ download }) {
+  const response = await fetch(downloadUrl(download));
+  const [name] = await uploadFiles([new File([await response.blob()], download)]);
   state.set("material", { file: name });
-  app.announce("The page now uses the identified material.");
+  announce("The page now uses the identified material.");
 }
 
 /** The card of the identification. */
-export const Identification = view(({ app, step }) => {
+export const Identification = view(({ step }) => {
   const of = identify.error ? null : identify.result;
-  identify.done = ({ sentences: [first] }) => app.announce(`The material is identified. ${first}`);
+  identify.done = ({ sentences: [first] }) => announce(`The material is identified. ${first}`);
   // which factors to use is not known before
   const known = master.current || master.error || master.ended;
   return html`<${Card} title="Material identified from friction" hidden=${!shownMeasured()?.curves}>
@@ -95,18 +98,23 @@ export const Identification = view(({ app, step }) => {
       )}
     </div>
     <div class="row"><${Button} kind="main" disabled=${!known} onClick=${() => identify.run()}>Identify the material<//></div>
-    <${Run} app=${app} job=${identify} label="Identifying" />
-    ${of && html`<${Identified} app=${app} step=${step} of=${of} />`}
+    <${Run} job=${identify} label="Identifying" />
+    ${of && html`<${Identified} step=${step} of=${of} />`}
   <//>`;
 });
 
-const Identified = view(({ app, step, of }) => {
+const Identified = view(({ step, of }) => {
   const made = alone() ? step.data() : step.synthetic();
   const { modulus, angular_frequency: omega, temperature } = of.anchor ?? {};
   const at = of.anchor
     ? `Anchored to |E| = ${units.show(modulus, "modulus")} at ${units.show(omega, "angular_frequency")} and ${units.show(temperature, "temperature")}.`
     : null;
-  const head = ["level", `|E| at ${units.show(of.middle, "angular_frequency")}`, "rms of friction", "χ² above the best"];
+  const head = [
+    "level",
+    `|E| at ${units.show(of.middle, "angular_frequency")}`,
+    "rms of friction",
+    "χ² above the best",
+  ];
   const rows = of.family.map((one) => [
     `× ${one.factor}`,
     units.show(one.modulus, "modulus"),
@@ -125,8 +133,8 @@ const Identified = view(({ app, step, of }) => {
     <${Notes} of=${of} list=${[at, ...of.sentences]} />
     ${rows.length > 0 && html`<${Table} of=${of} head=${head} rows=${rows} caption="Materials that friction alone hardly distinguishes" />`}
     <div class="row">
-      <a class="button small" download="rubber_from_friction.json" href=${app.api.downloadUrl(of.download)}>Material (JSON)</a>
-      <${Button} kind="small" onClick=${() => take(app, of)}>Use this material on the page<//>
+      <a class="button small" download="rubber_from_friction.json" href=${downloadUrl(of.download)}>Material (JSON)</a>
+      <${Button} kind="small" onClick=${() => take(of)}>Use this material on the page<//>
     </div>
   </div>`;
 });

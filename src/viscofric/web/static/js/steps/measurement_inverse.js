@@ -80,7 +80,9 @@ const factorLine = ({ temperature: x, log10_shift_factor: y, error95 }) => ({
   mode: "lines",
   x,
   y,
-  ...(known(error95) ? { lower: y.map((one, at) => one - error95[at]), upper: y.map((one, at) => one + error95[at]) } : {}),
+  ...(known(error95)
+    ? { lower: y.map((one, at) => one - error95[at]), upper: y.map((one, at) => one + error95[at]) }
+    : {}),
 });
 
 /** Modulus that friction identifies, strong where it does, with the page's rubber beside it. */

@@ -1,7 +1,9 @@
 // Friction of all temperatures on one curve, by the rubber's shift factors and by those found from friction itself.
 
+import { Figure } from "../figures.js";
+import { downloadUrl } from "../api.js";
 import { html, view } from "../reactive.js";
-import { Card, Choice, Figure, Notes, choice } from "../views.js";
+import { Card, Choice, Notes, choice } from "../views.js";
 import { agreement } from "./measurement_comparison.js";
 import { factorsFigure, masterFigure } from "./measurement_inverse.js";
 import { Facts, Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
@@ -28,7 +30,7 @@ const law = choice("friction.law", LAWS);
 export const master = ofMeasured("master", () => ({ beside: !alone(), law: law.value() }));
 
 /** The card of the friction master curve. */
-export const MasterCurve = view(({ app, step }) => {
+export const MasterCurve = view(({ step }) => {
   const of = master.error ? null : master.result;
   const { found, by_rubber: byRubber, refusal, notes = [] } = of ?? {};
   const drawn = (shiftedBy.value() === "found" ? found : byRubber) ?? byRubber ?? found;
@@ -42,7 +44,7 @@ export const MasterCurve = view(({ app, step }) => {
       <${Choice} of=${shiftedBy} label="Shifted by" hidden=${!(found && byRubber)} />
       <${Choice} of=${law} label="Law fitted to the shift factors from friction" hidden=${!found} />
     </div>
-    <${Run} app=${app} job=${master} label="Shifting" />
+    <${Run} job=${master} label="Shifting" />
     <div class="grid">
       <${Figure} id="friction-master-curve" title="Friction at one temperature" height=${340} of=${of}
         x=${{ label: "reduced speed", kind: "speed", log: true }} y=${{ label: "viscoelastic friction coefficient" }}
@@ -54,7 +56,7 @@ export const MasterCurve = view(({ app, step }) => {
     <${Notes} of=${of} list=${[refused, ...notes]} />
     <${Facts} of=${of} list=${found?.words ?? byRubber?.words} />
     <div class="row">
-      ${found && html`<a class="button small" download="shift_factors_from_friction.csv" href=${app.api.downloadUrl(found.download)}>Shift factors (CSV)</a>`}
+      ${found && html`<a class="button small" download="shift_factors_from_friction.csv" href=${downloadUrl(found.download)}>Shift factors (CSV)</a>`}
     </div>
   <//>`;
 });

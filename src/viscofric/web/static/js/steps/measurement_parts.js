@@ -1,6 +1,7 @@
 // Parts of the measurement step: its jobs, and inputs that are no part of the study.
 
 import { Job } from "../jobs.js";
+import { explain } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Notes, Progress, shown } from "../views.js";
@@ -31,10 +32,10 @@ export const ofMeasured = (kind, options, about) =>
   });
 
 /** Progress and errors of a job. */
-export const Run = view(({ app, job, label }) => {
+export const Run = view(({ job, label }) => {
   const { error } = job;
   const message = error && error.message.charAt(0).toUpperCase() + error.message.slice(1);
-  const list = error ? [app.explain({ field: error.field, message }, "measurement")] : [];
+  const list = error ? [explain({ field: error.field, message }, "measurement")] : [];
   return html`<${Progress} job=${job} label=${label} /><${Notes} kind="error" aria-live="assertive" list=${list} />`;
 });
 

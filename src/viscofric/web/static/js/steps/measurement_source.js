@@ -1,7 +1,9 @@
 // Where measured friction comes from: files, what was recognised in them, and how they are separated.
 
+import { downloadUrl, uploadFiles, useExample } from "../api.js";
 import { Columns } from "../columns_form.js";
 import { Amount, Choose, Form, Quantity } from "../fields.js";
+import { announce } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Folded, Notes, shown } from "../views.js";
@@ -90,15 +92,15 @@ function takeColumns(named) {
 }
 
 /** The view of the measurement's files, with its fields. */
-export function source(app) {
-  const example = () => take(() => app.api.useExample().then(() => ["mtm.csv"]));
+export function source() {
+  const example = () => take(() => useExample().then(() => ["mtm.csv"]));
   const refusalOf = (result) => result?.refusal && `The friction cannot be separated: ${result.refusal}`;
   measured.done = (result) => {
     dropped = null;
     const origin = result.synthetic ? { data_origin: "synthetic" } : {};
     state.change({ measurement: result.table, ...origin });
     const said = result.curves && `${result.points} points of friction at ${result.curves.length} temperatures.`;
-    app.announce(said ?? refusalOf(result));
+    announce(said ?? refusalOf(result));
   };
   return view(() => {
     const of = shownMeasured();
@@ -107,13 +109,13 @@ export function source(app) {
     const about = "More: zero, Coulomb friction, steps, outliers";
     return html`<${Card} title="Measured friction">
       <${Drop} label="Drop the files of a traction test" accept=".txt,.csv,.tsv,.dat,.xlsx,.xls,.mtmd,.etmd" help=${KINDS}
-        onFiles=${(files) => take(() => app.api.uploadFiles(files))} />
+        onFiles=${(files) => take(() => uploadFiles(files))} />
       <div class="row">
         <${Button} kind="small" onClick=${example}>Use the synthetic example<//>
-        ${download && html`<a class="button small" download="friction_curves.csv" href=${app.api.downloadUrl(download)}>Friction curves (CSV)</a>`}
+        ${download && html`<a class="button small" download="friction_curves.csv" href=${downloadUrl(download)}>Friction curves (CSV)</a>`}
         ${table && html`<${Button} kind="quiet small" symbol="close" onClick=${() => state.set("measurement", undefined)}>Remove the measurement<//>`}
       </div>
-      <${Run} app=${app} job=${measured} label="Reading and separating" />
+      <${Run} job=${measured} label="Reading and separating" />
       <${Notes} kind="error" list=${[unread.value]} />
       <${Columns} values=${measured.error?.values} chosen=${state.get("measurement.columns")} choose=${takeColumns} />
       <${Notes} of=${of} kind="error" list=${[refusalOf(of)]} />

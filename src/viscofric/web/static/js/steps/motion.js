@@ -6,7 +6,8 @@ import { Job, studyOf } from "../jobs.js";
 import { Figures, numbersOf } from "../motion_figures.js";
 import { CONTROLS, PATHS, PRESETS, PointTable, Sketch, contactOf, converted, presetRows } from "../motion_history.js";
 import { StudyHistory } from "../motion_study.js";
-import { html, render, signal, view, watch } from "../reactive.js";
+import { announce, explain, isSynthetic } from "../page.js";
+import { html, signal, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Numbers, Progress } from "../views.js";
@@ -90,7 +91,7 @@ const firstTemperature = () => {
   return String([given?.from ?? given ?? ""].flat()[0]).replace("degC", "°C");
 };
 
-const History = view(({ app }) => {
+const History = view(() => {
   const now = history();
   const { preset, contact, control, path, rows } = now;
   const hits = preset === "impact";
@@ -126,7 +127,7 @@ const History = view(({ app }) => {
       !hits &&
       html`<div class="stack">
         <${Button} kind="small" symbol="down" onClick=${() => save("history.csv", csv(), "text/csv")}>Save the history<//>
-        <${StudyHistory} app=${app} rows=${() => optionsOf(history())} take=${change} />
+        <${StudyHistory} rows=${() => optionsOf(history())} take=${change} />
       </div>`
     }
   <//>`;
@@ -147,9 +148,9 @@ const endOf = ({ cancelled }) => {
   return motion.result.interrupted ? `Stopped; the results end after ${reached(motion.result)}.` : "";
 };
 
-const Found = view(({ app }) => {
+const Found = view(() => {
   const of = motion.result;
-  const sentence = refused.value?.sentence ?? (motion.error && app.explain(motion.error, "motion"));
+  const sentence = refused.value?.sentence ?? (motion.error && explain(motion.error, "motion"));
   const about = "± is the estimated numerical error; it does not include the grid error of a rough surface.";
   return html`<${Card} title="Contact over time">
     <${Progress} job=${motion} label="Solving" ended=${endOf} />
@@ -157,23 +158,21 @@ const Found = view(({ app }) => {
     <${Notes} of=${of} kind="warning" list=${of?.warnings} />
     <${Numbers} of=${of} list=${of ? numbersOf(of) : []} />
     ${of && html`<p class="help">${about}</p>`}
-    <${Figures} of=${of} synthetic=${of && app.isSynthetic(studyOf(of))} />
+    <${Figures} of=${of} synthetic=${of && isSynthetic(studyOf(of))} />
     <${Notes} of=${of} list=${of?.notes} />
   <//>`;
 });
 
-export function mount(section, app) {
-  motion.done = (found) =>
-    app.announce(found.interrupted ? `Stopped after ${reached(found)}.` : "The contact over time is solved.");
-  if (history()?.contact !== contactOf(state.study)) begin("hold", state.setView);
-  watch(
-    () => contactOf(state.study),
-    () => begin(history().preset, state.setView),
-  );
-  motion.start();
-  const parts = html`<div class="columns">
-    <div><${History} app=${app} /></div>
-    <div><${Drawing} /><${Found} app=${app} /></div>
-  </div>`;
-  render(parts, section);
-}
+motion.done = (found) =>
+  announce(found.interrupted ? `Stopped after ${reached(found)}.` : "The contact over time is solved.");
+if (history()?.contact !== contactOf(state.study)) begin("hold", state.setView);
+watch(
+  () => contactOf(state.study),
+  () => begin(history().preset, state.setView),
+);
+motion.start();
+
+export default () => html`<div class="columns">
+  <div><${History} /></div>
+  <div><${Drawing} /><${Found} /></div>
+</div>`;

@@ -1,57 +1,49 @@
 // The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
+import { downloadUrl, runJob, uploadFiles } from "../api.js";
 import { Amount, Choose, Form, Text } from "../fields.js";
 import { Job, newest } from "../jobs.js";
-import { html, render, signal, view } from "../reactive.js";
+import { announce, explain, page } from "../page.js";
+import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Notes, Numbers, Progress, shown } from "../views.js";
 import { Copy, FileLine, MaterialCard } from "./export_card.js";
 
-/** Fill the step. */
-export function show(section, app) {
-  const [RunFile, Study] = [runFile(app), wholeStudy(app)];
-  const parts = html`
-    <p>One run file reproduces everything on this page. Download it to repeat the study anywhere, or run it here.</p>
-    <div class="grid"><${RunFile} /><div class="stack"><${Study} /><${MaterialCard} app=${app} /></div></div>
-  `;
-  render(parts, section);
-}
-
 const failed = signal(null); // what went wrong with files or the archive
 
 /** Do something with files; what goes wrong is shown and said. */
-async function attempt(app, work) {
+async function attempt(work) {
   failed.value = null;
   try {
-    app.announce(await work());
+    announce(await work());
   } catch (error) {
     failed.value = error.message;
-    app.announce(`Error: ${error.message}`);
+    announce(`Error: ${error.message}`);
   }
 }
 
 /** Download the run file with its data. */
-async function pack(app) {
-  const found = await app.api.runJob("export-run-file", { study: state.study, options: { pack: true } });
+async function pack() {
+  const found = await runJob("export-run-file", { study: state.study, options: { pack: true } });
   const { name } = found.download;
-  Object.assign(document.createElement("a"), { href: app.api.downloadUrl(name), download: name }).click();
+  Object.assign(document.createElement("a"), { href: downloadUrl(name), download: name }).click();
   return "The zip file is ready.";
 }
 
 /** Take in data files, and show the study of a run file among them. */
-async function openFiles(app, files) {
+async function openFiles(files) {
   const isRunFile = (file) => file.name.toLowerCase().endsWith(".toml");
-  await app.api.uploadFiles(files.filter((file) => !isRunFile(file)));
+  await uploadFiles(files.filter((file) => !isRunFile(file)));
   const given = files.find(isRunFile);
   if (!given) throw new Error("No run file was given; its name ends with .toml.");
-  const { study, missing } = await app.api.runJob("open-run-file", { options: { text: await given.text() } });
+  const { study, missing } = await runJob("open-run-file", { options: { text: await given.text() } });
   state.replace(study);
   return `${given.name} is opened.${missing.length ? ` Missing data files: ${missing.join(", ")}.` : ""}`;
 }
 
-function startOver(app) {
-  state.replace(app.start.study);
-  app.announce("The page shows the example study again; Undo restores yours.");
+function startOver() {
+  state.replace(page.start.study);
+  announce("The page shows the example study again; Undo restores yours.");
 }
 
 /** A run file's lines, with headings, keys and remarks marked as such. */
@@ -64,7 +56,7 @@ function coloured(text) {
   });
 }
 
-function runFile(app) {
+function runFile() {
   return view(() => {
     const of = newest("export-run-file");
     const { text = "", cases, problems = [] } = of ?? {};
@@ -75,18 +67,18 @@ function runFile(app) {
     return html`<${Card} title="Run file">
       <${Text} path="title" label="Title of the study and report" />
       <div class="row">
-        <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(app, () => pack(app))}>
+        <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(() => pack())}>
           Run file and data (zip)
         <//>
-        <${Copy} app=${app} text=${() => text} />
-        <${Button} kind="small" onClick=${() => startOver(app)}>Start over<//>
+        <${Copy} text=${() => text} />
+        <${Button} kind="small" onClick=${() => startOver()}>Start over<//>
       </div>
       ${cases && html`<p class="help">${about}</p>`}
       <${Notes} kind="error" list=${[...wrong, failed.value]} />
       <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
       <p class="help">Run in its folder: <code>viscofric run study.toml</code></p>
       <${Drop} label="Open a run file" help="Drop it here with its data files, or choose them."
-        onFiles=${(files) => attempt(app, () => openFiles(app, files))} />
+        onFiles=${(files) => attempt(() => openFiles(files))} />
     <//>`;
   });
 }
@@ -117,16 +109,14 @@ const SOLVING = [
   },
 ];
 
-function wholeStudy(app) {
+function wholeStudy() {
   let workers = 1;
   study.done = ({ cases, failed: missing, downloads }) =>
-    app.announce(
-      `The study is finished: ${cases} cases, ${missing} failed. ${downloads.length} files can be downloaded.`,
-    );
+    announce(`The study is finished: ${cases} cases, ${missing} failed. ${downloads.length} files can be downloaded.`);
   const run = async () => {
     await study.run({ study: state.study, options: { workers } });
-    if (study.ended?.cancelled) app.announce("The study is cancelled.");
-    else if (study.error) app.announce(`Error: ${study.error.message}`);
+    if (study.ended?.cancelled) announce("The study is cancelled.");
+    else if (study.error) announce(`Error: ${study.error.message}`);
   };
   return view(() => {
     const of = study.current; // files of another study are none of this one
@@ -153,7 +143,7 @@ function wholeStudy(app) {
         <${Progress} job=${study} label="Running the study" ended=${endOf} />
       </div>
       <${Notes} list=${[changed]} />
-      <${Notes} kind="error" list=${study.error ? [app.explain(study.error, "export")] : failures} />
+      <${Notes} kind="error" list=${study.error ? [explain(study.error, "export")] : failures} />
       <${Numbers} of=${of} list=${of ? numbers : []} />
       ${of && html`<ul class="downloads" aria-label="Results">${downloads.map((one) => html`<${FileLine} ...${one} />`)}</ul>`}
       <${Notes} of=${of} kind="warning" list=${warnings} />
@@ -161,3 +151,9 @@ function wholeStudy(app) {
     <//>`;
   });
 }
+
+const [RunFile, Study] = [runFile(), wholeStudy()];
+export default () => html`
+  <p>One run file reproduces everything on this page. Download it to repeat the study anywhere, or run it here.</p>
+  <div class="grid"><${RunFile} /><div class="stack"><${Study} /><${MaterialCard} /></div></div>
+`;
