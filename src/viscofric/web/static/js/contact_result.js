@@ -189,7 +189,7 @@ export function numbersOf(result) {
       ...(line ? [] : [one("half_width", "Contact half-width", "length")]),
       one("centre_of_pressure", "Centre of pressure ahead of axis", "length", 3),
       one("mean_pressure", "Mean pressure", "pressure", 3),
-      one("frequency", "Frequency v/a", "angular_frequency", 3),
+      one("frequency", units.filled("Frequency {v/a}"), "angular_frequency", 3),
       ...rubber,
       balance,
       row("Cells along an edge", String(of.cells.value)),
@@ -217,7 +217,7 @@ export function whyItLeans(result, noun, radius) {
     units.show(value, "length"),
   );
   const time = units.show((of.front.value + of.rear.value) / result.speed, "time", 2);
-  const start = `The ${noun} passes each point of the rubber in ${time}, which deforms it at v/a = ${units.show(of.frequency.value, "angular_frequency", 2)}. At this frequency the rubber has ${rubber}. `;
+  const start = `The ${noun} passes each point of the rubber in ${time}, which deforms it at ${units.filled("{v/a}")} = ${units.show(of.frequency.value, "angular_frequency", 2)}. At this frequency the rubber has ${rubber}. `;
   const cause =
     loss < 0.03
       ? "It dissipates little energy at this frequency and recovers almost completely behind the contact, so that the pressure is nearly symmetric. "

@@ -15,57 +15,29 @@ import { signal } from "./reactive.js";
 const KEY = "viscofric.units";
 const HZ = 2 * Math.PI;
 
-// label: [factor to SI, offset, words in a run file]
-const UNITS = {
-  length: { mm: [1e-3], µm: [1e-6, 0, "um"], m: [1], in: [0.0254] },
-  speed: { "mm/s": [1e-3], "m/s": [1], "µm/s": [1e-6, 0, "um/s"], "in/s": [0.0254] },
-  temperature: { "°C": [1, 273.15, "degC"], K: [1], "°F": [5 / 9, 459.67 * (5 / 9), "degF"] },
-  load: { N: [1], mN: [1e-3], kN: [1e3], lbf: [4.4482216152605] },
-  line_load: { "N/mm": [1e3], "N/m": [1], "lbf/in": [4.4482216152605 / 0.0254] },
-  modulus: { MPa: [1e6], kPa: [1e3], GPa: [1e9], Pa: [1], psi: [6894.757293168361] },
-  pressure: { MPa: [1e6], kPa: [1e3], Pa: [1], bar: [1e5], psi: [6894.757293168361] },
-  frequency: { Hz: [1], "rad/s": [1 / HZ] },
-  time: { s: [1], ms: [1e-3], µs: [1e-6, 0, "us"] },
-  angle: { "°": [Math.PI / 180, 0, "deg"], rad: [1] },
+// kind: [title, {label: [factor to SI, offset, words in a run file]}, SI, imperial]; the first unit is that of engineering
+const KINDS = {
+  length: ["Length", { mm: [1e-3], µm: [1e-6, 0, "um"], m: [1], in: [0.0254] }, "m", "in"],
+  speed: ["Speed", { "mm/s": [1e-3], "m/s": [1], "µm/s": [1e-6, 0, "um/s"], "in/s": [0.0254] }, "m/s", "in/s"],
+  temperature: [
+    "Temperature",
+    { "°C": [1, 273.15, "degC"], K: [1], "°F": [5 / 9, 459.67 * (5 / 9), "degF"] },
+    ...["K", "°F"],
+  ],
+  load: ["Load", { N: [1], mN: [1e-3], kN: [1e3], lbf: [4.4482216152605] }, "N", "lbf"],
+  line_load: ["Load per length", { "N/mm": [1e3], "N/m": [1], "lbf/in": [4.4482216152605 / 0.0254] }, "N/m", "lbf/in"],
+  modulus: ["Modulus", { MPa: [1e6], kPa: [1e3], GPa: [1e9], Pa: [1], psi: [6894.757293168361] }, "Pa", "psi"],
+  pressure: ["Pressure", { MPa: [1e6], kPa: [1e3], Pa: [1], bar: [1e5], psi: [6894.757293168361] }, "Pa", "psi"],
+  frequency: ["Frequency", { Hz: [1], "rad/s": [1 / HZ] }, "rad/s", "Hz"],
+  time: ["Time", { s: [1], ms: [1e-3], µs: [1e-6, 0, "us"] }, "s", "s"],
+  angle: ["Angle", { "°": [Math.PI / 180, 0, "deg"], rad: [1] }, "rad", "°"],
 };
+const ofEach = (read) => Object.fromEntries(Object.entries(KINDS).map(([kind, about]) => [kind, read(about)]));
+const UNITS = ofEach(([, units]) => units);
 const SYSTEMS = {
-  engineering: Object.fromEntries(Object.entries(UNITS).map(([kind, units]) => [kind, Object.keys(units)[0]])),
-  SI: {
-    length: "m",
-    speed: "m/s",
-    temperature: "K",
-    load: "N",
-    line_load: "N/m",
-    modulus: "Pa",
-    pressure: "Pa",
-    frequency: "rad/s",
-    time: "s",
-    angle: "rad",
-  },
-  imperial: {
-    length: "in",
-    speed: "in/s",
-    temperature: "°F",
-    load: "lbf",
-    line_load: "lbf/in",
-    modulus: "psi",
-    pressure: "psi",
-    frequency: "Hz",
-    time: "s",
-    angle: "°",
-  },
-};
-const TITLES = {
-  length: "Length",
-  speed: "Speed",
-  temperature: "Temperature",
-  load: "Load",
-  line_load: "Load per length",
-  modulus: "Modulus",
-  pressure: "Pressure",
-  frequency: "Frequency",
-  time: "Time",
-  angle: "Angle",
+  engineering: ofEach(([, units]) => Object.keys(units)[0]),
+  SI: ofEach(([, , si]) => si),
+  imperial: ofEach(([, , , imperial]) => imperial),
 };
 
 const chosen = signal({ ...SYSTEMS.engineering, ...remembered() });
@@ -135,13 +107,14 @@ export function show(value, kind = "plain", digits = 3) {
   return unit === "°" ? `${text}°` : `${text}\u00a0${unit}`;
 }
 
-/** Words with the quantities in them as the user reads them: "{0.02|speed}" -> "20 mm/s", "{omega}" is f where it is in Hz. */
+/** Words with the quantities in them as the user reads them: "{0.02|speed}" -> "20 mm/s", "{omega}" is f in Hz. */
 export const filled = (text) =>
   String(text ?? "")
     .replace(/\{([^{}|]+)\|(\w+)(?:\|(\d))?\}/g, (_, value, kind, digits) =>
       show(Number(value), kind, Number(digits ?? 3)),
     )
-    .replaceAll("{omega}", label("angular_frequency") === "Hz" ? "f" : "ω");
+    .replaceAll("{omega}", label("angular_frequency") === "Hz" ? "f" : "ω")
+    .replaceAll("{v/a}", label("angular_frequency") === "Hz" ? "v/(2πa)" : "v/a");
 
 /** A value as a run file writes it, in the user's unit. */
 export function words(value, kind, digits = 6) {
@@ -203,7 +176,7 @@ export function typed(text, kind) {
 export function choices() {
   return Object.entries(UNITS).map(([kind, units]) => ({
     kind,
-    title: TITLES[kind],
+    title: KINDS[kind][0],
     units: Object.keys(units),
     chosen: chosen.value[kind],
   }));

@@ -83,7 +83,7 @@ export const Quality = view(({ of }) => {
       html`<${Card} title="Consistency of E′ and E″">
         <${Figure} id="kramers-kronig" title="Kramers–Kronig" ...${shared} traces=${causalTraces(causal)}
           caption="log₁₀ of each modulus computed from the other, over the measured one; open points at the ends are not evaluated."
-          x=${{ label: "reduced frequency α ω", kind: "angular_frequency", log: true }} y=${{ label: "log₁₀ demanded/measured" }}
+          x=${{ label: "reduced frequency α {omega}", kind: "angular_frequency", log: true }} y=${{ label: "log₁₀ demanded/measured" }}
           marks=${[{ y: causal.allowed, label: "allowed rms of E′" }, { y: -causal.allowed }]} />
         <p class="help">${causal.sentence}</p>
       <//>`

@@ -100,7 +100,7 @@ function figureOf(of) {
   return {
     of,
     caption: [byTemperature(temperatures), squares].filter(Boolean).join(" "),
-    x: { label: "reduced frequency α ω", kind: "angular_frequency", log: true },
+    x: { label: "reduced frequency α {omega}", kind: "angular_frequency", log: true },
     y: { label: vertical && !tangent ? `${label}/b` : label, kind: tangent ? undefined : "modulus", log: true },
     synthetic: synthetic(of),
     temperatures,

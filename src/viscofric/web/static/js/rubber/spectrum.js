@@ -70,7 +70,7 @@ const Others = view(({ of }) => {
       html`<${Card} title="Residuals of the fit">
         <${Figure} id="spectrum-residuals" title="Measured over fitted modulus" of=${of} synthetic=${shared.synthetic}
           caption="log₁₀, at the points of the master curve." marks=${[{ y: 0 }]} traces=${residualTraces(spectrum)}
-          x=${{ ...FREQUENCY, label: "reduced frequency α ω" }} y=${{ label: "log₁₀ measured/fit" }} />
+          x=${{ ...FREQUENCY, label: "reduced frequency α {omega}" }} y=${{ label: "log₁₀ measured/fit" }} />
       <//>`
     }
     ${

@@ -147,7 +147,7 @@ export function modulusFigure(found, synthetic) {
     synthetic,
     caption,
     x: {
-      label: `reduced angular frequency at ${units.show(found.reference, "temperature")}`,
+      label: `reduced frequency α {omega} at ${units.show(found.reference, "temperature")}`,
       kind: "angular_frequency",
       log: true,
     },
