@@ -110,7 +110,7 @@ function drafted({ layout, points }, { view, quantity }, rows, shared, colour) {
     { ...shared, ...of(rows), mode: "lines", width: 1, legend: false, dash: "3px,3px" },
     { ...shared, ...of(known), mode: "markers", size: 6 },
     { ...shared, ...of(open), mode: "markers", size: 5, open: true, legend: false, colour },
-  ].filter((trace) => trace.x.length > 0);
+  ].filter((trace) => trace.x.length > 0 || trace.legend !== false); // the legend is there from the start
 }
 
 const doubtsOf = (result, at) => result.doubts[at].map((word) => WORDS[word] ?? word).join("<br>");

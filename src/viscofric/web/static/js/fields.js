@@ -8,7 +8,7 @@
 // <${Toggle} path label value onChange /> a switch that stands for a table or a key
 // <${Ticks} path label options />         some of a list of words
 // <${Range} path label kind spacing otherwise />                                         one value, a list, or a range
-// slider=${[low, high]} (SI) gives a quantity, or a range that is one value, a slider; `shown` is what a choice or a switch
+// slider=${[low, high]} (SI) gives a quantity, a number, or a range that is one value, a slider; `shown` is what a choice or a switch
 // shows in place of the value at its path.
 //
 // <${Form} of=${[{as: Amount, path, label, when: () => true, …}, …]} />    a form as data: fields in a grid, some of them only
@@ -86,10 +86,13 @@ export const Select = view(({ options, value, onChange, ...rest }, self) => {
 
 /** A slider of a quantity, even in its logarithm; a drag is one step of undo. */
 const STEPS = 400;
-function slider({ path, kind, label, slider: [low, high] }) {
+function slider({ path, kind, label, slider: [low, high], step }) {
   const now = units.parse(listed(state.get(path))[0], kind);
   const ratio = Math.log(high / low) / STEPS;
-  const move = ({ target }) => state.slide(path, units.words(low * Math.exp(ratio * Number(target.value)), kind, 3));
+  const move = ({ target }) => {
+    const value = low * Math.exp(ratio * Number(target.value));
+    state.slide(path, step === 1 ? Math.round(value) : units.words(value, kind, 3));
+  };
   return html`<input type="range" min="0" max=${STEPS} step="1" value=${now > 0 ? Math.round(Math.log(now / low) / ratio) : 0}
     aria-label="${label}: slider" aria-valuetext=${units.show(now, kind)} onInput=${move} onChange=${state.settle} />`;
 }
@@ -117,7 +120,8 @@ export const Amount = view(({ min, max, step = "any", placeholder, ...about }, s
     self,
     about,
     (own) =>
-      html`<${Box} type="number" ...${at(about.path, asNumber, orNothing)} ...${{ min, max, step, placeholder }} ...${own} />`,
+      html`<${Box} type="number" ...${at(about.path, asNumber, orNothing)} ...${{ min, max, step, placeholder }} ...${own} />
+      ${about.slider && slider({ kind: "plain", step, ...about })}`,
   ),
 );
 

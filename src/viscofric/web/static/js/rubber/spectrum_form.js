@@ -4,7 +4,7 @@ import { Amount, Choose } from "../fields.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Card } from "../views.js";
-import { isMade } from "./made.js";
+import { isMade, shownRubber } from "./made.js";
 
 const KINDS = [
   ["non-negative", "non-negative: smallest misfit"],
@@ -18,6 +18,12 @@ const choose = (kind) =>
     [kind === "sparse" ? "material.tau_ratio" : "material.modes"]: undefined,
   });
 
+/** The misfit beside the number of modes. */
+function misfit() {
+  const { rms_storage: storage, rms_loss: loss } = shownRubber()?.spectrum.fit ?? {};
+  return storage ? `Misfit of E′, E″: ${storage.toFixed(3)}, ${loss.toFixed(3)} decades (rms).` : "";
+}
+
 export const Settings = view(() => {
   const sparse = state.get("material.spectrum") === "sparse";
   if (!isMade())
@@ -28,7 +34,8 @@ export const Settings = view(() => {
         help="Non-negative modes have the smallest misfit; regularised ones make a smooth spectrum; sparse ones are few, for finite elements." />
       ${
         sparse
-          ? html`<${Amount} key="modes" path="material.modes" label="Largest number of modes" min=${1} max=${200} step=${1}
+          ? html`<${Amount} key="modes" path="material.modes" label="Largest number of modes" min=${1} max=${200} step=${1} slider=${[1, 60]}
+              help=${misfit()}
               placeholder="automatic" />`
           : html`<${Amount} key="ratio" path="material.tau_ratio" label="Ratio of neighbouring times" min=${1.1} max=${100}
               placeholder="e = 2.718" />`
