@@ -17,16 +17,22 @@ import viscofric as vf
 RUBBER = vf.ThermalProperties("0.3 W/m/K", "1200 kg/m**3", "1500 J/kg/K", "rubber")
 PTFE = vf.ThermalProperties("0.25 W/m/K", "2170 kg/m**3", "1010 J/kg/K", "PTFE")
 CONTACTS = {"ball": (vf.Ball("9.525 mm"), "5 N"), "cylinder": (vf.Cylinder("9.525 mm"), "500 N/m")}
+ROUGH = {f"rough, {points}²": points for points in (128, 256)}
 
 
 def seconds(contact: str, speeds: int, **more: vf.Heating) -> float:
     """Return the CPU time of a curve of the SYNTHETIC fluoroelastomer from 1 mm/s to 1 m/s."""
-    indenter, load = CONTACTS[contact]
-    start = time.process_time()
-    vf.predict_friction(
-        vf.synthetic_fluoroelastomer(), indenter, speeds=np.geomspace(1e-3, 1.0, speeds), temperatures="30 degC",
-        load=load, **more,
-    )  # fmt: skip
+    rubber, start = vf.synthetic_fluoroelastomer(), time.process_time()
+    asked = {"speeds": np.geomspace(1e-3, 1.0, speeds), "temperatures": "30 degC", **more}
+    if contact in ROUGH:
+        points = ROUGH[contact]
+        spacing = 1e-3 / points
+        surface = vf.self_affine(0.8, shape=(points, points), spacing=spacing, shortest=8e-5, rms_slope=0.2, seed=1)
+        start = time.process_time()
+        vf.predict_rough_friction(rubber, surface, pressure="0.2 MPa", **asked)
+    else:
+        indenter, load = CONTACTS[contact]
+        vf.predict_friction(rubber, indenter, load=load, **asked)
     return time.process_time() - start
 
 
@@ -36,15 +42,22 @@ def main() -> None:
     parser.add_argument("--json", type=Path)
     asked = parser.parse_args()
     rows = []
-    print("contact   rubber at  isothermal (s)  heated (s)  ratio")
-    for contact in CONTACTS:
+    print("contact      rubber at  isothermal (s)  heated (s)  ratio")
+    for contact in (*CONTACTS, *ROUGH):
         seconds(contact, 2)  # imports and plans of FFTs
         cold = seconds(contact, asked.speeds)
         for average in ("contact", "loss"):
-            heating = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.45, slip="0.1 m/s", average=average)
+            heating = vf.Heating(
+                rubber=RUBBER,
+                counterface=PTFE,
+                coulomb=0.45,
+                slip="0.1 m/s",
+                average=average,
+                nominal_radius="5 mm" if contact in ROUGH else None,
+            )
             hot = seconds(contact, asked.speeds, heating=heating)
             rows.append({"contact": contact, "average": average, "isothermal": cold, "heated": hot})
-            print(f"{contact:9} {average:9} {cold:15.2f} {hot:11.2f} {hot / cold:6.2f}")
+            print(f"{contact:12} {average:9} {cold:15.2f} {hot:11.2f} {hot / cold:6.2f}")
     if asked.json is not None:
         asked.json.write_text(json.dumps({"speeds": asked.speeds, "rows": rows}, indent=1))
 

@@ -20,10 +20,10 @@ def _knot(speed: float, drop: float = 0.0) -> Knot:
 
 
 def test_power_laws_are_found_between_knots() -> None:
-    """Logarithms that are linear in that of the speed are interpolated without error."""
+    """To 1e-3 at five knots a decade, by cubics in the logarithm of the speed."""
     found = Between(SPEEDS.tolist(), [_knot(one) for one in SPEEDS.tolist()])(0.0123)
     assert found is not None
-    assert found.relative == pytest.approx(_knot(0.0123).relative, rel=1e-12)
+    assert found.relative == pytest.approx(_knot(0.0123).relative, rel=1e-3)
     assert found.rise == pytest.approx(0.01)
 
 
@@ -35,6 +35,13 @@ def test_no_state_is_followed_across_a_jump_or_beyond_the_last_knot() -> None:
     assert [row for row, one in enumerate(within.tolist()) if between(one) is None] == [2, 3, 7]
     assert between(0.9e-3) is None
     assert between(1.1) is None
+
+
+def test_what_changes_sign_is_found_between_knots() -> None:
+    """Spots of a rough surface may be colder than its mean by the loss beside them."""
+    knots = [Knot(0.0, ThermalResistances(2.0, np.log(one / 0.02), 1.0, 1.0, 0.0, 1.0), 0.0) for one in SPEEDS.tolist()]
+    found = Between(SPEEDS.tolist(), knots)
+    assert [found(one).relative.loss for one in (0.0123, 0.3)] == pytest.approx(np.log([0.0123 / 0.02, 15.0]), rel=1e-6)  # type: ignore[union-attr]
 
 
 @pytest.mark.apart
@@ -58,3 +65,31 @@ def test_resistances_between_knots_are_those_of_the_contacts(monkeypatch: pytest
     assert each.temperature_rise.max() > 0.5
     assert found.temperature_rise == pytest.approx(each.temperature_rise, rel=1e-2)
     assert found.viscoelastic == pytest.approx(each.viscoelastic, rel=2e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("slip", [None, "0.1 m/s"])
+def test_resistances_between_knots_are_those_of_rough_contacts(
+    slip: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where the slip is the speed and the counterface rests below the contact; backwards is another curve."""
+    solid = vf.Material.standard_linear_solid(E0="3 MPa", E_inf="300 MPa", tau="1 ms")
+    material = vf.Material(solid.spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))
+    heating = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.45, slip=slip, nominal_radius="5 mm")
+    road = vf.self_affine(0.8, shape=(64, 64), spacing=1.5e-5, shortest=1.2e-4, rms_slope=0.2, seed=1)
+    speeds = np.concatenate([np.geomspace(0.02, 0.5, 15), [-0.1]])
+
+    def curve() -> vf.HeatedRoughFriction:
+        found = vf.predict_rough_friction(
+            material, road, speeds=speeds, temperatures=303.15, pressure="0.2 MPa", heating=heating
+        )
+        assert isinstance(found, vf.HeatedRoughFriction)
+        return found
+
+    found = curve()
+    monkeypatch.setattr(heated_curve, "knots_of", lambda contacts: list(range(len(contacts))))
+    each = curve()
+    assert each.temperature_rise.max() > 0.5
+    assert found.face_rise == pytest.approx(each.face_rise, rel=2e-2)
+    assert found.loss_weighted_rise == pytest.approx(each.loss_weighted_rise, rel=3e-2)
+    assert found.mean_friction == pytest.approx(each.mean_friction, rel=5e-3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -79,6 +79,9 @@ class Warmed(NamedTuple):
 class ThermalContact:
     """One contact at any rise of temperature; of its kinds there are free and periodic ones."""
 
+    #: Of curves, decades of speed between contacts whose resistances are found from their fields.
+    knots_apart: ClassVar[float] = 0.2
+
     material: Material  # with α(T)
     heating: Heating
     kelvin: float  # without heating
@@ -90,12 +93,12 @@ class ThermalContact:
         """Return the heats of a contact solved at a temperature; its resistances `relative` to `closed`, if known."""
         raise NotImplementedError
 
-    def closed(self, area: float) -> tuple[float, float] | None:
-        """Return the rise of the rubber's face and of the counterface's per heat, in closed form.
+    def closed(self, area: float, size: float) -> tuple[float, float]:
+        """Return the rise of the rubber's face and of the counterface's per heat, in closed form; as in `Heat`.
 
-        Resistances over them change smoothly with speed; None for contacts whose resistances do not.
+        Resistances over them change smoothly with speed.
         """
-        return None
+        raise NotImplementedError
 
     def area(self, solution: Any) -> float:
         """Return the area of a solved contact."""

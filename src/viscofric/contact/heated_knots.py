@@ -1,7 +1,8 @@
 """Thermal resistances along a curve of speeds, from those of some of its contacts, the knots.
 
-Over those of a disc or strip of the same area in closed form, resistances change smoothly with speed: between about
-five knots a decade they are interpolated.  So is by how much the rise of a state differs from the one expected.
+Over those of discs or strips of the same area in closed form, resistances change smoothly with speed:
+between a few knots a decade they are interpolated.  So is by how much the rise of a state differs from the one
+expected.
 """
 
 from __future__ import annotations
@@ -19,21 +20,19 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.heated import Heat, ThermalContact
 
-#: Distance of knots, and by how much log10 α may differ between the states of two for others in between.
-_APART, _SHIFTED = 0.2, 0.4
+#: By how much log10 α may differ between the states of two knots for others in between.
+_SHIFTED = 0.4
 
 
 def knots_of(contacts: Sequence[ThermalContact]) -> list[int]:
     """Return the rows of contacts whose resistances are found from their fields, ascending in speed.
 
-    The first, the last, and about five a decade of those between them; all if resistances are not smooth.
+    The first, the last, and of those between them some that are `knots_apart`.
     """
     speeds, rows = np.unique([abs(one.speed) for one in contacts], return_index=True)
-    if any(one.closed(1.0) is None for one in contacts):
-        return list(range(len(contacts)))
     last, found = -math.inf, []
     for row, place in zip(rows.tolist(), np.log10(speeds).tolist(), strict=True):
-        if place - last >= _APART or row == rows[-1]:
+        if place - last >= contacts[row].knots_apart or row == rows[-1]:
             found.append(row)
             last = place
     return found
@@ -49,9 +48,7 @@ class Knot(NamedTuple):
     @classmethod
     def of(cls, contact: ThermalContact, heat: Heat, drop: float = 0.0, rise: float = 0.0) -> Knot:
         """Return the knot of a contact whose resistances are known."""
-        closed, one = contact.closed(heat.area), heat.resistances
-        assert closed is not None
-        rubber, other = closed
+        (rubber, other), one = contact.closed(heat.area, heat.size), heat.resistances
         # Infinite below a strip that does not slide over the counterface.
         over = one.counterface / other if math.isfinite(other) else 1.0
         parts: Any = (*(part / rubber for part in one[:4]), 0.0, over, one.beyond)
@@ -59,9 +56,8 @@ class Knot(NamedTuple):
 
     @property
     def columns(self) -> list[float]:
-        """What is interpolated: logarithms, and the share of the loss that is released beyond the cells."""
-        *below, _, other, beyond = self.relative
-        return [*(math.log(max(one, 1e-300)) for one in (*below, other)), beyond, self.rise]
+        """What is interpolated; not in logarithms, since spots may be colder than the mean of their surface."""
+        return [*self.relative, self.rise]
 
 
 class Between:
@@ -87,10 +83,8 @@ class Between:
         """Return the knot at a speed, None if there is none on both sides of it."""
         for slowest, fastest, smooth in self._pieces:
             if slowest <= speed <= fastest:
-                *logarithms, beyond, rise = smooth(math.log(speed)).tolist()
-                *below, other = (math.exp(one) for one in logarithms)
-                parts: Any = (*below, 0.0, other, beyond)
-                return Knot(0.0, ThermalResistances(*parts), rise)
+                *relative, rise = smooth(math.log(speed)).tolist()
+                return Knot(0.0, ThermalResistances(*relative), rise)
         return None
 
 

@@ -69,7 +69,7 @@ class FreeThermalContact(ThermalContact):
         if relative is None:
             resistances = thermal_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating)
         else:
-            rubber, other = self.closed(solution.contact_area)
+            rubber, other = self.closed(solution.contact_area, 0.5 * (solution.front + solution.rear))
             track = self.heating.track_resistance(self.size(solution.contact_area), abs(self.speed))
             below = [rubber * part for part in relative[:4]]
             parts: Any = (*below, track, other * relative.counterface, relative.beyond)
@@ -90,7 +90,7 @@ class FreeThermalContact(ThermalContact):
         """Return the half-width of a line contact, or the radius of a disc of equal area, m."""
         return 0.5 * area if self.line else math.sqrt(area / math.pi)
 
-    def closed(self, area: float) -> tuple[float, float]:
+    def closed(self, area: float, size: float) -> tuple[float, float]:
         """Return the rise of the rubber's face and of the counterface's per heat, of a disc or strip of the area."""
         return self.heating.face_resistances(abs(self.speed), self.size(area), self.line)
 
@@ -292,6 +292,21 @@ class Cells:
             self.mean_rise(to_face, flux[None], weight),
             self.mean_rise(below, released.power, weight),
         )
+
+    def rises_below(self, diffusion: Diffusion, released: Dissipation) -> tuple[float, float, float, float]:
+        """Return the same by heat and loss that are spread as the weights of the face; layers with a power (nz,)."""
+        power, between = released.power, _between_depths(released)
+        both = np.multiply.outer(power, power).ravel()
+
+        def factors(lengths: Array) -> Array:
+            on_face, *to_face = _to_face(released, lengths)
+            return np.stack([on_face, power @ np.array(to_face), both @ between(lengths)])
+
+        face, loss, below = (
+            self.mean_rise(one[None], self.inside[None], self.inside[None])
+            for one in self.influence(diffusion, factors)
+        )
+        return face, loss, loss, below
 
     def mean_rise(self, influence: Array, heat: Array, weight: Array) -> float:
         """Return the rise, K, by heat (m, nx, ny), W, averaged with weights (n, nx, ny), over all pairs of layers."""

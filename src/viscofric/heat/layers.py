@@ -134,31 +134,21 @@ class MovingHeat:
 
     def surface_rise(self, flux: ComplexArray, face: ComplexArray) -> float:
         """Return the mean rise of the face, weighted, by heat on it; waves (n,) of heat and weight of mean 1."""
-        return sum(share * _mean(face[chosen], flux[chosen] / root) for chosen, root, share in self._roots()) / float(
-            self.body.conductivity
-        )
+        found = sum(_mean(face[chosen], shares @ (flux[chosen] / roots)) for chosen, roots, shares in self._roots())
+        return found / float(self.body.conductivity)
 
     def rises(self, flux: ComplexArray, face: ComplexArray, layers: LayeredHeat) -> Rises:
         """Return all mean rises by heat on the face and in layers, with the weights of the face; mean 1 of each."""
         total = np.zeros(4)
         counts = np.array([len(one) for one in layers.waves])
-        for chosen, root, share in self._roots():
+        for chosen, roots, shares in self._roots():
             ends = np.searchsorted(chosen, counts)
             below = [one[chosen[:end]] for one, end in zip(layers.waves, ends, strict=True)]
-            on_face, met = _rises(root, layers.thickness, flux[chosen], below, released=False)
-            from_layers, met_layers = _rises(root, layers.thickness, None, below, released=True)
-            total += share * np.array(
-                [
-                    _mean(face[chosen], on_face),
-                    _mean(face[chosen], from_layers),
-                    sum(map(_mean, below, met)),
-                    sum(map(_mean, below, met_layers)),
-                ]
-            )
+            total += _rises(roots, shares, layers.thickness, flux[chosen], face[chosen], below)
         return Rises(*(total / float(self.body.conductivity)).tolist())
 
-    def _roots(self) -> list[tuple[Indices, ComplexArray, float]]:
-        """Return which waves have the roots s that follow, 1/m, and their share in the average."""
+    def _roots(self) -> list[tuple[Indices, ComplexArray, Array]]:
+        """Return which waves (n,) have the roots s (m, n), 1/m, that follow, and the shares (m,) in their average."""
         ahead = self.waves.q.T @ np.asarray(self.velocity)
         interval = (
             2.0
@@ -173,49 +163,70 @@ class MovingHeat:
         square = np.square(self.waves.magnitude)
         diffusivity = self.body.diffusivity
 
-        def roots(chosen: Indices, offset: float) -> ComplexArray:
-            return np.asarray(np.sqrt(square[chosen] - 1j * (ahead[chosen] + offset) / diffusivity))
+        def roots(chosen: Indices, offsets: Array) -> ComplexArray:
+            return np.asarray(np.sqrt(square[chosen] - 1j * (ahead[chosen] + offsets[:, None]) / diffusivity))
 
+        once = np.zeros(1), np.ones(1)
         every, averaged = np.flatnonzero(~near), np.flatnonzero(near)
-        found = [(every, roots(every, 0.0), 1.0)] if len(every) else []
+        found = [(every, roots(every, once[0]), once[1])] if len(every) else []
         if interval == 0.0:
-            return [*found, (averaged, roots(averaged, 0.0), 1.0)]
+            return [*found, (averaged, roots(averaged, once[0]), once[1])]
         node, weight = np.polynomial.legendre.leggauss(_NODES)
         place = 0.5 * (1.0 + node)
         shares = 0.25 * weight * _POWER * place ** (_POWER - 1)
-        for offset, share in zip(0.5 * interval * place**_POWER, shares, strict=True):
-            found += [(averaged, roots(averaged, sense * offset), float(share)) for sense in (-1.0, 1.0)]
-        return found
+        offsets = 0.5 * interval * place**_POWER
+        return [
+            *found,
+            (averaged, roots(averaged, np.concatenate([-offsets, offsets])), np.concatenate([shares, shares])),
+        ]
 
 
 def _rises(
-    root: ComplexArray, thickness: Array, flux: ComplexArray | None, layers: list[ComplexArray], *, released: bool
-) -> tuple[ComplexArray, list[ComplexArray]]:
-    """Return k times the waves of the rise of the face, and of its mean over each layer, of as many as it has.
+    roots: ComplexArray,
+    shares: Array,
+    thickness: Array,
+    flux: ComplexArray,
+    face: ComplexArray,
+    layers: list[ComplexArray],
+) -> Array:
+    """Return k times the rises (4,) as in `Rises`, averaged over the roots (m, n) of waves with their shares (m,).
 
-    By heat on the face, or by that `released` in layers.
+    Layers have heat of the first waves only, deeper ones of fewer.
     """
-    passed = [np.exp(-root[: len(one)] * thick) for one, thick in zip(layers, thickness, strict=True)]
-    mean = [(1.0 - one) / (root[: len(one)] * thick) for one, thick in zip(passed, thickness, strict=True)]
-    met: list[ComplexArray] = []
-    up = np.zeros(0, complex)
-    for row in reversed(range(len(layers))):
-        up = np.pad(up, (0, len(layers[row]) - len(up)))
-        met.insert(0, up)
-        if released:
-            up = up * passed[row] + layers[row] * mean[row]
-    up = np.pad(up, (0, len(root) - len(up)))
-    down = up if flux is None else up + 2.0 * flux
-    face = 0.5 * (up + down) / root
-    for row, thick in enumerate(thickness):
-        down, some = down[: len(layers[row])], root[: len(layers[row])]
-        found = (down + met[row]) * mean[row]
-        down = down * passed[row]
-        if released:
-            found = found + 2.0 * layers[row] * (1.0 - mean[row]) / (some * thick)
-            down = down + layers[row] * mean[row]
-        met[row] = 0.5 * found / some
-    return face, met
+    passed = [np.exp(-roots[:, : len(one)] * thick) for one, thick in zip(layers, thickness, strict=True)]
+    mean = [(1.0 - one) / (roots[:, : one.shape[1]] * thick) for one, thick in zip(passed, thickness, strict=True)]
+    # What passes the lower edge of each layer upwards.
+    from_below = [np.zeros((len(roots), 0), complex)]
+    for one, part, heat in zip(passed[:0:-1], mean[:0:-1], layers[:0:-1], strict=True):
+        risen = part * heat
+        deeper = from_below[0].shape[1]
+        risen[:, :deeper] += from_below[0] * one[:, :deeper]
+        from_below.insert(0, risen)
+    emitted = mean[0] * layers[0]
+    deeper = from_below[0].shape[1]
+    emitted[:, :deeper] += from_below[0] * passed[0][:, :deeper]
+    held = emitted.shape[1]
+    total = np.array(
+        [
+            _mean(face, shares @ (flux / roots)),
+            _mean(face[:held], shares @ (emitted / roots[:, :held])),
+            0.0,
+            0.0,
+        ]
+    )
+    # Downwards through the upper edge: heat of the face, and of layers above with that which the face reflects.
+    entered, down = 2.0 * flux, emitted
+    for one, part, heat, up, thick in zip(passed, mean, layers, from_below, thickness, strict=True):
+        held, deeper = len(heat), up.shape[1]
+        entered, down = entered[..., :held], down[:, :held]
+        weighted = shares[:, None] * np.conj(heat) / roots[:, :held]
+        through = weighted * part
+        total[2] += float(np.sum(through * entered).real)
+        own = down.copy()
+        own[:, :deeper] += up
+        total[3] += float(np.sum(through * own + 2.0 / thick * weighted * (1.0 - part) / roots[:, :held] * heat).real)
+        entered, down = entered * one, down * one + heat * part
+    return total
 
 
 def _mean(one: ComplexArray, other: ComplexArray) -> float:

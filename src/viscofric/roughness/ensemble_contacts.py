@@ -114,9 +114,10 @@ def predict_heated(
 
     `contacts` have name, surface, speed and temperature each; `call` has the other arguments of `solve_periodic`.
     """
-    curves: dict[tuple[int, float], list[int]] = {}
+    curves: dict[tuple[int, float, bool], list[int]] = {}
     for row, one in enumerate(contacts):
-        curves.setdefault((id(one["surface"]), one["temperature"]), []).append(row)
+        backwards = one["speed"] < 0.0  # where a surface is another one
+        curves.setdefault((id(one["surface"]), one["temperature"], backwards), []).append(row)
     solve = [functools.partial(_isothermal, call, one["name"], one["surface"]) for one in contacts]
     every = [
         _ThermalContact(call["material"], heating, one["temperature"], one["speed"], isothermal, interface)

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 _STEP = 0.6
 #: First and last depth, times the wave number of the shortest and of the longest wave.
 _FIRST, _LAST = 0.2, 7.0
-#: Waves are followed down to this qz, at which their stress is 1e-4 of the pressure.
-_FADED = 12.0
+#: Waves are followed down to this qz, at which their stress is 3e-3 of the pressure: the loss changes by 1e-5.
+_FADED = 8.0
 
 
 def periodic_dissipation(

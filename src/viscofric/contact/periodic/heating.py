@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from viscofric.heat.layers import MovingHeat, Waves
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.fields.dissipation import Modes
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.heat.heating import NominalResistances
@@ -49,16 +49,35 @@ MEAN_LEFT_OUT = Note(
 class PeriodicThermalContact(ThermalContact):
     """Contact of a rough surface at any rise of temperature."""
 
+    knots_apart: ClassVar[float] = 0.3
+
     def heat(self, solution: PeriodicSolution, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
         """Return the heats of a contact solved at a temperature, per nominal area."""
-        assert relative is None, "spots come and go: resistances are not smooth"
+        area, size = self.area(solution), 0.5 * _length(solution)
+        if relative is None:
+            modes = self.modes(kelvin)
+            resistances = periodic_resistances(solution, modes, self.material.poisson_ratio, self.heating)
+        else:
+            rubber, other = self.closed(area, size)
+            below = [rubber * part for part in relative[:4]]
+            # Where a given slip is that of rolling the counterface rests below the contact: a peak that discs miss.
+            slips = self.heating.slip is not None
+            counterface = _counterface(solution, self.heating) if slips else other * relative.counterface
+            parts: Any = (*below, self.heating.nominal(self.speed).track, counterface)
+            resistances = ThermalResistances(*parts)
         return Heat(
-            periodic_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating),
+            resistances,
             self.heating.coulomb_heat(solution.mean_pressure, self.speed),
             abs(solution.friction_coefficient * solution.mean_pressure * solution.speed),
-            self.area(solution),
-            0.5 * _length(solution),
+            area,
+            size,
         )
+
+    def closed(self, area: float, size: float) -> tuple[float, float]:
+        """Return the rise of the rubber's face and of the counterface's per heat, of discs on a nominal one."""
+        nominal, per_spot = self.heating.nominal(self.speed), math.pi * size**2 / area
+        rubber, other = self.heating.face_resistances(abs(self.speed), size, line=False)
+        return nominal.rubber + per_spot * rubber, nominal.counterface + per_spot * other
 
     def area(self, solution: PeriodicSolution) -> float:
         """Return the contact area over the nominal one."""
@@ -104,23 +123,33 @@ def periodic_resistances(
 
     `modes` are those at the temperature at which it was solved.  The mean over the face is over the contact spots.
     """
-    shape = solution.pressure.shape[0], solution.pressure.shape[1]
     speed, toward = solution.speed, solution.direction
     velocity = speed * toward[0], speed * toward[1]
-    waves = Waves(shape, (shape[0] * _step(solution.x), shape[1] * _step(solution.y)))
-    flux, loaded = waves.of(solution.pressure / solution.pressure.mean()), solution.pressure > 0.0
-    # Where all is in contact its mean is that of the surface: the mean of what the heat meets takes its place.
-    face = flux if loaded.all() else waves.of(loaded / loaded.mean())
+    waves, flux, face = _on_face(solution)
     released = periodic_dissipation(solution.pressure, waves, modes, poisson_ratio, velocity).unit
     spots = MovingHeat(heating.rubber, waves, velocity).rises(flux, face, released)
-    over = speed - math.copysign(heating.sliding(speed), speed)
-    other = MovingHeat(heating.counterface, waves, (over * toward[0], over * toward[1])).surface_rise(flux, face)
     nominal = heating.nominal(speed)
     mean = _nominal_rises(heating, nominal, abs(speed), released)
     surface, loss, surface_below, loss_below = (one + another for one, another in zip(spots, mean, strict=True))
-    return ThermalResistances(
-        surface, loss, surface_below, loss_below, track=nominal.track, counterface=nominal.counterface + other
-    )
+    return ThermalResistances(surface, loss, surface_below, loss_below, nominal.track, _counterface(solution, heating))
+
+
+def _on_face(solution: PeriodicSolution) -> tuple[Waves, ComplexArray, ComplexArray]:
+    """Return waves of the heat on the face and of the weights of its mean, both of mean 1."""
+    shape = solution.pressure.shape[0], solution.pressure.shape[1]
+    waves = Waves(shape, (shape[0] * _step(solution.x), shape[1] * _step(solution.y)))
+    flux, loaded = waves.of(solution.pressure / solution.pressure.mean()), solution.pressure > 0.0
+    # Where all is in contact its mean is that of the surface: the mean of what the heat meets takes its place.
+    return waves, flux, flux if loaded.all() else waves.of(loaded / loaded.mean())
+
+
+def _counterface(solution: PeriodicSolution, heating: Heating) -> float:
+    """Return the rise of the counterface's face per heat of the nominal area, K m²/W."""
+    waves, flux, face = _on_face(solution)
+    speed, toward = solution.speed, solution.direction
+    over = speed - math.copysign(heating.sliding(speed), speed)
+    spots = MovingHeat(heating.counterface, waves, (over * toward[0], over * toward[1])).surface_rise(flux, face)
+    return heating.nominal(speed).counterface + spots
 
 
 def _nominal_rises(
@@ -134,9 +163,8 @@ def _nominal_rises(
         return 0.0, 0.0, 0.0, 0.0
     cells = Cells.of_disc(float(heating.nominal_radius))
     edges = np.concatenate([[0.0], np.cumsum(released.thickness)])
-    power = released.mean[:, None, None] * cells.inside
-    below = Dissipation(0.5 * (edges[1:] + edges[:-1]), released.thickness, power)
-    rises = cells.rises(Diffusion(heating.rubber, speed), cells.inside, cells.inside, below, power)
+    below = Dissipation(0.5 * (edges[1:] + edges[:-1]), released.thickness, released.mean)
+    rises = cells.rises_below(Diffusion(heating.rubber, speed), below)
     return tuple(nominal.rubber * one / rises[0] for one in rises)
 
 

@@ -32,8 +32,8 @@ _SECONDS = {
 # synthetic fluoroelastomer at 2 to 6 % of contact; the accuracy hardly matters).  Bytes for each point while solving.
 _SURFACE_SECONDS, _SURFACE_SECONDS_PER_POINT, _BYTES_PER_POINT = 0.012, 1.1e-6, 250.0
 #: Time of a friction curve with heating over that of its isothermal contacts: of free contacts 2.0 to 2.2
-#: (benchmarks/friction/heated.py), of rough surfaces, whose resistances are found at every speed, 5 to 16.
-HEATED_CURVE, HEATED_SURFACE = 2.2, 9.0
+#: (benchmarks/friction/heated.py), of rough surfaces 2.6 to 5.5.
+HEATED_CURVE, HEATED_SURFACE = 2.2, 4.0
 #: Runs of a heated contact over time, three or four, and the times at which its rise is found besides those stored.
 HEATED_RUNS, HEATED_TIMES = 3.5, 60
 #: The derivatives take about as long as friction itself.
