@@ -35,7 +35,9 @@ class Cells:
 
     setting: Setting
     grid: Grid  # the window that is tried first; it becomes wider where the contact is
-    tolerance: float  # of the contact conditions, relative to the unit of depth
+    # Of the contact conditions, relative to the depth that the unit of pressure causes in a step: what a gap that is left
+    # changes the pressure by grows with the stiffness of the body in the step, and the memory keeps it.
+    tolerance: float
     products: int = field(default=0, init=False)
     _operators: dict[tuple[tuple[int, int], float], StepOperator] = field(default_factory=dict, init=False)
     response: Response = field(init=False)
@@ -85,7 +87,7 @@ class Cells:
             operator, shape / whole, None if load is None else load / self.grid.cell_area,
             np.where(np.isfinite(shape), guess, 0.0),
             indentation=None if depth is None else depth / whole,
-            tolerance=self.tolerance / whole, depth=1.0, most_products=_MOST_PRODUCTS, patience=_PATIENCE,
+            tolerance=self.tolerance, depth=1.0, most_products=_MOST_PRODUCTS, patience=_PATIENCE,
             inner=inner, extension=operator.extension(inner.dtype),
         )  # fmt: skip
         self.products += operator.products - before
