@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 # Allowed distance from the periodic state, relative to the accuracy, in the norm of the stored energy.
 _CLOSE = 0.3
+_ROUGH, _ROUGHEST = 0.3, 10.0
 # Earlier iterations that the acceleration uses.
 _KEPT = 10
 # Relative difference between the ends of a period that counts as rounding.
@@ -178,7 +179,9 @@ class _Search:
             begun = mover.emptied(begun)
             link = Link(begun, mover.observe(begun), 0.0)
             begin = Reached(Pair(link, link))
-            track = march(mover, schedule, accuracy=accuracy, fields=False, begin=begin, extrapolate=extrapolate)
+            # Far from the periodic state a period need not be known better than the distance.
+            rough = max(accuracy, min(_ROUGH * self.change, _ROUGHEST * accuracy)) if not plain else accuracy
+            track = march(mover, schedule, accuracy=rough, fields=False, begin=begin, extrapolate=extrapolate)
             if track.interrupted:
                 raise KeyboardInterrupt
             state, before, period = track.reached.pair.fine.state, period, Period.of(track)
