@@ -35,8 +35,8 @@ class Cells:
 
     setting: Setting
     grid: Grid  # the window that is tried first; it becomes wider where the contact is
-    # Of the contact conditions, relative to the depth that the unit of pressure causes in a step: what a gap that is left
-    # changes the pressure by grows with the stiffness of the body in the step, and the memory keeps it.
+    # Of the contact conditions, in the depth that the unit of pressure causes in a step: the change of the pressure by
+    # a gap that is left grows with the stiffness of the body in the step, and the memory keeps it.
     tolerance: float
     products: int = field(default=0, init=False)
     _operators: dict[tuple[tuple[int, int], float], StepOperator] = field(default_factory=dict, init=False)
