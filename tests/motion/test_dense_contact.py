@@ -103,21 +103,21 @@ def test_ball_on_a_circle_that_closes():
     assert force == pytest.approx(exact[steps // 8 :: steps // 8], abs=8e-3 * np.abs(force).max())
 
 
-@pytest.mark.apart
+@pytest.mark.slow
 def test_cylinder_that_is_lifted_and_returns_to_its_track():
-    """The difference falls with the strips: 2.3e-3 and 1e-3 of the largest with 120 and 240."""
+    """The largest difference is 1.9e-3, 2e-4 and 1.5e-4 of the largest friction with 120, 240 and 480 strips."""
     time, load = [0.0, 0.01, 0.015, 0.02, 0.03], [0.0, 500.0, 0.0, 0.0, 500.0]
-    path, steps, count = [0.0, 2e-3, 2.5e-3, 2e-3, 0.0], 600, 240
+    path, steps, count = [0.0, 2e-3, 2.5e-3, 2e-3, 0.0], 1200, 480
     side = 2.0 * (1.25 * 2.1851e-3 + 1.3e-3) / count
     times = np.linspace(0.0, 0.03, steps + 1)
     exact = dense(
         strips(side, count), side, True, times, lambda now: np.interp(now, time, load),
         lambda now: (np.interp(now, time, path) - 1.25e-3, 0.0),
     )[:, 0]  # fmt: skip
-    asked = np.array([80, 160, 200, 250, 280, 440, 500, 600])
+    asked = 2 * np.array([80, 160, 200, 250, 280, 440, 500, 600])
     history = vf.History(time, load=load, position=path)
     run = vf.solve_transient(RUBBER, vf.Cylinder(R), history, times=times[asked], accuracy=1e-2)
-    assert run.friction_force == pytest.approx(exact[asked], abs=3e-3 * np.abs(exact).max())
+    assert run.friction_force == pytest.approx(exact[asked], abs=1e-3 * np.abs(exact).max())
 
 
 def rings(edge, count):
