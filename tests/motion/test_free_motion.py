@@ -90,6 +90,16 @@ def test_friction_of_a_stiff_cylinder_fades_smoothly_after_a_stop():
     assert run.energy_imbalance < 1e-3
 
 
+def test_the_load_after_a_glassy_start_is_as_accurate_as_asked():
+    """A depth is put on at once: 800 times the later load for a moment, of which no part is left as an error."""
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="800 MPa", tau="0.2 s")
+    history = vf.History([0.0, 0.5, 0.5, 1.0], indentation=7e-5, speed=[0.0, 0.0, 5e-4, 5e-4])
+    run = vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=[0.4, 1.0], accuracy=2e-2)
+    relaxed = 4.0 / 3.0 * 1e6 / 0.75 * np.sqrt(0.01 * 7e-5**3)
+    assert run.load[0] == pytest.approx(relaxed, rel=2e-2)
+    assert run.errors.load.max() < 2e-2 * run.load.max()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("ratio", "peak", "place"), [(10.0, 4.0, 0.27), (1.0, 1.08, 0.34)])
 def test_friction_overshoots_after_a_start_from_rest(ratio, peak, place):

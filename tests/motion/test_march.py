@@ -25,7 +25,10 @@ class Unsteady:
     marked: tuple[float, ...] | None = None  # ticks
 
     scales = Scales(1.0, 1.0, 1.0, 1.0)
-    share, tolerance, quickest, can_tighten = 0.05, 0.0, 1e-2, False
+    share, quickest, can_tighten = 0.05, 1e-2, False
+
+    def floor(self, largest):
+        return Scales(0.0, 0.0, 0.0, 0.0)
 
     def begin(self):
         return 0, 0.0

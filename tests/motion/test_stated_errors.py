@@ -145,8 +145,8 @@ def test_a_lower_tolerance_has_its_memory_in_double_precision():
     """E∞/E0 times the rounding of single precision is more than a step may add to the friction."""
     history = vf.History([0.0, 0.1], pressure=5e3, speed=0.01)
     mover = PeriodicMover(checked_problem(RUBBER, ridges(), history, 1e-2, None, None, 0.3))
-    before = mover.tolerance
+    before = mover.floor(mover.scales)
     assert mover.begin().memory.dtype == np.complex64
     mover.tighten()
     assert mover.begin().memory.dtype == np.complex128
-    assert mover.tolerance == pytest.approx(0.1 * before)
+    assert mover.floor(mover.scales) == pytest.approx(0.1 * np.array(before))

@@ -150,9 +150,9 @@ def field_of(mover: Mover[State], pair: Pair[State]) -> Field:
     return replace(fine, error=fine.apart(coarse))
 
 
-def floor_of(scales: Scales, tolerance: float, instant: Instant) -> Errors:
+def floor_of(floor: Scales, instant: Instant) -> Errors:
     """Return the errors by the contact conditions; none of what is prescribed."""
-    load, depth, friction, energy = (tolerance * one for one in scales)
+    load, depth, friction, energy = floor
     given = instant.depth is None and instant.gap is None
     return Errors(0.0 if given else load, depth if given else 0.0, friction, energy)
 

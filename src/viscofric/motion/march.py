@@ -350,7 +350,7 @@ class _March(Generic[State]):
         if not asked and self.times is not None:
             return
         held = field_of(self.mover, pair) if self.fields else None
-        floor = floor_of(self._scales, self.mover.tolerance, instant)
+        floor = floor_of(self.mover.floor(self._scales), instant)
         early = self.mover.early(self.schedule.since_jump(instant))
         self.moments += times * [
             moment_of(pair, instant, held, self._spread, floor, early=early, extrapolate=self.extrapolate)

@@ -119,9 +119,8 @@ class Mover(Protocol[State]):
         """First part of the accuracy that one step may add to the difference of the chains, between times asked for."""
         ...
 
-    @property
-    def tolerance(self) -> float:
-        """Error by the contact conditions, which are met to a tolerance, in parts of the largest values."""
+    def floor(self, largest: Scales) -> Scales:
+        """Return the errors by the contact conditions, which are met to a tolerance, from the largest values so far."""
         ...
 
     @property

@@ -110,10 +110,9 @@ class NormalMotion:
         ends = [self.schedule.at(float(time)) for time in self.schedule.kinks[[0, -1]]]
         return np.asarray(self.tau < _QUICK * (ends[1].clock - ends[0].clock))
 
-    @property
-    def tolerance(self) -> float:
-        """Zero: the contact conditions are met to rounding."""
-        return 0.0
+    def floor(self, largest: Scales) -> Scales:  # noqa: ARG002 - that of a mover
+        """Return zeros: the contact conditions are met to rounding."""
+        return Scales(0.0, 0.0, 0.0, 0.0)
 
     def tighten(self) -> None:
         """Do nothing: the contact conditions are met to rounding."""

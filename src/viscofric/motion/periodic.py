@@ -120,10 +120,9 @@ class PeriodicMover:
         slope = max(float(self.surface.slope(axis).std()) for axis in ((1.0, 0.0), (0.0, 1.0)))
         return Scales(pressure, self.depth_unit, _LEAST_FRICTION * slope * pressure, pressure * self.depth_unit)
 
-    @property
-    def tolerance(self) -> float:
-        """Of the contact conditions, in parts of the largest values."""
-        return self._tightness
+    def floor(self, largest: Scales) -> Scales:
+        """Return the errors by the contact conditions: a part of the largest values."""
+        return Scales(*(self._tightness * one for one in largest))
 
     @property
     def can_tighten(self) -> bool:

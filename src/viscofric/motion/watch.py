@@ -82,10 +82,9 @@ class Watch:
         """Of the mover."""
         return self.mover.share
 
-    @property
-    def tolerance(self) -> float:
-        """Of the mover."""
-        return self.mover.tolerance
+    def floor(self, largest: Scales) -> Scales:
+        """Return that of the mover."""
+        return self.mover.floor(largest)
 
     @property
     def can_tighten(self) -> bool:

@@ -47,7 +47,7 @@ _FINER_STEPS = 0.7
 _LEFT = 1.0 / (_FINER**2 - 1.0)
 # Part of the error of the steps that is left after its extrapolation; margin of the errors of friction and energy by
 # cells, whose signs change; least one of the energy, over that of cells of second order (benchmarks/motion).
-_STEPS_LEFT, _MARGIN, _LEAST_ENERGY = 0.5, 1.5, 1.5
+_STEPS_LEFT, _MARGIN, _LEAST_ENERGY = 0.5, 2.0, 1.5
 # After a start or a turn, friction changes within slides of no length: so many steps and cells of the coarser grid are
 # not judged, of the way to the next turn at most such a part.
 _RESOLVED_STEPS, _RESOLVED_CELLS, _UNJUDGED = 4, 4, 0.1
