@@ -358,7 +358,7 @@ FOREIGN_TEXT = (
     "viscofric.study.results.file",
     "viscofric.study.results.export",
     "viscofric.study.run_file.tables",
-    "viscofric.study.cases.surfaces",
+    "viscofric.friction.cases.surfaces",
     "viscofric.report.figures.saving",
     "viscofric.report.html",
     "viscofric.web.access",

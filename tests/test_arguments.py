@@ -465,7 +465,7 @@ CALLS: dict[str, Any] = {
     "Identified.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
     "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":
         [300.0], "load": 1e3, "samples": None, "interface": eyring(), "slip": 0.1, "accuracy": 3e-2, "workers": 1,
-        "progress": None, "finest": 2048, "heating": None},
+        "progress": None, "finest": 2048, "heating": None, "exact": False},
     "shear_stress": lambda: {"curves": rubbed(), "contacts": rubbed(), "shift": None, "reference": 300.0,
         "level_error": 0.0, "area_error": 0.0},
     "ShearStress.law": lambda: (vf.shear_stress(rubbed(), rubbed()), {"kind": "power"}),

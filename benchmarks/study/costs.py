@@ -2,7 +2,7 @@
 
 Usage: python benchmarks/study/costs.py [--speeds 6] [--json FILE]
 
-Estimates of what a study takes (`viscofric.study.planning.estimates`) rest on it.
+Estimates of what a study takes (`viscofric.study.cases.estimates`) rest on it.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ import measuring
 import numpy as np
 
 import viscofric as vf
-from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.cases.solving import Task, solve
-from viscofric.study.planning.plan import plan_cases
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.solving import Task, solve
+from viscofric.friction.planning.plan import plan_cases
 
 COLUMNS = (
     ("accuracy", "accuracy", ".0e"),

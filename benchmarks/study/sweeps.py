@@ -24,10 +24,10 @@ import measuring
 import numpy as np
 from problems import CURVE_BALL, CURVE_LOAD, CURVE_RUBBER
 
-from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.cases.record import Record
-from viscofric.study.cases.solving import Task, solve
-from viscofric.study.planning.plan import Plan, plan_cases
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.record import Record
+from viscofric.friction.cases.solving import Task, solve
+from viscofric.friction.planning.plan import Plan, plan_cases
 from viscofric.study.running.executors import Processes, Serial
 from viscofric.study.running.running import run_plan
 from viscofric.study.running.store import CaseStore

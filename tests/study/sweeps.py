@@ -12,8 +12,8 @@ import xarray
 
 import viscofric as vf
 from viscofric.datasets import dataset
-from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.cases.record import ContactFields, Failure, Record
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.record import ContactFields, Failure, Record
 from viscofric.study.cases.sweep import Axis, Sweep
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, provenance

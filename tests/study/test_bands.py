@@ -11,8 +11,8 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import ConvergenceError
+from viscofric.friction.cases.record import Record
 from viscofric.study import StudyResults, run_study
-from viscofric.study.cases.record import Record
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.run_file.study import load_study
 
@@ -76,7 +76,7 @@ def test_stored_cases_give_the_same_bands_again(results: StudyResults, monkeypat
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
-    monkeypatch.setattr("viscofric.study.cases.solving.solve_with_sensitivity", refuse)
+    monkeypatch.setattr("viscofric.friction.cases.solving.solve_with_sensitivity", refuse)
     again = run_study(results.folder.parent / "study.toml", resume=True)
     for name in ("friction_lower", "friction_upper"):
         for part in ("prediction", "prediction_master"):
@@ -107,7 +107,7 @@ def test_a_rubber_that_was_ready_has_no_bands_and_says_so(tmp_path: Path) -> Non
 
 @pytest.mark.slow
 def test_friction_is_kept_where_only_its_band_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from viscofric.study.cases import solving
+    from viscofric.friction.cases import solving
 
     solve = solving.solve_with_sensitivity
 

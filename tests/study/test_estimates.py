@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from study.planning.made_up_contacts import SLS, carry_out, case_of
-from viscofric.study.planning.estimates import estimate
-from viscofric.study.planning.plan import plan_cases
+from friction.planning.made_up_contacts import SLS, carry_out, case_of
+from viscofric.friction.planning.plan import plan_cases
+from viscofric.study.cases.estimates import estimate
 
 CASES = [
     case_of(speed, temperature)

@@ -14,9 +14,8 @@ ROOT = Path(viscofric.study.__file__).parent
 ALLOWED = {
     "cases": set(),
     "run_file": {"cases"},
-    "planning": {"cases"},
     "results": {"cases", "run_file"},
-    "running": {"cases", "planning", "run_file", "results"},
+    "running": {"cases", "run_file", "results"},
 }
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import ConvergenceError, StudyError
+from viscofric.friction.cases.case import Rubbers
 from viscofric.notes import codes
 from viscofric.report.captions import captions
 from viscofric.report.figures.heating import heated_parts_figure, heating_figure, temperature_map_figure
@@ -17,7 +18,6 @@ from viscofric.report.figures.histories import histories_figure
 from viscofric.report.texts.study import scope
 from viscofric.rheology.shifts.vertical_shift import DensityShift
 from viscofric.study.cases import heating as cases
-from viscofric.study.cases.case import Rubbers
 from viscofric.study.checking import check_study
 from viscofric.study.histories import Histories, material_notes
 from viscofric.study.results.columns import columns_of

@@ -11,8 +11,8 @@ import pytest
 import viscofric as vf
 from study.wrong_run_files import NO_TOML, WRONG, Wrong
 from viscofric.errors import InputError, StudyError
+from viscofric.friction.cases.surfaces import step_of
 from viscofric.friction.identification.conclusions import with_origin
-from viscofric.study.cases.surfaces import step_of
 from viscofric.study.run_file.study import parse_study
 
 

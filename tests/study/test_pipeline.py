@@ -175,7 +175,7 @@ def test_a_second_run_solves_nothing_again(tmp_path: Path, monkeypatch: pytest.M
 
     path = _small_study(tmp_path, speed='speed = ["50 mm/s", "100 mm/s"]')
     results = run_study(path)
-    monkeypatch.setattr("viscofric.study.cases.solving.solve_with_sensitivity", refuse)
+    monkeypatch.setattr("viscofric.friction.cases.solving.solve_with_sensitivity", refuse)
     again = run_study(path, resume=True)
     first, second = (one.tree["prediction"]["friction_coefficient"].values for one in (results, again))
     np.testing.assert_array_equal(first, second)

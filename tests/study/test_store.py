@@ -12,8 +12,8 @@ from refusals import refused
 from study import sweeps
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
-from viscofric.study.cases.record import Failure
-from viscofric.study.cases.solving import _sources, key_of
+from viscofric.friction.cases.record import Failure
+from viscofric.friction.cases.solving import _sources, key_of
 from viscofric.study.running.store import CaseStore, Damaged
 
 if TYPE_CHECKING:

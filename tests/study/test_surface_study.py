@@ -11,22 +11,22 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import solve
+from viscofric.friction.cases.surface_case import SurfaceCase
+from viscofric.friction.cases.surfaces import MadeSurface
+from viscofric.friction.planning.plan import plan_cases
 from viscofric.notes import codes
 from viscofric.study import open_results, run_study
-from viscofric.study.cases.record import Failure, Record
-from viscofric.study.cases.solving import solve
-from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.cases.surfaces import MadeSurface
 from viscofric.study.checking import check_study
-from viscofric.study.planning.plan import plan_cases
 from viscofric.study.run_file.study import parse_study
 from viscofric.study.running.store import CaseStore
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from viscofric.friction.cases.case import Case
     from viscofric.study import StudyResults
-    from viscofric.study.cases.case import Case
 
 STUDY = """
 [material]

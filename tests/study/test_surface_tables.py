@@ -11,8 +11,8 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import DataFileError, StudyError
-from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.cases.surfaces import STEPS, MadeSurface, ScannedSurface, step_of, surface_of, unit_vector
+from viscofric.friction.cases.surface_case import SurfaceCase
+from viscofric.friction.cases.surfaces import STEPS, MadeSurface, ScannedSurface, step_of, surface_of, unit_vector
 from viscofric.study.run_file.study import load_study, parse_study
 
 MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'

@@ -17,7 +17,7 @@ from viscofric.study.cases.sweep import axes_of, count_cases
 from viscofric.study.run_file.study import parse_study
 
 if TYPE_CHECKING:
-    from viscofric.study.cases.indenter_case import IndenterCase as Case
+    from viscofric.friction.cases.indenter_case import IndenterCase as Case
     from viscofric.study.run_file.study import Study
 
 MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'

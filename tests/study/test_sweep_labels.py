@@ -11,9 +11,9 @@ import xarray
 
 from study.sweeps import RECORD, friction_of, made_outcomes, made_sweep
 from viscofric.contact.indenters.shapes import Cylinder
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.record import NUMBERS, Record
 from viscofric.friction.curves import FrictionCurves
-from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.cases.record import NUMBERS, Record
 from viscofric.study.cases.sweep import Axis, Sweep
 from viscofric.study.results.tree import field_groups, material_groups, prediction
 

@@ -12,7 +12,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import ViscofricError
-from viscofric.study.cases.record import SURFACE_NUMBERS
+from viscofric.friction.cases.record import SURFACE_NUMBERS
 from viscofric.web.jobs import curve
 from viscofric.web.study_text import study_text
 from web.contact_studies import BALL, ROUGH, Desk
@@ -112,7 +112,7 @@ def test_the_same_again_takes_what_was_solved(desk: Desk) -> None:
         "conditions": {**BALL["conditions"], "speed": {"from": "20 mm/s", "to": "200 mm/s", "points": 11}},
     }
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("viscofric.study.cases.solving.solve_steady", lambda *given, **more: solved.append(given))
+        patch.setattr("viscofric.friction.cases.solving.solve_steady", lambda *given, **more: solved.append(given))
         assert desk.run(curve, BALL) == first
     assert solved == []
     # Points that were there are as they were, to the accuracy; contacts about them serve those between.

@@ -120,8 +120,8 @@ def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
     given = [option(name) for name in SHAPES if parameters[name] is not None]
     if given:
         raise click.UsageError(f"--surface and {given[0]} are both given; the contact has one of them.")
+    from viscofric.friction.cases.surfaces import step_of
     from viscofric.roughness.reading import read_topography
-    from viscofric.study.cases.surfaces import step_of
 
     steps = None if parameters["spacing"] is None else _spacing(parameters)
     topography = read_topography(path, unit=parameters["height_unit"] or "", spacing=steps)

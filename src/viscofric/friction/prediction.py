@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from viscofric.arguments import insist_on, insist_on_function
+from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
@@ -15,7 +15,9 @@ from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
 from viscofric.friction.interface.prediction import check_interface, with_interface
+from viscofric.friction.planning.shared import shared_records
 from viscofric.friction.sensitivity import solve_with_sensitivity
+from viscofric.friction.solved_columns import columns_of_records
 from viscofric.heat.heating import Heating
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.interface.friction import check_interface_heat
@@ -45,9 +47,13 @@ def predict_friction(
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     heating: Heating | None = None,
+    exact: bool = False,
     **settings: Unpack[ContactOptions],
 ) -> FrictionCurves:
-    """Predict friction at every one of the speeds and temperatures by solving the contact.
+    """Predict friction at every one of the speeds and temperatures.
+
+    Many of them are interpolated between contacts on their common curve, Eq. (10), as finely as the accuracy requires;
+    few are solved one by one.
 
     Parameters
     ----------
@@ -77,11 +83,14 @@ def predict_friction(
         Processes that share the contacts out among them, or `viscofric.processes.Workers` that are kept for more; the
         result is the same to the last digit.
     progress : callable, optional
-        Called as ``progress(done, total)`` before the first and after every contact.
+        Called as ``progress(done, total)`` with the speeds known, before the first and after every contact.
     heating : Heating, optional
         Thermal properties and Coulomb heat: each contact is at the temperature to which its own friction heats it, in
         its cold and its hot state where it has two.  About three times the cost; not with samples.  With an interface,
         its shear stress at that temperature makes the Coulomb heat, and the slip is that of the heating.
+    exact : bool
+        Whether to solve every contact by itself.  This is also done for a table of moduli, and with settings other
+        than `layer`, `indenter_modulus` and `indenter_poisson_ratio`.
     **settings
         Of `solve_steady`, the same for all contacts: `layer`, `direction`, `indenter_modulus`,
         `indenter_poisson_ratio`, `tolerance`, `finest`, `window`, `grid`, `backend` and `coulomb` (not
@@ -122,6 +131,7 @@ def predict_friction(
     insist_on_indenter(indenter)
     insist_on_round_edges(indenter)
     insist_on_function(progress, "progress")
+    flag(exact, "exact")
     force = positive(load, indenter.geometry.load_unit, "load")
     _insist_on_values(velocities, "speeds", "m/s")
     _insist_on_values(kelvins, "temperatures", "K")
@@ -152,16 +162,37 @@ def predict_friction(
     if heating is not None:
         curves: FrictionCurves = (heated := predict_heated(contacts, heating, workers, report, interface))
         slip, rise = heating.slip, heated.face_rise
-    elif drawn is None:
-        curves = FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
     else:
-        pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
-        curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
-        curves = with_material_band(curves, [sensitivity for _, sensitivity in pairs], drawn)
+        curves = _isothermal(material, contacts, drawn, workers, report, exact)
     if interface is None:
         return curves
     layer = settings.get("layer")
     return with_interface(curves, interface, slip, poisson_ratio=material.poisson_ratio, layer=layer, rise=rise)
+
+
+def _isothermal(
+    material: Material,
+    contacts: list[dict[str, Any]],
+    drawn: DrawnMaterials | None,
+    workers: int | Workers,
+    report: Callable[[int], None],
+    exact: bool,
+) -> FrictionCurves:
+    """Return the friction of contacts, interpolated between fewer where that is enough, with the material's band."""
+    records = None
+    if not exact:
+        records = shared_records(material, contacts, sensitive=drawn is not None, workers=workers, report=report)
+    if records is not None:
+        unit = contacts[0]["indenter"].geometry.load_unit
+        curves = FrictionCurves(**columns_of_records(records, unit), source="predicted")
+        sensitivities = [record.sensitivity for record in records]
+    elif drawn is None:
+        return FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
+    else:
+        pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
+        curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
+        sensitivities = [sensitivity for _, sensitivity in pairs]
+    return curves if drawn is None else with_material_band(curves, sensitivities, drawn)  # type: ignore[arg-type]
 
 
 def _check_heating(

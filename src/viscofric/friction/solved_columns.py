@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError
+from viscofric.friction.cases.record import indenter_record
 from viscofric.notes import note_of
 from viscofric.units import shown_number
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viscofric.arrays import Array
+    from viscofric.friction.cases.record import Record
 
 
 def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
@@ -39,24 +46,35 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
             "solutions of point contacts and of line contacts, whose loads are per length, do not form one curve.",
             code="mixed-geometries",
         )
+    return columns_of_records(
+        [indenter_record(solution, float(solution.temperature)) for solution in solved],
+        units.pop() if units else "N",
+    )
+
+
+def columns_of_records(records: Sequence[Record], load_unit: str) -> dict[str, Any]:
+    """Return what `FrictionCurves` needs of contacts, solved or interpolated, one entry each."""
+
+    def column(name: str) -> Array:
+        return np.array([getattr(record, name) for record in records], dtype=float)
+
+    speed, load, area = column("speed"), column("load"), column("contact_area")
     return {
-        "speed": np.array([abs(solution.speed) for solution in solved]),
-        "temperature": np.array([solution.temperature for solution in solved], dtype=float),
-        "load": np.array([solution.load for solution in solved]),
-        "viscoelastic": np.array([math.copysign(1.0, s.speed) * s.friction_coefficient for s in solved]),
-        "viscoelastic_error": np.array([solution.diagnostics.friction_error for solution in solved]),
-        "viscoelastic_scatter": np.zeros(len(solved)),
-        "replicates": np.ones(len(solved), dtype=np.int64),
-        "mean_pressure": np.array([solution.mean_pressure for solution in solved]),
-        "mean_pressure_error": np.array(
-            [s.mean_pressure * s.diagnostics.contact_area_error / s.contact_area for s in solved]
-        ),
-        "notes": _warnings(solved),
-        "load_unit": units.pop() if units else "N",
+        "speed": np.abs(speed),
+        "temperature": column("temperature"),
+        "load": load,
+        "viscoelastic": np.copysign(1.0, speed) * column("friction_coefficient"),
+        "viscoelastic_error": column("friction_error"),
+        "viscoelastic_scatter": np.zeros(len(records)),
+        "replicates": np.ones(len(records), dtype=np.int64),
+        "mean_pressure": load / area,
+        "mean_pressure_error": load / area**2 * column("contact_area_error"),
+        "notes": _warnings(records),
+        "load_unit": load_unit,
     }
 
 
-def _warnings(solutions: tuple[ContactSolution, ...]) -> tuple[str, ...]:
+def _warnings(solutions: Sequence[Record]) -> tuple[str, ...]:
     """Return the warnings of many solutions, each once."""
     warned = [solution for solution in solutions if solution.warnings]
     if not warned:

@@ -110,7 +110,7 @@ class NormalMotion:
         ends = [self.schedule.at(float(time)) for time in self.schedule.kinks[[0, -1]]]
         return np.asarray(self.tau < _QUICK * (ends[1].clock - ends[0].clock))
 
-    def floor(self, largest: Scales) -> Scales:  # noqa: ARG002 - that of a mover
+    def floor(self, largest: Scales) -> Scales:
         """Return zeros: the contact conditions are met to rounding."""
         return Scales(0.0, 0.0, 0.0, 0.0)
 

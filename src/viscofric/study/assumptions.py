@@ -9,8 +9,8 @@ import numpy as np
 
 from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
+from viscofric.friction.cases.surfaces import MadeSurface, surface_of
 from viscofric.notes import Note, note_of
-from viscofric.study.cases.surfaces import MadeSurface, surface_of
 from viscofric.study.study_rubber import curves_of
 
 if TYPE_CHECKING:
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
     import xarray
 
+    from viscofric.friction.cases.indenter_case import IndenterCase
+    from viscofric.friction.cases.record import Record
+    from viscofric.friction.cases.surface_case import SurfaceCase
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.cases.indenter_case import IndenterCase
-    from viscofric.study.cases.record import Record
-    from viscofric.study.cases.surface_case import SurfaceCase
     from viscofric.study.contacts import Contacts, Solved
     from viscofric.study.run_file.study import Study
 

@@ -9,13 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError, StudyError
-from viscofric.study.cases.case import moved
-from viscofric.study.cases.surfaces import surface_of
-from viscofric.study.histories import case_histories, checked_table, is_heated, material_notes
-from viscofric.study.impacts import impacts_of
-from viscofric.study.make_rubber import make_rubber
-from viscofric.study.measurement import read_measurement
-from viscofric.study.planning.estimates import (
+from viscofric.friction.cases.case import moved
+from viscofric.friction.cases.surfaces import surface_of
+from viscofric.study.cases.estimates import (
     HEATED_CURVE,
     HEATED_RUNS,
     HEATED_SURFACE,
@@ -24,6 +20,10 @@ from viscofric.study.planning.estimates import (
     estimate,
     seconds_over_time,
 )
+from viscofric.study.histories import case_histories, checked_table, is_heated, material_notes
+from viscofric.study.impacts import impacts_of
+from viscofric.study.make_rubber import make_rubber
+from viscofric.study.measurement import read_measurement
 from viscofric.study.rubber import shift_of
 
 if TYPE_CHECKING:
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
     from viscofric.friction.curves import FrictionCurves
     from viscofric.notes import Note
+    from viscofric.study.cases.estimates import Expectation
     from viscofric.study.cases.sweep import Sweep
-    from viscofric.study.planning.estimates import Expectation
     from viscofric.study.rubber import Rubber
     from viscofric.study.run_file.study import Study
 

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.friction.cases.case import moved
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.planning.plan import plan_cases
 from viscofric.notes import Note
-from viscofric.study.cases.case import moved
-from viscofric.study.cases.record import Failure, Record
 from viscofric.study.cases.sweep import place, place_in
-from viscofric.study.planning.plan import plan_cases
 from viscofric.study.study_rubber import all_within
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.study.cases.case import Case
+    from viscofric.friction.cases.case import Case
+    from viscofric.friction.planning.plan import Plan
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.measurement import Measurement
-    from viscofric.study.planning.plan import Plan
     from viscofric.study.run_file.study import Study
     from viscofric.study.study_rubber import StudyRubber
 

@@ -11,9 +11,9 @@ import numpy as np
 from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.errors import StudyError
 from viscofric.files import file_path
+from viscofric.friction.cases.record import Failure
 from viscofric.notes import Note, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
-from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.histories import Histories, material_notes
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from viscofric.study.planning.singles import Singles
+    from viscofric.study.cases.singles import Singles
     from viscofric.study.run_file.study import Study
     from viscofric.study.running.running import Progress
 

@@ -9,13 +9,13 @@ import numpy as np
 
 from viscofric.contact.heated import AT_THE_LOSS, THIN
 from viscofric.errors import InputError
+from viscofric.friction.cases.case import moved
+from viscofric.friction.cases.record import Failure, HistoryRecord
+from viscofric.friction.cases.solving import Task
+from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.notes import Note
-from viscofric.study.cases.case import moved
 from viscofric.study.cases.heating import COLUMNS, solve_heated, solve_temperature_map
-from viscofric.study.cases.record import Failure, HistoryRecord
-from viscofric.study.cases.solving import Task
-from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.planning.singles import Singles
+from viscofric.study.cases.singles import Singles
 from viscofric.study.results.tree import axis_coordinates, meaning_of
 from viscofric.thermal import BODIES
 from viscofric.units import shown_celsius
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.friction.cases.case import Case, Rubbers
     from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.cases.case import Case, Rubbers
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.heating import HeatingTable
     from viscofric.study.run_file.study import Study

@@ -6,17 +6,17 @@ import itertools
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError, StudyError
+from viscofric.friction.cases.record import Failure
+from viscofric.friction.cases.solving import Task
+from viscofric.friction.cases.surface_case import SurfaceCase
+from viscofric.friction.cases.surfaces import unit_vector
 from viscofric.motion.history_files import read_history
 from viscofric.motion.stages import staged_history
 from viscofric.readers.history_columns import history_columns
 from viscofric.rheology.material import Material
 from viscofric.study.cases.history import solve_history
-from viscofric.study.cases.record import Failure
-from viscofric.study.cases.solving import Task
-from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.cases.surfaces import unit_vector
+from viscofric.study.cases.singles import Singles
 from viscofric.study.heating import COULOMB
-from viscofric.study.planning.singles import Singles
 from viscofric.study.results.tree import axis_coordinates, meaning_of
 from viscofric.study.run_file.study import isothermal
 
@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
     import xarray
 
+    from viscofric.friction.cases.case import Rubbers
     from viscofric.motion.history import History
     from viscofric.notes import Note
-    from viscofric.study.cases.case import Rubbers
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.history import HistoryTable
     from viscofric.study.run_file.study import Study

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.cases.record import Failure
+from viscofric.friction.cases.solving import Task
 from viscofric.study.cases.history import solve_hit
-from viscofric.study.cases.record import Failure
-from viscofric.study.cases.solving import Task
+from viscofric.study.cases.singles import Singles
 from viscofric.study.cases.sweep import shown
-from viscofric.study.planning.singles import Singles
 from viscofric.study.results.tree import axis_coordinates, meaning_of
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Indices
-    from viscofric.study.cases.case import Rubbers
+    from viscofric.friction.cases.case import Rubbers
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.history import ImpactTable
     from viscofric.study.run_file.study import Study

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.indenters.shapes import Ball
+    from viscofric.friction.cases.record import Record
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.rheology.material import Material
-    from viscofric.study.cases.record import Record
     from viscofric.study.run_file.measurement import MeasurementTable
     from viscofric.study.study_rubber import FrictionBands
 

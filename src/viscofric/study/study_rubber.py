@@ -20,11 +20,11 @@ from viscofric.units import shown_celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from viscofric.friction.cases.case import Case
+    from viscofric.friction.cases.record import Record
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-    from viscofric.study.cases.case import Case
-    from viscofric.study.cases.record import Record
     from viscofric.study.run_file.material import MaterialTable
     from viscofric.study.run_file.settings import UncertaintyTable
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import viscofric as vf
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.cases.record import Failure, Record
-from viscofric.study.cases.solving import Task, solve
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import Task, solve
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.study.planning.plan import Outcome, Plan
+    from viscofric.friction.planning.plan import Outcome, Plan
 
 BALL = vf.Ball(0.01)
 SLS = vf.Material(

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from study.planning.made_up_contacts import BALL, SLS, case_of, made_up
+from friction.planning.made_up_contacts import BALL, SLS, case_of, made_up
 from viscofric.contact.free.scale import Scale
-from viscofric.study.cases.indenter_case import LOGARITHMIC, node_of
-from viscofric.study.cases.interpolation import FRICTION, Node
-from viscofric.study.planning.curve import STEP, Curve
-from viscofric.study.planning.plan import plan_cases
+from viscofric.friction.cases.indenter_case import LOGARITHMIC, node_of
+from viscofric.friction.cases.interpolation import FRICTION, Node
+from viscofric.friction.planning.curve import STEP, Curve
+from viscofric.friction.planning.plan import plan_cases
 
 RECORD = made_up(plan_cases([case_of(0.1)], [SLS], each=True).wanted()[0])
 NODE = node_of(RECORD, Scale.for_load(BALL, 1e6 / 0.75, RECORD.load))

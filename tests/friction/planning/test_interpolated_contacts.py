@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from study.planning.made_up_contacts import carry_out, case_of, solved
-from viscofric.study.cases.record import Record
-from viscofric.study.cases.solving import solve
-from viscofric.study.planning.plan import plan_cases
+from friction.planning.made_up_contacts import carry_out, case_of, solved
+from viscofric.friction.cases.record import Record
+from viscofric.friction.cases.solving import solve
+from viscofric.friction.planning.plan import plan_cases
 
 if TYPE_CHECKING:
     from viscofric.study.cases.sweep import Case

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from friction.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from refusals import refused
-from study.planning.made_up_contacts import SLS, carry_out, case_of, made_up
-from viscofric.study.cases.record import Failure, Record
-from viscofric.study.cases.solving import solve
-from viscofric.study.planning.plan import plan_cases
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import solve
+from viscofric.friction.planning.plan import plan_cases
 
 
 def test_equal_cases_are_solved_once() -> None:

@@ -10,10 +10,10 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.errors import ConvergenceError
-from viscofric.study.cases.case import Settings
-from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.cases.record import Failure, Record
-from viscofric.study.cases.solving import Task, solve
+from viscofric.friction.cases.case import Settings
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import Task, solve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

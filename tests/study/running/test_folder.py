@@ -14,7 +14,7 @@ import pytest
 
 from refusals import refused
 from viscofric.errors import DataFileError, StudyError
-from viscofric.study.cases.record import Failure
+from viscofric.friction.cases.record import Failure
 from viscofric.study.running.folder import _holder_is_alive, study_folder
 
 if TYPE_CHECKING:

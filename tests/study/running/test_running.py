@@ -11,8 +11,8 @@ import pytest
 from refusals import refused
 from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
-from viscofric.study.cases.record import Failure, Record
-from viscofric.study.cases.solving import solve
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import solve
 from viscofric.study.running.executors import Processes, Serial, take
 from viscofric.study.running.running import Event, run_plan
 from viscofric.study.running.store import CaseStore, Damaged

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
-from viscofric.study.cases.record import Failure
+from viscofric.friction.cases.record import Failure
 from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
+    from viscofric.friction.cases.interpolation import Between, Node
+    from viscofric.friction.cases.record import Record
+    from viscofric.friction.cases.solving import Task
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.study.cases.interpolation import Between, Node
-    from viscofric.study.cases.record import Record
-    from viscofric.study.cases.solving import Task
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ class Case(ABC):
     @property
     @abstractmethod
     def cost(self) -> str:
-        """Its kind in the estimates of computing time; see `viscofric.study.planning.estimates`."""
+        """Its kind in the estimates of computing time; see `viscofric.study.cases.estimates`."""
 
     @property
     def points(self) -> int:

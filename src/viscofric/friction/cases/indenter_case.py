@@ -20,12 +20,12 @@ from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
+from viscofric.friction.cases.case import Case, Place
+from viscofric.friction.cases.interpolation import FRICTION, Between, Node
+from viscofric.friction.cases.record import Failure, Record, indenter_record
+from viscofric.friction.cases.sensitivities import Sensitivities
+from viscofric.friction.cases.solving import Task, solve_indenter
 from viscofric.rheology.material import Material
-from viscofric.study.cases.case import Case, Place
-from viscofric.study.cases.interpolation import FRICTION, Between, Node
-from viscofric.study.cases.record import Failure, Record, indenter_record
-from viscofric.study.cases.sensitivities import Sensitivities
-from viscofric.study.cases.solving import Task, solve_indenter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
+    from viscofric.friction.cases.case import Rubbers, Settings
+    from viscofric.friction.cases.interpolation import Interpolated
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.study.cases.case import Rubbers, Settings
-    from viscofric.study.cases.interpolation import Interpolated
 
 # Interpolated number, that of its error (the centre of pressure has none of its own), and whether it is interpolated by
 # its logarithm: front and rear may change their sign.

@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
+from viscofric.friction.cases.interpolation import weights
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
-from viscofric.study.cases.interpolation import weights
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
     from viscofric.contact.free.scale import Scale
+    from viscofric.friction.cases.case import Place
+    from viscofric.friction.cases.record import Record
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.study.cases.case import Place
-    from viscofric.study.cases.record import Record
 
 
 @dataclass(frozen=True, eq=False)

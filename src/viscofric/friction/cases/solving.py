@@ -14,11 +14,11 @@ import numpy as np
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError
+from viscofric.friction.cases.record import indenter_record, surface_record
+from viscofric.friction.cases.surfaces import TOLERANCE, surface_of, unit_vector
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.study.cases.record import indenter_record, surface_record
-from viscofric.study.cases.surfaces import TOLERANCE, surface_of, unit_vector
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.periodic.surface import PeriodicSurface
-    from viscofric.study.cases.record import Record
-    from viscofric.study.cases.surfaces import SurfaceSource
+    from viscofric.friction.cases.record import Record
+    from viscofric.friction.cases.surfaces import SurfaceSource
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,8 +158,11 @@ def written(value: Any) -> object:
 #: Rooms, and files outside them, that determine the records.
 _ROOMS = ("heat", "rheology/shifts", "rheology/interface", "contact", "motion", "roughness", "readers/topography")
 _OWN = {
-    "friction": ("sensitivity.py", "prediction.py", "heating.py", "interface/prediction.py"),
-    "study": ("cases/solving.py", "cases/record.py", "cases/surfaces.py", "cases/history.py", "cases/heating.py"),
+    "friction": (
+        *("sensitivity.py", "prediction.py", "heating.py", "interface/prediction.py"),
+        *("cases/solving.py", "cases/record.py", "cases/surfaces.py"),
+    ),
+    "study": ("cases/history.py", "cases/heating.py"),
 }
 
 

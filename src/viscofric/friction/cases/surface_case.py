@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.study.cases.case import Case, Place
-from viscofric.study.cases.interpolation import FRICTION, SHARE, Between, Node
-from viscofric.study.cases.record import Record, surface_record
-from viscofric.study.cases.solving import Task, solve_surface, surface_solution
-from viscofric.study.cases.surfaces import surface_of
+from viscofric.friction.cases.case import Case, Place
+from viscofric.friction.cases.interpolation import FRICTION, SHARE, Between, Node
+from viscofric.friction.cases.record import Record, surface_record
+from viscofric.friction.cases.solving import Task, solve_surface, surface_solution
+from viscofric.friction.cases.surfaces import surface_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from viscofric.arrays import Mask
     from viscofric.contact.bodies import Layer
     from viscofric.contact.periodic.solution import PeriodicSolution
+    from viscofric.friction.cases.case import Rubbers, Settings
+    from viscofric.friction.cases.surfaces import SurfaceSource
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.study.cases.case import Rubbers, Settings
-    from viscofric.study.cases.surfaces import SurfaceSource
 
 # Number of a record, and whether it is interpolated by its logarithm: forces across the motion have either sign.
 _COLUMNS = (

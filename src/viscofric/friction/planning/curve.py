@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.contact.free.estimates import FRICTION_FLOOR
-from viscofric.study.cases.interpolation import (
+from viscofric.friction.cases.interpolation import (
     FRICTION,
     SHARE,
     Between,

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.study.cases.case import Rubbers, Settings
-from viscofric.study.cases.record import Failure, Record
-from viscofric.study.planning.curve import STEP, Curve
+from viscofric.friction.cases.case import Rubbers, Settings
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.planning.curve import STEP, Curve
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
+    from viscofric.friction.cases.case import Case, Place
+    from viscofric.friction.cases.interpolation import Node
+    from viscofric.friction.cases.solving import Task
     from viscofric.rheology.material import Material
-    from viscofric.study.cases.case import Case, Place
-    from viscofric.study.cases.interpolation import Node
-    from viscofric.study.cases.solving import Task
 
 Outcome: TypeAlias = Record | Failure
 
@@ -50,6 +50,11 @@ class Plan:
             part.go_on()
         for number in sorted(alone):
             self.solve_alone(number)
+
+    @property
+    def shares(self) -> bool:
+        """Whether some cases lie so close on one curve that they are interpolated between fewer contacts."""
+        return any(part.shares for part in self._parts)
 
     def wanted(self) -> list[Task]:
         """Return the tasks to solve next, independent of each other; none when every case has a result."""
@@ -146,6 +151,7 @@ class _FamilyPlan:
         self._places = [place for _, place in members]
         accuracy, places = plan.settings.accuracy, np.array([place.s for place in self._places])
         self._curve = Curve(places, accuracy, family.LOGARITHMIC)
+        self.shares = bool(self._curve.wanted)
         self._wave: dict[int, Node | None] = {}
         self._counted = 0
         self._settled = False

@@ -1,1 +1,1 @@
-"""The contacts of a study: what all have in common, those of an indenter, and those of a rough surface."""
+"""Cases of a study: sweeps of them, contacts over time and with heat, and what they cost."""

@@ -10,13 +10,13 @@ from viscofric.contact.fields.dissipation import Modes
 from viscofric.contact.heating import face_temperature
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ViscofricError
+from viscofric.friction.cases.record import Column, HistoryRecord
+from viscofric.friction.cases.surfaces import TOLERANCE, surface_of, unit_vector
 from viscofric.friction.prediction import predict_friction
 from viscofric.heat.result import COLUMNS as HEAT_COLUMNS
 from viscofric.notes import note_of
 from viscofric.roughness.ensemble import predict_rough_friction
 from viscofric.roughness.rough_friction import HeatedRoughFriction
-from viscofric.study.cases.record import Column, HistoryRecord
-from viscofric.study.cases.surfaces import TOLERANCE, surface_of, unit_vector
 
 if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter

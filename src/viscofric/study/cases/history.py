@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from viscofric.friction.cases.record import Column, HistoryRecord
+from viscofric.friction.cases.surfaces import surface_of
 from viscofric.motion.cycle import solve_cycle
 from viscofric.motion.history import dense_times
 from viscofric.motion.impact import solve_impact
 from viscofric.motion.solve import solve_transient
 from viscofric.notes import note_of
 from viscofric.rheology.material import Material
-from viscofric.study.cases.record import Column, HistoryRecord
-from viscofric.study.cases.surfaces import surface_of
 
 if TYPE_CHECKING:
     import xarray

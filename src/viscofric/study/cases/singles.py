@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from viscofric.friction.cases.record import Failure, HistoryRecord
+from viscofric.friction.cases.solving import Task
 from viscofric.notes import Note
-from viscofric.study.cases.record import Failure, HistoryRecord
-from viscofric.study.cases.solving import Task
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray
 
-    from viscofric.study.cases.record import Record
+    from viscofric.friction.cases.record import Record
 
 
 class Singles:

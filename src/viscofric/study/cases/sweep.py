@@ -17,7 +17,7 @@ from viscofric.units import plain, shown_celsius, shown_speed
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from viscofric.study.cases.case import Case
+    from viscofric.friction.cases.case import Case
 
     Values: TypeAlias = tuple[float | str, ...]
 

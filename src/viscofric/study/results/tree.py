@@ -43,8 +43,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.datasets import dataset
-from viscofric.study.cases.record import FIELD_MEANING, MEANING, Record
-from viscofric.study.cases.surfaces import MadeSurface
+from viscofric.friction.cases.record import FIELD_MEANING, MEANING, Record
+from viscofric.friction.cases.surfaces import MadeSurface
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -52,8 +52,8 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.contact.solution import Meaning
+    from viscofric.friction.cases.record import Failure
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.cases.record import Failure
     from viscofric.study.cases.sweep import Axis, Sweep
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.study import Study

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 from pydantic import Discriminator, Field, Tag
 
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
-from viscofric.study.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.study.run_file.tables import (
     Angles,
     Directions,
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.study.cases.case import Case
+    from viscofric.friction.cases.case import Case
     from viscofric.study.run_file.tables import Problem
 
 _SHAPE = "Shape; each has its own lengths or angle."

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from viscofric.errors import InputError
-from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.cases.surfaces import MadeSurface, ScannedSurface, file_digest, step_of
+from viscofric.friction.cases.surface_case import SurfaceCase
+from viscofric.friction.cases.surfaces import MadeSurface, ScannedSurface, file_digest, step_of
 from viscofric.study.run_file.tables import (
     Count,
     Direction,
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from viscofric.study.cases.case import Case
-    from viscofric.study.cases.surfaces import SurfaceSource
+    from viscofric.friction.cases.case import Case
+    from viscofric.friction.cases.surfaces import SurfaceSource
     from viscofric.study.run_file.tables import Problem
 
 _MOST_POINTS, _MOST_STEPS = 16_384, 50

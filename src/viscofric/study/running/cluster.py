@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError, ViscofricError, not_imported
-from viscofric.study.cases.solving import solver_fingerprint
+from viscofric.friction.cases.solving import solver_fingerprint
 from viscofric.study.running.executors import Executor, Lost, Waiting, take_on_cluster
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import solver_fingerprint
 from viscofric.processes import Workers, as_they_come
-from viscofric.study.cases.record import Failure, Record
-from viscofric.study.cases.solving import solver_fingerprint
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:

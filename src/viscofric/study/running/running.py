@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.study.cases.solving import solve
+from viscofric.friction.cases.solving import solve
 from viscofric.study.running.executors import Executor, Lost, NoSolver, Processes, Serial, Waiting
 from viscofric.study.running.store import Damaged
 
@@ -114,7 +114,7 @@ _BETWEEN_COUNTS = 0.1  # s
 
 
 class Plan(Protocol):
-    """A plan as running uses it; see `viscofric.study.planning.plan`."""
+    """A plan as running uses it; see `viscofric.friction.planning.plan`."""
 
     @property
     def done(self) -> int:

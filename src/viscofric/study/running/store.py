@@ -14,7 +14,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import LARGEST_FILE, insist_on_size, parse_json, read_bytes, write_atomically
-from viscofric.study.cases.record import ContactFields, Failure, Record
+from viscofric.friction.cases.record import ContactFields, Failure, Record
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -68,8 +68,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 def _contact(study: dict[str, Any], fit: PayneFit, measured_at: float | None, context: Context) -> dict[str, Any]:
     """Solve the first contact of the study, with a rigid indenter, with the moduli of its own strain."""
+    from viscofric.friction.cases.indenter_case import IndenterCase
     from viscofric.friction.contact_strain import solve_at_contact_strain
-    from viscofric.study.cases.indenter_case import IndenterCase
     from viscofric.web.jobs.combinations import of_combination, page_sweep
     from viscofric.web.study_text import study_of
 

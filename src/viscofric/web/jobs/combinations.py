@@ -10,7 +10,7 @@ from viscofric.web.jobs.context import JobError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from viscofric.study.cases.case import Case
+    from viscofric.friction.cases.case import Case
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.study import Study
 

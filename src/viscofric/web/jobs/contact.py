@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from viscofric.study.cases.case import Rubbers, moved
+from viscofric.friction.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.contact_pictures import RequestedContact, pictures
 from viscofric.web.jobs.rubbers import study_rubber

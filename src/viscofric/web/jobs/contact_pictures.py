@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
     from viscofric.contact.solution import ContactSolution
-    from viscofric.study.cases.case import Case
-    from viscofric.study.cases.indenter_case import IndenterCase
-    from viscofric.study.cases.surface_case import SurfaceCase
+    from viscofric.friction.cases.case import Case
+    from viscofric.friction.cases.indenter_case import IndenterCase
+    from viscofric.friction.cases.surface_case import SurfaceCase
     from viscofric.study.run_file.study import Study
     from viscofric.study.study_rubber import StudyRubber
 

@@ -10,9 +10,9 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
+from viscofric.friction.cases.record import Failure
 from viscofric.notes import Note, listed
 from viscofric.study.assumptions import assumption_checks
-from viscofric.study.cases.record import Failure
 from viscofric.study.contacts import Contacts, doubts
 from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.interface import interface_columns, study_interface
@@ -28,10 +28,10 @@ from viscofric.web.study_text import study_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from viscofric.friction.cases.record import Record
+    from viscofric.friction.planning.plan import Outcome
     from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.cases.record import Record
     from viscofric.study.contacts import Solved
-    from viscofric.study.planning.plan import Outcome
     from viscofric.study.run_file.study import Study
     from viscofric.study.running.running import Event, Plan, Progress
     from viscofric.study.study_rubber import StudyRubber

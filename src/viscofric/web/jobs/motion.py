@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.datasets import plain, record
+from viscofric.friction.cases.case import moved
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.surface_case import SurfaceCase
+from viscofric.friction.cases.surfaces import surface_of
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import prefixed
-from viscofric.study.cases.case import moved
-from viscofric.study.cases.indenter_case import IndenterCase
-from viscofric.study.cases.surface_case import SurfaceCase
-from viscofric.study.cases.surfaces import surface_of
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import notes_without_folder, study_rubber
 from viscofric.web.study_text import study_of
 
 if TYPE_CHECKING:
+    from viscofric.friction.cases.case import Case
     from viscofric.motion.history import History
     from viscofric.motion.impact_solution import ImpactSolution
     from viscofric.motion.solution import TransientSolution
     from viscofric.rheology.material import Material
-    from viscofric.study.cases.case import Case
     from viscofric.web.jobs.context import Context
 
 _DIGITS = 7
