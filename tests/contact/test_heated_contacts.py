@@ -197,6 +197,32 @@ def test_all_heat_is_accounted_for() -> None:
     assert heat.other_rise is None
 
 
+@pytest.mark.parametrize(
+    ("speed", "average", "noted"), [(30.0, "loss", True), (30.0, "contact", True), (1.0, "loss", False)]
+)
+def test_loss_that_does_not_warm_the_contact_is_noted_where_it_matters(speed: float, average: Any, noted: bool) -> None:
+    """Memory of 0.4 and 12 half-widths; half of the loss is left behind, the other half changes friction by 2 %."""
+    stiff = replace(
+        vf.Material.standard_linear_solid(E0="10 MPa", E_inf="1 GPa", tau="1 ms"), shift=vf.WLF(15.0, 50.0, 303.15)
+    )
+    heating = vf.Heating(rubber=RUBBER, counterface=RUBBER, average=average)
+    contact = vf.solve_steady(
+        stiff, CYLINDER, speed=speed, load=4e4, temperature=303.15, heating=heating, accuracy=1e-2
+    )
+    heat = contact.heating
+    assert heat is not None
+    share = heat.loss_beyond / heat.loss_heat
+    assert (share > 0.2) is noted
+    notes = [note for note in contact.warnings if note.code == "loss-beyond"]
+    assert len(notes) == noted
+    for note in notes:
+        assert note.values["share"] == pytest.approx(share)
+        assert note.values["rise"] == pytest.approx(heat.temperature_rise)
+        bound = 1.0 - share if average == "loss" else 1.0 / (1.0 - share)
+        # All heat is that of the loss; the rise differs from that produced by the residual.
+        assert note.values["bound"] == pytest.approx(bound * heat.temperature_rise, rel=2e-2)
+
+
 @pytest.mark.slow
 def test_the_skin_is_warmer_than_the_rubber_that_dissipates() -> None:
     """At a Péclet number of some thousands: said in a note where the mean of the face was chosen."""

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from viscofric.contact.coupling import ShearedContact, coupling_notes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -110,3 +111,14 @@ def test_errors_say_what_is_wrong_and_what_to_do(act: Callable[[], object], code
         act()
     assert caught.value.code == code
     assert str(caught.value).startswith(sentence)
+
+
+def test_notes_of_shear_say_how_much_friction_changes_and_what_to_do() -> None:
+    (note,) = coupling_notes([ShearedContact(2e5, 0.02, 1e-7, 0.3, where="at 0.1 m/s")])
+    assert note == (
+        "Coulomb friction, a shear stress of 0.2 MPa, also displaces the surface in the normal direction, which "
+        "changes the friction coefficient by about 0.0075 (37 % of viscoelastic friction; at 0.1 m/s), with the "
+        "opposite sign where the slip is reversed. Contacts were solved without this effect; solve contacts with it "
+        "(coulomb=, without heating), or take the mean of friction over both directions of slip."
+    )
+    assert "(viscofric solve --coulomb)" in note.words("run_file")

@@ -13,7 +13,6 @@ from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction import warming
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, assumption_checks_of, assumptions_dataset
-from viscofric.friction.coupling import coupling
 from viscofric.notes import Note, Remedy, codes
 from viscofric.thermal import FILLED_RUBBER, PTFE, STEEL
 
@@ -251,58 +250,27 @@ def test_a_slope_of_the_shift_that_is_not_known_leaves_the_other_checks(monkeypa
     assert {**found, "one temperature": None} == {**before, "one temperature": None}
 
 
-@pytest.mark.parametrize("poisson_ratio", [0.0, 0.3, 0.4999])
-def test_coupling_is_that_of_an_elastic_layer_on_a_bonded_base(poisson_ratio: float) -> None:
-    """Against the four constants of waves (a + b z) e^{±z}, solved for a base at rest under shear alone."""
-    kappa, lame = 3.0 - 4.0 * poisson_ratio, 2.0 * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
-
-    def rows(z: float) -> np.ndarray:
-        """Displacements along and across (times i e^{ix} and e^{ix}) and their slopes, of the four constants."""
-        e, E = np.exp(-z), np.exp(z)
-        return np.array(
-            [
-                [-e, -(z - kappa) * e, E, (z + kappa) * E],
-                [e, z * e, E, z * E],
-                [e, -(1.0 - z + kappa) * e, E, (1.0 + z + kappa) * E],
-                [-e, (1.0 - z) * e, E, (1.0 + z) * E],
-            ]
-        )
-
-    def moved(depth: float, load: tuple[float, float]) -> float:
-        along, across, along_slope, across_slope = rows(0.0)
-        normal, shear = lame * (across_slope - along) + 2.0 * across_slope, along_slope + across
-        constants = np.linalg.solve(np.array([normal, shear, *rows(depth)[:2]]), [*load, 0.0, 0.0])
-        return float(across @ constants)
-
-    for thickness in (0.5, 1.0, 3.0):
-        waves = np.exp(np.arange(-5.0, 5.0, 0.1))
-        hertz = ((np.sin(waves) - waves * np.cos(waves)) / waves**2) ** 2
-        depth = np.minimum(waves * thickness, 8.0)
-        sheared = [abs(moved(one, (0.0, -1.0))) for one in depth]
-        pressed = [moved(one, (-1.0, 0.0)) for one in depth]
-        expected = float(hertz @ sheared) / float(hertz @ pressed)
-        # A sum over half as many waves, of which the shortest oscillate.
-        assert coupling(poisson_ratio, thickness) == pytest.approx(expected, rel=0.01)
-    assert coupling(poisson_ratio, 100.0) == pytest.approx(coupling(poisson_ratio), abs=1e-3)
-    assert coupling(poisson_ratio) == pytest.approx((1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio)))
-
-
 @pytest.mark.parametrize(
     ("poisson_ratio", "thickness", "holds"),
-    [(0.5, None, True), (0.5, "20 mm", True), (0.5, "2 mm", False), (0.49, None, True), (0.3, None, False)],
+    [(0.5, None, True), (0.5, "20 mm", True), (0.5, "2 mm", False), (0.499, None, True), (0.49, None, False)],
 )
 @pytest.mark.slow
 def test_coulomb_friction_that_changes_the_pressure_is_reported(
     poisson_ratio: float, thickness: str | None, holds: bool
 ) -> None:
-    """0.5 (1 − 2ν)/(2(1 − ν)) on half-spaces; rubber as thick as the contact is wide couples whatever ν is."""
+    """X (1 − ν²) τ/|E(v/a)| 5/4, at the point where it is the largest part of friction; layers couple for any ν."""
     rubbed = replace(curves(), coulomb=np.full(4, -0.5), slip=0.2 * SPEED)
     rubber = replace(RUBBER, poisson_ratio=poisson_ratio)
     check = checks(rubber, BALL, rubbed, thickness=thickness, contact_radius="2 mm")["uncoupled"]
     assert check.holds is holds
     assert codes([check.sentence]) == {"tangential-coupling"}
     if thickness is None:
-        assert check.value == pytest.approx(0.5 * (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio)))
+        stress, beta = 0.5 * 25.0 / (np.pi * 2e-3**2), (1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio))
+        modulus = [
+            abs(complex(RUBBER.modes_at(T).complex_modulus(v / 2e-3))) for v, T in zip(SPEED, KELVIN, strict=True)
+        ]
+        change = 1.25 * beta * (1.0 - poisson_ratio**2) * stress / np.array(modulus)
+        assert check.value == pytest.approx(float(np.max(change / np.abs(rubbed.viscoelastic))))
     assert "uncoupled" not in checks(rubber, BALL, curves(), contact_radius="2 mm")
 
 

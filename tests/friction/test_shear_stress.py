@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import viscofric as vf
+from viscofric.contact.coupling import mean_coupling
 from viscofric.friction.interface.prediction import with_interface
 
 RUBBER = vf.synthetic_fluoroelastomer()
@@ -140,24 +140,28 @@ def test_the_interface_slips_at_its_own_speed_and_says_where_it_is_extrapolated(
 
 
 @pytest.mark.parametrize(
-    ("poisson_ratio", "layer", "size"),
+    ("poisson_ratio", "layer", "noted"),
     [
-        (0.5, None, None),
-        (0.3, None, 1.0 * 0.4 / 1.4),  # μ (1 − 2ν)/(2(1 − ν)) of K. L. Johnson
-        (0.5, vf.Layer("50 mm"), None),
-        (0.5, vf.Layer("1 mm"), 0.38),  # as thick as the contact's radius: docs/limits.md, to its digits
-        (0.5, vf.Layer("1 mm", bonded=False), math.nan),  # not estimated
+        (0.5, None, False),
+        (0.3, None, True),
+        (0.5, vf.Layer("50 mm"), False),
+        (0.5, vf.Layer("1 mm"), True),
+        (0.5, vf.Layer("1 mm", bonded=False), True),  # without a size
     ],
 )
-def test_shear_that_changes_the_contact_is_noted_with_its_size(poisson_ratio, layer, size):
-    """Of friction 1 on contacts of 1 mm radius."""
-    pressure = np.full(N, 5.0 / (np.pi * 1e-6))
-    law = vf.ConstantShearStress(float(pressure[0]))
-    rubbed = with_interface(replace(CONTACTS, mean_pressure=pressure), law, poisson_ratio=poisson_ratio, layer=layer)
-    notes = [note for note in rubbed.notes if note.code == "tangential-coupling"]
-    assert len(notes) == (size is not None)
-    if size is not None and math.isfinite(size):
-        assert notes[0].values["highest"] == pytest.approx(size, rel=0.02)
+def test_shear_that_changes_friction_is_noted_with_its_size(poisson_ratio, layer, noted):
+    """The estimate of `viscofric.contact.coupling` at the state of each contact; that of an unbonded layer unknown."""
+    rubber = replace(RUBBER, poisson_ratio=poisson_ratio)
+    case = {"speeds": 0.1, "temperatures": 333.15, "load": 5.0, "accuracy": 2e-2, "layer": layer}
+    found = vf.predict_friction(rubber, vf.Ball("10 mm"), interface=vf.ConstantShearStress(2e5), **case)
+    notes = [note for note in found.notes if note.code == "tangential-coupling"]
+    assert len(notes) == noted
+    if noted and (layer is None or layer.bonded):
+        radius = float(np.sqrt(5.0 / found.mean_pressure[0] / np.pi))
+        compliance = (1.0 - poisson_ratio**2) / abs(complex(rubber.modes_at(333.15).complex_modulus(0.1 / radius)))
+        change = 1.25 * mean_coupling(poisson_ratio, layer, radius) * 2e5 * compliance
+        assert notes[0].values["change"] == pytest.approx(change)
+        assert notes[0].values["share"] == pytest.approx(change / found.viscoelastic[0])
 
 
 def test_interface_and_slip_belong_together():

@@ -14,7 +14,7 @@ from refusals import refused
 from viscofric.errors import ConvergenceError
 from viscofric.heat.branches import State, settled, stable_states
 from viscofric.heat.heating import HeatBalance, ThermalResistances
-from viscofric.heat.interface import interface_heat
+from viscofric.heat.interface import SlidingInterface
 
 RUBBER = vf.ThermalProperties(0.3, 1200.0, 1500.0, "rubber")
 STEEL = vf.ThermalProperties(46.0, 7810.0, 475.0, "steel")
@@ -117,11 +117,21 @@ def test_an_interface_that_shears_harder_when_warm_has_two_states() -> None:
     def heat_at(rise: np.ndarray) -> np.ndarray:
         return np.asarray(10.0 + 90.0 / (1.0 + np.exp(20.0 - rise)))
 
+    def law(_: float, kelvin: np.ndarray) -> np.ndarray:
+        if np.max(kelvin) > 330.0:
+            raise vf.InputError("known up to 330 K only")
+        return heat_at(kelvin - 300.0)
+
+    endless = SlidingInterface(lambda _, kelvin: heat_at(kelvin - 300.0), 1.0, 300.0)
+    ends = SlidingInterface(law, 1.0, 300.0)
+
     for hot, low, high in ((False, 0.0, 15.0), (True, 25.0, 200.0)):
-        found = interface_heat(resistances, loss, heat_at, 500.0, hot=hot)
+        found = endless.settled_heat(1.0, resistances, loss, hot=hot)
         for one, by_loss in zip(found, 0.1 * loss, strict=True):
             face = brentq(lambda rise, add=by_loss: add + 0.5 * heat_at(rise) - rise, low, high, xtol=1e-12)
             assert one == pytest.approx(heat_at(face), rel=1e-9)
     # Known up to 30 K only, the hot face is not followed farther, and the cold one is not affected.
-    assert interface_heat(resistances, loss, heat_at, 30.0, hot=True) == pytest.approx(heat_at(np.array([30.0, 30.0])))
-    assert interface_heat(resistances, loss, heat_at, 30.0, hot=False)[1] == pytest.approx(10.0, rel=1e-3)
+    assert ends.known == pytest.approx(30.0, abs=1e-3)  # to which the ends of laws are found
+    hottest = ends.settled_heat(1.0, resistances, loss, hot=True)
+    assert hottest == pytest.approx(heat_at(np.array([30.0, 30.0])), rel=1e-6)
+    assert ends.settled_heat(1.0, resistances, loss, hot=False)[1] == pytest.approx(10.0, rel=1e-3)

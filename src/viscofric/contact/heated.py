@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from viscofric.contact.bodies import half_space_coupling
+from viscofric.contact.coupling import ShearedContact, coupling_notes
 from viscofric.errors import InputError
-from viscofric.heat.branches import State, settled, stable_states
+from viscofric.heat.branches import LEFT, HeatCurve, outermost, settled
 from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
-from viscofric.heat.interface import interface_heat
+from viscofric.heat.interface import END, SlidingInterface, last_known
 from viscofric.heat.result import ContactHeating
 from viscofric.notes import Note, Remedy
 from viscofric.units import shown_celsius
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.fields.dissipation import Modes
+    from viscofric.heat.branches import State
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
 
@@ -36,15 +39,14 @@ LOOSE = 2e-2
 _DECADES, _KELVIN = 0.4, 10.0
 #: States are looked for up to this rise, K, and up to this multiple of the largest rise that a contact produced.
 _LEAST, _BEYOND = 30.0, 2.0
-#: Share of the rise that may be left; its effect on friction may be half of the accuracy.
-_LEFT = 0.01
-#: Temperatures at which laws end are found to this, K; faces that the heat of an interface warms are followed so far.
-_END, _HOTTEST = 1e-3, 1000.0
 #: Laws that end at some temperature, as codes and sentences call them.
 SHIFT, INTERFACE = "shift", "interface"
 _NAMES = {SHIFT: "α(T) of the rubber", INTERFACE: "the law of the interface"}
 #: Below it, over the contact radius, the heat of a passing contact is in a skin.
 THIN = 0.5
+#: Rises per heat are accurate to this; a part of the loss that is left out is noted where it may change the rise by
+#: more, and friction by more than this.
+_ACCURATE, _FELT = 0.2, 1e-2
 
 
 class Heat(NamedTuple):
@@ -81,6 +83,8 @@ class ThermalContact:
 
     #: Of curves, decades of speed between contacts whose resistances are found from their fields.
     knots_apart: ClassVar[float] = 0.2
+    #: Whether heats are per nominal area, of which the contact is a part.
+    of_nominal_area: ClassVar[bool] = False
 
     material: Material  # with α(T)
     heating: Heating
@@ -88,6 +92,7 @@ class ThermalContact:
     speed: float
     isothermal: Callable[[float, float, float], Any]  # solution at a speed, a temperature, K, and to an accuracy
     interface: InterfaceLaw | None = None  # whose heat takes the place of a constant Coulomb friction
+    line: bool = False
 
     def heat(self, solution: Any, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
         """Return the heats of a contact solved at a temperature; its resistances `relative` to `closed`, if known."""
@@ -124,45 +129,27 @@ class ThermalContact:
         spectrum = self.material.modes_at(kelvin)
         return Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
 
+    @cached_property
+    def face(self) -> SlidingInterface | None:
+        """The interface where it slides."""
+        slip = self.heating.sliding(self.speed)
+        return None if self.interface is None or slip == 0.0 else SlidingInterface(self.interface, slip, self.kelvin)
+
     def with_interface(self, heat: Heat, rise: Any, *, hot: bool) -> Heat:
         """Return the heat of contacts at rises of temperature, (n,) or one, with that of the interface.
 
         The interface is as warm as the face: with the mean over the face, the rise itself, else the one that follows.
         """
-        slip = self.heating.sliding(self.speed)
-        if self.interface is None or slip == 0.0:
-            return heat if self.interface is None else heat._replace(coulomb=0.0 * heat.coulomb)
-        law, per_stress = self.interface, np.asarray(slip * heat.area)
-
-        def heat_at(face: Array) -> Array:
-            return np.asarray(per_stress * law(slip, self.kelvin + face))
-
+        if self.interface is None:
+            return heat
+        if self.face is None:
+            return heat._replace(coulomb=0.0 * heat.coulomb)
         if self.heating.average == "contact":
-            found = heat_at(np.asarray(rise))
+            found = self.face.heat(heat.area, np.asarray(rise))
         else:
-            loss = np.atleast_1d(heat.loss)
-            found = interface_heat(heat.resistances, loss, heat_at, self.interface_known, hot=hot)
+            found = self.face.settled_heat(heat.area, heat.resistances, np.atleast_1d(heat.loss), hot=hot)
         coulomb: Any = found if np.ndim(rise) else float(found.item())
         return heat._replace(coulomb=coulomb)
-
-    @cached_property
-    def interface_known(self) -> float:
-        """The largest rise at which the law of the interface is known, or up to which states are looked for, K."""
-        assert self.interface is not None
-        return _last(lambda rise: not self._interface_ends(rise), 0.0, _HOTTEST)
-
-    def interface_ends_below(self, rise: float) -> bool:
-        """Whether a face so much warmer, K, to a part of it, is warmer than the law of the interface is known to."""
-        slides = self.interface is not None and self.heating.sliding(self.speed) > 0.0
-        return slides and rise * (1.0 - _LEFT) > self.interface_known
-
-    def _interface_ends(self, rise: float) -> bool:
-        assert self.interface is not None
-        try:
-            self.interface(self.heating.sliding(self.speed), self.kelvin + rise)
-        except InputError:
-            return True
-        return False
 
     def at(
         self, rise: float, accuracy: float, relative: ThermalResistances | None = None, *, hot: bool = False
@@ -173,6 +160,19 @@ class ThermalContact:
         heat = self.with_interface(self.heat(solution, kelvin, relative), rise, hot=hot)
         friction = solution.friction_coefficient
         return Warmed(rise, friction, self.kept(solution), heat, self.heating.rise(heat.balance))
+
+    def sheared(self, one: Warmed) -> ShearedContact:
+        """Return a solved contact with the shear of its Coulomb friction, which it was solved without."""
+        slip, heat, ratio = self.heating.sliding(self.speed), one.heat, self.material.poisson_ratio
+        modulus = self.material.modes_at(self.kelvin + one.rise).complex_modulus(abs(self.speed) / heat.size)
+        return ShearedContact(
+            stress=heat.coulomb / (slip * heat.area) if slip > 0.0 else 0.0,
+            friction=one.friction,
+            compliance=(1.0 - ratio**2) / abs(complex(modulus)),
+            coupling=half_space_coupling(ratio),
+            line=self.line,
+            filled=heat.area if self.of_nominal_area else 0.0,
+        )
 
     def hottest(self, one: Warmed) -> Warmed:
         """Return the same solved contact with its interface in the hottest state."""
@@ -185,8 +185,7 @@ class ThermalContact:
             self.log10_shift(self.kelvin + rise)
         except InputError:
             return SHIFT
-        slides = self.interface is not None and self.heating.sliding(self.speed) > 0.0
-        return INTERFACE if slides and self._interface_ends(rise) else ""
+        return INTERFACE if self.face is not None and not self.face.is_known(rise) else ""
 
     def reach(self, rise: float, wanted: float) -> tuple[float, str]:
         """Return the largest rise up to a wanted one at which all laws are known, and which one ends there.
@@ -196,8 +195,8 @@ class ThermalContact:
         ended = self.ended_by(wanted)
         if not ended:
             return wanted, ""
-        last = _last(lambda one: not self.ended_by(one), rise, wanted)
-        return last, self.ended_by(last + 2.0 * _END) or ended
+        last = last_known(lambda one: not self.ended_by(one), rise, wanted)
+        return last, self.ended_by(last + 2.0 * END) or ended
 
     def next_rise(self, rise: float) -> tuple[float, str]:
         """Return a rise at which α is noticeably smaller, or the largest one at which all laws are known.
@@ -209,25 +208,6 @@ class ThermalContact:
             return near, ended
         slope = self.log10_shift(self.kelvin + rise) - self.log10_shift(self.kelvin + near)
         return self.reach(near, rise + min(_KELVIN, _DECADES / max(slope, 1e-6)))
-
-
-def _last(known: Callable[[float], bool], low: float, high: float) -> float:
-    """Return the largest rise up to `high` at which all is known, K, as it is at `low`."""
-    if known(high):
-        return high
-    while high - low > _END:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if known(middle) else (low, middle)
-    return low
-
-
-def outermost(cold: HeatCurve, hot: HeatCurve) -> list[State]:
-    """Return the coldest and the hottest state, or both as one, of contacts with their interface cold and hot."""
-    first, last = cold.states(), hot.states()
-    if not first or not last:
-        return first[:1]
-    end = last[-1]
-    return first[:1] if end == first[0] else [first[0], end._replace(hot=True)]
 
 
 def enough(rise: float, produced: list[float]) -> bool:
@@ -248,14 +228,15 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
         rise, ended = contact.next_rise(scanned[-1].rise)
         if rise > scanned[-1].rise:
             scanned.append(contact.at(rise, max(LOOSE, accuracy)))
-    curve = HeatCurve.of(scanned)
-    states = outermost(curve, HeatCurve.of([contact.hottest(one) for one in scanned]))
+    curve = _curve_of(scanned)
+    states = outermost(curve, _curve_of([contact.hottest(one) for one in scanned]))
     if not states:
         raise beyond(ended, contact.kelvin + scanned[-1].rise)
     found, left_out = within_law(contact, [settle(contact, curve, one, accuracy) for one in states])
     order = found if contact.heating.branch == "cold" else found[::-1]
     heating, notes = described(contact, order, isothermal.friction)
-    said = dict.fromkeys((*notes, *left_out, *sought(curve, ended, contact.kelvin)))
+    shear = coupling_notes([contact.sheared(order[0])])
+    said = dict.fromkeys((*notes, *shear, *left_out, *sought(curve, ended, contact.kelvin)))
     return finished(contact, order[0].solution, heating, tuple(said))
 
 
@@ -291,47 +272,9 @@ def _ends(law: str, kelvin: float) -> Note:
     return Note("states-beyond", said, values={"temperature": kelvin})
 
 
-class HeatCurve(NamedTuple):
-    """Rises (n,) from zero on, those that contacts at them produce, K, and the logarithms of their friction."""
-
-    rise: Array
-    produced: Array
-    log_friction: Array
-
-    @classmethod
-    def of(cls, scanned: list[Warmed]) -> HeatCurve:
-        """Return smooth curves through contacts."""
-        from scipy.interpolate import PchipInterpolator
-
-        rise = np.array([one.rise for one in scanned])
-        columns = (
-            np.array([one.produced for one in scanned]),
-            np.array([math.log(max(abs(one.friction), 1e-300)) for one in scanned]),
-        )
-        if len(rise) == 1:
-            return cls(rise, *columns)
-        fine = np.linspace(0.0, 1.0, 2001) ** 2 * rise[-1]
-        return cls(fine, *(np.asarray(PchipInterpolator(rise, column)(fine)) for column in columns))
-
-    def states(self) -> list[State]:
-        """Return the stable states, ascending."""
-        # Spots of a rough surface may be colder than its mean, where the loss is released beside them.
-        cold = [State(float(self.produced[0]), 0.0)] if self.produced[0] <= 0.0 else []
-        return [*cold, *stable_states(self.rise, self.produced)]
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """Between which rises its states lie, K."""
-        return 0.0 if self.produced[0] > 0.0 else -math.inf, float(self.rise[-1])
-
-    def tolerance(self, rise: float, accuracy: float) -> float:
-        """Return the residual, K, that neither friction nor the rise itself feels."""
-        row = int(np.clip(np.searchsorted(self.rise, rise), 1, len(self.rise) - 1)) if len(self.rise) > 1 else 0
-        per_kelvin = 0.0
-        if row:
-            change = self.log_friction[row] - self.log_friction[row - 1]
-            per_kelvin = abs(change / (self.rise[row] - self.rise[row - 1]))
-        return min(_LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(per_kelvin, 1e-300))
+def _curve_of(scanned: list[Warmed]) -> HeatCurve:
+    columns = (np.array([getattr(one, name) for one in scanned]) for name in ("rise", "produced", "friction"))
+    return HeatCurve.of(*columns)
 
 
 def settle(
@@ -357,8 +300,10 @@ def within_law(contact: ThermalContact, found: list[Warmed]) -> tuple[list[Warme
 
     And a note where the other state is left out; raise InputError if it is the one wanted.
     """
-    known = [one for one in found if not contact.interface_ends_below(one.heat.balance.face_rise)]
-    end = contact.kelvin + contact.interface_known if len(known) < len(found) else math.inf
+    face, end, known = contact.face, math.inf, found
+    if face is not None:
+        known = [one for one in found if one.heat.balance.face_rise * (1.0 - LEFT) <= face.known]
+        end = contact.kelvin + face.known
     if not known or (len(known) < len(found) and contact.heating.branch == "hot"):
         raise beyond(INTERFACE, end)
     return known, () if len(known) == len(found) else (_ends(INTERFACE, end),)
@@ -392,6 +337,7 @@ def described(
     notes = [] if len(found) == 1 else [_two_states(result, found[1].heat.balance.face_rise)]
     if heating.average == "contact" and result.skin < THIN and rise > 0.0:
         notes.append(_thin_skin(result))
+    notes += _loss_beyond(result, found[0].friction, heating.average)
     return result, tuple(notes)
 
 
@@ -422,3 +368,22 @@ def _thin_skin(result: ContactHeating) -> Note:
             "loss_weighted_rise": result.loss_weighted_rise,
         },
     )
+
+
+def _loss_beyond(result: ContactHeating, friction: float, average: str) -> tuple[Note, ...]:
+    """Return a note where the loss that is released too far away to warm the contact may matter."""
+    rise, share = result.temperature_rise, result.loss_beyond / max(result.loss_heat, 1e-300)
+    if share == 0.0 or rise <= 0.0:
+        return ()
+    if average == "loss":  # the rubber beyond counts as cold
+        bound, where = rise * (1.0 - share), "is that of the rest, where it is released; over all of it, it is down to"
+    else:
+        bound, where = rise + result.loss_rise * share / (1.0 - share), "is without it; with it, it is up to"
+    part = abs(bound - rise) / rise
+    if part <= _ACCURATE or part * abs(friction / result.isothermal_friction - 1.0) <= _FELT:
+        return ()
+    said = (
+        f"{100 * share:.0f} % of the viscoelastic loss is released too far away to warm the contact: the mean rise of "
+        f"temperature, {rise:.3g} K, {where} {bound:.3g} K."
+    )
+    return (Note("loss-beyond", said, values={"share": share, "rise": rise, "bound": bound}),)

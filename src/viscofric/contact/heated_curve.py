@@ -18,16 +18,15 @@ import numpy as np
 from viscofric.contact.heated import (
     LOOSE,
     Heat,
-    HeatCurve,
     beyond,
     described,
     enough,
-    outermost,
     settle,
     sought,
     within_law,
 )
 from viscofric.contact.heated_knots import Between, Knot, knots_of
+from viscofric.heat.branches import HeatCurve, outermost
 from viscofric.heat.result import OF_CONTACT
 from viscofric.processes import Workers, call_all
 

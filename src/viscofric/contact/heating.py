@@ -62,8 +62,6 @@ class LoadedContact(Protocol):
 class FreeThermalContact(ThermalContact):
     """Contact of an indenter at any rise of temperature."""
 
-    line: bool = False
-
     def heat(self, solution: ContactSolution, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
         """Return the heats of a contact solved at a temperature; its resistances `relative` to `closed`, if known."""
         if relative is None:

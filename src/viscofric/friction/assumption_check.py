@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.notes import Reader
     from viscofric.rheology.material import Material
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 @dataclass(frozen=True)
@@ -120,6 +121,11 @@ class Place(NamedTuple):
         return f"at {shown_celsius(self.temperature, 'z.0f')} °C, {shown_speed(self.speed, 3)} and {load}"
 
 
+def modes_of(material: Material, kelvin: float) -> RetardationSpectrum:
+    """Return the modes at a temperature; of a material without shift factors, at the only one that it has."""
+    return material.modes_at(None if material.shift is None else kelvin)
+
+
 @dataclass(frozen=True)
 class ContactSize:
     """Size of one contact, as solved or between two of Hertz's."""
@@ -135,7 +141,7 @@ class ContactSize:
         cls, material: Material, indenter: Indenter, curves: FrictionCurves, row: int, solved: float | None
     ) -> ContactSize:
         """Return the size at a point of friction curves, given the solved radius, if there is one."""
-        spectrum = material.modes_at(float(curves.temperature[row]))
+        spectrum = modes_of(material, float(curves.temperature[row]))
         plane_strain = 1.0 - material.poisson_ratio**2
         scale = Scale.for_load(indenter, spectrum.E0 / plane_strain, float(curves.load[row]))
         curvature, where = scale.slope / scale.length, Place.of(curves, row)

@@ -135,7 +135,7 @@ def check_assumptions(
     except InputError as error:  # the shift factors end where their slope is needed
         unknown = Note("warming-unknown", f"The effect of warming on friction is unknown: {error}")
         isothermal = AssumptionCheck.of("one temperature", None, unknown, None, CHANGE)
-    coupled = check_coupling(curves, material.poisson_ratio, thick, [(size.smallest, size.largest) for size in sizes])
+    coupled = check_coupling(curves, material, thick, [(size.smallest, size.largest) for size in sizes])
     return (
         check_half_space(material, curves, sizes, thick, CHANGE),
         _small_contact(steepest, indenter.noun),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -12,6 +13,7 @@ from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
+from viscofric.friction.coupling import shear_notes
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
 from viscofric.friction.interface.prediction import check_interface, with_interface
@@ -164,10 +166,16 @@ def predict_friction(
         slip, rise = heating.slip, heated.face_rise
     else:
         curves = _isothermal(material, contacts, drawn, workers, report, exact)
-    if interface is None:
+    if interface is not None:
+        curves = with_interface(curves, interface, slip, rise=rise)
+    coulomb = curves.coulomb
+    if coulomb is None and heating is not None:
+        coulomb = np.full(len(curves), heating.coulomb)
+    if coulomb is None or settings.get("coulomb"):
         return curves
-    layer = settings.get("layer")
-    return with_interface(curves, interface, slip, poisson_ratio=material.poisson_ratio, layer=layer, rise=rise)
+    bodies = [(material, settings.get("layer"))] * len(curves)
+    warmer = getattr(curves, "temperature_rise", None)
+    return replace(curves, notes=(*curves.notes, *shear_notes(curves, coulomb, bodies, warmer)))
 
 
 def _isothermal(

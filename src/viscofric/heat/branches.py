@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 _MOST_SOLVES = 30
 #: Steepest slope dG/dΔT that a step of Newton's counts with: nearer one, a state is about to vanish.
 _STEEPEST = 0.9
+#: Share of the rise that may be left; its effect on friction may be half of the accuracy.
+LEFT = 0.01
 
 
 class State(NamedTuple):
@@ -40,6 +42,54 @@ def stable_states(rise: Array, produced: Array) -> list[State]:
         slope = (produced[i + 1] - produced[i]) / (rise[i + 1] - rise[i])
         found.append(State(float(rise[i] + part * (rise[i + 1] - rise[i])), float(slope)))
     return found
+
+
+class HeatCurve(NamedTuple):
+    """Rises (n,) from zero on, those that contacts at them produce, K, and the logarithms of their friction."""
+
+    rise: Array
+    produced: Array
+    log_friction: Array
+
+    @classmethod
+    def of(cls, rise: Array, produced: Array, friction: Array) -> HeatCurve:
+        """Return smooth curves through contacts (n,)."""
+        from scipy.interpolate import PchipInterpolator
+
+        columns = produced, np.log(np.maximum(np.abs(friction), 1e-300))
+        if len(rise) == 1:
+            return cls(rise, *columns)
+        fine = np.linspace(0.0, 1.0, 2001) ** 2 * rise[-1]
+        return cls(fine, *(np.asarray(PchipInterpolator(rise, column)(fine)) for column in columns))
+
+    def states(self) -> list[State]:
+        """Return the stable states, ascending."""
+        # Spots of a rough surface may be colder than its mean, where the loss is released beside them.
+        cold = [State(float(self.produced[0]), 0.0)] if self.produced[0] <= 0.0 else []
+        return [*cold, *stable_states(self.rise, self.produced)]
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Between which rises its states lie, K."""
+        return 0.0 if self.produced[0] > 0.0 else -math.inf, float(self.rise[-1])
+
+    def tolerance(self, rise: float, accuracy: float) -> float:
+        """Return the residual, K, that neither friction nor the rise itself feels."""
+        row = int(np.clip(np.searchsorted(self.rise, rise), 1, len(self.rise) - 1)) if len(self.rise) > 1 else 0
+        per_kelvin = 0.0
+        if row:
+            change = self.log_friction[row] - self.log_friction[row - 1]
+            per_kelvin = abs(change / (self.rise[row] - self.rise[row - 1]))
+        return min(LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(per_kelvin, 1e-300))
+
+
+def outermost(cold: HeatCurve, hot: HeatCurve) -> list[State]:
+    """Return the coldest and the hottest state, or both as one, of contacts with their interface cold and hot."""
+    first, last = cold.states(), hot.states()
+    if not first or not last:
+        return first[:1]
+    end = last[-1]
+    return first[:1] if end == first[0] else [first[0], end._replace(hot=True)]
 
 
 def settled(

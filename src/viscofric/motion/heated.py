@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.contact.bodies import half_space_coupling
+from viscofric.contact.coupling import ShearedContact, coupling_notes
 from viscofric.contact.heated import AT_THE_LOSS, THIN
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
@@ -91,7 +93,8 @@ def solve_heated(
         residual, _change_with_half(problem, run, heating, heats, warmer),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
-    run = replace(run, warnings=(*run.warnings, *_thin_skin(problem, run, heating, found)))
+    doubts = (*_thin_skin(problem, run, heating, found), *_shear(problem, run, heating, around + warmer))
+    run = replace(run, warnings=(*run.warnings, *doubts))
     # A state of the last run is no state of the heated contact.
     chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
     return chosen
@@ -122,6 +125,29 @@ def _thin_skin(problem: Problem, run: TransientSolution, heating: Heating, found
     )
     values = {"skin": skin, "face_rise": face, "loss_weighted_rise": below}
     return (Note("thin-skin", said, remedy="; for friction at the latter, give " + AT_THE_LOSS + ".", values=values),)
+
+
+def _shear(problem: Problem, run: TransientSolution, heating: Heating, kelvin: Array) -> tuple[Note, ...]:
+    """Return a note where the shear of Coulomb friction, without which it was solved, changes the friction."""
+    if heating.coulomb == 0.0:
+        return ()
+    ratio, size = problem.material.poisson_ratio, _sizes(problem, run)
+    steps = np.hypot(*np.diff(run.position, axis=0).T)
+    speed = np.append(steps / np.maximum(np.diff(run.time), 1e-300), 0.0)
+    # The compliance at v/a is that of a contact that has slid by its own size.
+    slid = np.concatenate([[0.0], np.cumsum(steps)]) >= size
+    contacts = []
+    for row in np.flatnonzero(slid & (speed > 0.0) & (size > 0.0) & (run.load > 0.0)).tolist():
+        modulus = problem.material.modes_at(float(kelvin[row])).complex_modulus(float(speed[row] / size[row]))
+        load, stress = float(run.load[row]), heating.coulomb * float(run.load[row] / run.contact_area[row])
+        compliance, where = (1.0 - ratio**2) / abs(complex(modulus)), f"at {run.time[row]:.3g} s"
+        friction = float(run.friction_force[row]) / load
+        contact = ShearedContact(stress, friction, compliance, half_space_coupling(ratio), problem.kind == "line")
+        contacts.append(replace(contact, where=where))
+    # Friction passes zero where the motion begins or turns: the largest change counts, over the largest friction.
+    largest = max((abs(one.friction) for one in contacts), default=0.0)
+    worst = max(contacts, key=lambda one: one.change, default=None)
+    return () if worst is None else coupling_notes([replace(worst, friction=largest)])
 
 
 def _sizes(problem: Problem, run: TransientSolution) -> Array:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 import numpy as np
 
 from viscofric.arguments import insist_on_function
+from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.contact.periodic.heating import MEAN_LEFT_OUT, insist_on_heatable
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import InputError, brief
@@ -20,7 +21,7 @@ from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.ensemble_contacts import Numbers, OnDisk, on_disk, predict_heated, solve_one
 from viscofric.roughness.rough_friction import HeatedRoughFriction, RoughFriction
 from viscofric.roughness.topography import Topography
-from viscofric.units import Quantities, Quantity, positive, to_si_array
+from viscofric.units import Quantities, Quantity, positive, shown_speed, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -166,6 +167,10 @@ def predict_rough_friction(
     if heating is not None:
         left_out = () if heating.nominal_radius is not None else (MEAN_LEFT_OUT,)
         numbers["notes"] = (*numbers.get("notes", ()), *doubts, *left_out)
+    coulomb = numbers.get("interface_friction", np.full(shape, 0.0 if heating is None else heating.coulomb))
+    if not call.get("coulomb"):
+        shear = _shear_notes(coulomb, numbers, [one for _, one in named], velocities, load, material, call.get("layer"))
+        numbers["notes"] = (*numbers.get("notes", ()), *shear)
     result = RoughFriction if heating is None else HeatedRoughFriction
     return result(
         temperature=kelvin_or_nan,
@@ -173,6 +178,32 @@ def predict_rough_friction(
         pressure=load,
         surfaces=tuple(name for name, _ in named),
         **numbers,
+    )
+
+
+def _shear_notes(
+    coulomb: Array,
+    numbers: dict[str, Any],
+    surfaces: list[PeriodicSurface],
+    speeds: Array,
+    pressure: float,
+    material: Material,
+    layer: Layer | None,
+) -> tuple[Note, ...]:
+    """Return a note where Coulomb friction (m, n, k), without which contacts were solved, changes their friction."""
+    if not coulomb.any():
+        return ()
+    friction, area = numbers["friction_coefficient"], numbers["corrected_area_fraction"]
+    each = [SurfaceCoupling.of(one, material.poisson_ratio, layer) for one in surfaces]
+    return coupling_notes(
+        each[place[2]].contact(
+            float(coulomb[place]),
+            float(friction[place]),
+            float(area[place]),
+            pressure,
+            f"at {shown_speed(float(speeds[place[1]]), 3)}",
+        )
+        for place in np.ndindex(coulomb.shape)
     )
 
 

@@ -32,6 +32,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.contact.bodies import half_space_coupling
+from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
@@ -41,7 +43,7 @@ from viscofric.roughness.flash import Flash
 from viscofric.roughness.persson_integrals import Case, Theory
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.thermal import ThermalProperties
-from viscofric.units import Quantities, Quantity, positive, share, to_si, to_si_array
+from viscofric.units import Quantities, Quantity, positive, share, shown_speed, to_si, to_si_array
 
 if TYPE_CHECKING:
     import xarray
@@ -86,6 +88,8 @@ class PerssonTheory:
         T_q less `temperature`, K.
     error : float
         Largest estimated error of the integrals: of the area, and of the friction coefficient relative to its largest.
+    notes : tuple of str
+        Doubts about Coulomb friction, one sentence each.
     """
 
     temperature: Array
@@ -99,9 +103,10 @@ class PerssonTheory:
     friction_by_scale: Array
     temperature_rise_by_scale: Array
     error: float
+    notes: tuple[str, ...] = ()
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return everything over temperature, speed and wave number; attributes are ``pressure`` and ``error``."""
+        """Return everything over temperature, speed and wave number, with pressure, error and notes as attributes."""
         meanings = {
             "friction_coefficient": ("1", "friction coefficient"),
             "contact_area_fraction": ("1", "real over nominal contact area"),
@@ -118,7 +123,8 @@ class PerssonTheory:
                 "speed": (self.speed, "m/s", "sliding speed"),
                 "wave_number": (self.wave_number, "rad/m", "wave number"),
             },
-            attributes={"pressure": self.pressure, "error": self.error},
+            attributes={"pressure": self.pressure, "error": self.error}
+            | ({"notes": "\n".join(self.notes)} if self.notes else {}),
         )
 
 
@@ -273,7 +279,20 @@ def persson_theory(
         error=error,
         **columns,
     )
-    return result
+    if heating is None or heating.coulomb == 0.0:
+        return result
+    surface = SurfaceCoupling(spectrum.rms_slope(), half_space_coupling(material.poisson_ratio))
+    contacts = (
+        surface.contact(
+            heating.coulomb,
+            float(result.friction_coefficient[place]),
+            float(result.contact_area_fraction[place]),
+            nominal,
+            f"at {shown_speed(float(velocities[place[1]]), 3)}",
+        )
+        for place in np.ndindex(shape)
+    )
+    return replace(result, notes=coupling_notes(contacts))
 
 
 def _columns(isothermal: Found, cold: Found, hot: Found, branch: str) -> dict[str, Array]:

@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.bodies import Layer
+from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.errors import InputError
 from viscofric.friction.cases.record import Record
+from viscofric.friction.coupling import shear_notes
 from viscofric.friction.interface.prediction import with_interface
 from viscofric.friction.interface.shear_stress import shear_stress
 from viscofric.notes import Note, note_of
 from viscofric.rheology.interface.friction import interface_friction, interface_notes
+from viscofric.friction.cases.surfaces import surface_of
 from viscofric.study.study_rubber import curves_of
 
 if TYPE_CHECKING:
@@ -67,18 +69,16 @@ class InterfaceColumns(NamedTuple):
 
 def interface_columns(contacts: Contacts, interface: StudyInterface, requested: Solved) -> InterfaceColumns:
     """Return the interface's part of the cases; a law that is not known at one of them is a note."""
-    table, law, layers = contacts.study.interface, interface.law, contacts.study.layer
+    table, law = contacts.study.interface, interface.law
     if table is None or law is None:
         return InterfaceColumns({}, [])
     if contacts.study.surface is not None:
-        return _on_surface(table, law, requested)
-    thinnest = None if layers is None else Layer(min(layers.thickness), bonded=layers.base == "bonded")
-    least = min(one.material.poisson_ratio for one in contacts.rubbers)
+        return _on_surface(table, law, requested, contacts)
     try:
         curves = curves_of(requested.records)
         if requested.cases[0].geometry == "line":
             curves = replace(curves, load_unit="N/m")
-        curves = with_interface(curves, law, table.slip, poisson_ratio=least, layer=thinnest)
+        curves = with_interface(curves, law, table.slip)
     except InputError as error:
         return InterfaceColumns({}, [_not_predicted(error)])
     columns = {
@@ -86,10 +86,12 @@ def interface_columns(contacts: Contacts, interface: StudyInterface, requested: 
         "interface_error": curves.coulomb_error,
         "total_friction": curves.total,
     }
-    return InterfaceColumns(columns, list(map(note_of, curves.notes)))
+    assert curves.coulomb is not None
+    bodies = [(contacts.rubbers[one.material].material, one.layer) for one in requested.of_records]
+    return InterfaceColumns(columns, list(map(note_of, (*curves.notes, *shear_notes(curves, curves.coulomb, bodies)))))
 
 
-def _on_surface(table: InterfaceTable, law: InterfaceLaw, requested: Solved) -> InterfaceColumns:
+def _on_surface(table: InterfaceTable, law: InterfaceLaw, requested: Solved, contacts: Contacts) -> InterfaceColumns:
     """Return the part of the interface on the corrected contact area of rough surfaces, with the error of the law."""
     records = requested.records
     names = ("pressure", "corrected_area_fraction", "speed", "temperature", "friction_coefficient")
@@ -102,7 +104,15 @@ def _on_surface(table: InterfaceTable, law: InterfaceLaw, requested: Solved) -> 
     except InputError as failed:
         return InterfaceColumns({}, [_not_predicted(failed)])
     columns = {"interface_friction": friction, "interface_error": error, "total_friction": hysteresis + friction}
-    return InterfaceColumns(columns, [*notes, _CUT_OFF])
+    coupled: dict[Any, SurfaceCoupling] = {}
+    sheared = []
+    for row, case in enumerate(requested.of_records):
+        key, ratio = (case.material, case.surface, case.layer), contacts.rubbers[case.material].material.poisson_ratio
+        if key not in coupled:
+            coupled[key] = SurfaceCoupling.of(surface_of(case.surface), ratio, case.layer)
+        coulomb, rest, part, pressure = (float(one[row]) for one in (friction, hysteresis, area, nominal))
+        sheared.append(coupled[key].contact(coulomb, rest, part, pressure, case.label))
+    return InterfaceColumns(columns, [*notes, *coupling_notes(sheared), _CUT_OFF])
 
 
 def _fitted(

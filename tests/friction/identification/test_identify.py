@@ -236,7 +236,7 @@ def test_nothing_is_identified_from_friction_that_no_rubber_makes(friction, expe
 @pytest.mark.usefixtures("closed_form")
 @pytest.mark.parametrize(("poisson_ratio", "expected"), [(0.5, set()), (0.4, {"tangential-coupling"})])
 def test_coulomb_friction_on_compressible_rubber_is_noted(poisson_ratio: float, expected: set[str]) -> None:
-    """Shear of μ_c = 0.3 moves the surface by 0.3 (1 − 2ν)/(2(1 − ν)) of what the pressure does: 0.05 for ν = 0.4."""
+    """Shear of μ_c = 0.3 changes friction by 0.48 a/R times 0.3 (1 − 2ν)/(2(1 − ν)), 0.05 for ν = 0.4."""
     curves = closed_form_curves(*WARM)
     rubbed = replace(curves, coulomb=np.full(len(curves), 0.3), slip=0.2 * curves.speed)
     found = vf.identify_material(

@@ -50,6 +50,7 @@ class PeriodicThermalContact(ThermalContact):
     """Contact of a rough surface at any rise of temperature."""
 
     knots_apart: ClassVar[float] = 0.3
+    of_nominal_area: ClassVar[bool] = True
 
     def heat(self, solution: PeriodicSolution, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
         """Return the heats of a contact solved at a temperature, per nominal area."""

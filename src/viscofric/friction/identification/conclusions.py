@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.friction.assumption_check import ContactSize
 from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
@@ -114,6 +115,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         family = level_family(best, outcome.contacts, material_of, middle, levels, outcome.iterations + 1)
     of_anchors = _anchor_notes(best, drawn, middle, limit) if outcome.anchored else ()
     material = material_of(best.minimum.place, posterior.covariance)
+    sheared = _coupling(outcome, material)
     fitted, residuals = _fitted(outcome, posterior)
     levels_drawn = np.abs([one.complex_modulus(middle) for one in drawn.materials])
     points = problem.observations.points
@@ -138,7 +140,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         error_scale=error_scale,
         roughness=problem.smoothness.roughness,
         iterations=outcome.iterations,
-        notes=(*points.notes, *doubts, *of_anchors),
+        notes=(*points.notes, *doubts, *sheared, *of_anchors),
     )
     return replace(found, material=with_origin(found, outcome.curves.source))
 
@@ -157,15 +159,20 @@ def _with_enlarged_errors(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Pr
     return weighed(replace(best.problem, observations=larger), best.minimum.place), scale
 
 
+def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:
+    """Return a note where measured Coulomb friction changes the friction of the contacts by too much."""
+    points, indenter = outcome.start.observations.points, outcome.contacts.indenter
+    measured = points.at_one_load(outcome.curves)
+    measured = replace(measured, load=points.forces, load_unit=indenter.geometry.load_unit)
+    sizes = [ContactSize.of(material, indenter, measured, row, None) for row in range(len(measured))]
+    coupled = check_coupling(measured, material, None, [(one.smallest, one.smallest) for one in sizes])
+    return () if coupled is None or coupled.holds else (coupled.sentence,)
+
+
 def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> tuple[str, ...]:
     """Return notes on doubts about the residuals and the friction."""
     points = outcome.start.observations.points
-    measured = points.at_one_load(outcome.curves)
-    notes: list[str] = list(implausible(measured))
-    measured = replace(measured, load=points.forces, load_unit=outcome.contacts.indenter.geometry.load_unit)
-    coupled = check_coupling(measured, outcome.contacts.poisson_ratio)
-    if coupled is not None and not coupled.holds:
-        notes.append(coupled.sentence)
+    notes: list[str] = list(implausible(points.at_one_load(outcome.curves)))
     if error_scale == 1.0:
         return tuple(notes)
     scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"

@@ -40,7 +40,7 @@ COLUMNS = {
     "interface_error": ("coulomb_error", "1", "standard error of the friction coefficient of the interface"),
 }
 #: Notes of the curves that the study has anyway: of the isothermal contacts, or counted over all cases.
-_KEPT = ("interface-extrapolated", "interface-pressure", "mean-heat-left-out", "states-beyond")
+_KEPT = ("interface-extrapolated", "interface-pressure", "loss-beyond", "mean-heat-left-out", "states-beyond")
 
 
 def solve_heated(
@@ -81,7 +81,9 @@ def solve_heated(
         if not curves:
             raise wrong[0] from None
     notes = [note_of(note) for one in curves for note in one.notes]
-    said += [str(note) for note in notes if note.code in _KEPT]
+    # That of an interface is a note of the isothermal contacts too.
+    kept = (*_KEPT, "tangential-coupling") if settings.get("interface") is None else _KEPT
+    said += [str(note) for note in notes if note.code in kept]
     return HistoryRecord({}, tuple(dict.fromkeys(said)), columns=_columns(curves))
 
 

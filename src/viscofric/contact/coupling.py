@@ -1,0 +1,183 @@
+"""Change of friction by the shear of Coulomb friction, for contacts that are solved without it.
+
+A shear τ = μ_c p moves the surface in the normal direction by −i X q·n/|q| times what the same wave of pressure moves
+a half-space by (`viscofric.contact.bodies`).  Under a given pressure, the slope of this displacement changes friction
+by ::
+
+    Δμ = 2(1−ν²) Σ_q (q·n/|q|)² X Re S(−q·v) τ̂ p̂* / σ̄  ≈  2c (1−ν²) |S(v/a)| X̄ <p²>/<p>² (1 − A <p>²/<p²>) τ̄
+
+with the means τ̄ and <p> over the contact, c = 1 of line contacts and 1/2 of others, X̄ the mean of |X| over the waves of
+the pressure, and A the contact area over the nominal one, since a uniform shear has no slope.  <p²>/<p>² is 1.1 for
+Hertz's pressures and 1.2 to 1.4 for rough surfaces.  The change has the other sign where the slip is reversed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.bodies import half_space_coupling
+from viscofric.contact.periodic.surface import hermitian_factor, wave_number
+from viscofric.notes import Note, Remedy
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from viscofric.arrays import Array
+    from viscofric.contact.bodies import Layer
+    from viscofric.contact.periodic.surface import PeriodicSurface
+
+
+#: Largest acceptable change, over viscoelastic friction.
+LARGEST = 0.05
+#: <p²>/<p>² of contacts.
+_SQUARE = 1.25
+#: Contact area of solved contacts over that of Persson's theory.
+_SOLVED = 1.25
+#: Wave numbers times the contact's radius, over the whole spectrum of the pressure.
+_WAVES = np.exp(np.arange(-5.0, 5.0, 0.05))
+_REMEDY = (
+    "; solve contacts with it ("
+    + Remedy("coulomb=, without heating", "--coulomb", "viscofric solve --coulomb", "viscofric solve --coulomb")
+    + "), or take the mean of friction over both directions of slip."
+)
+
+
+@dataclass(frozen=True)
+class ShearedContact:
+    """A contact solved without shear, and the shear of its Coulomb friction.
+
+    Attributes
+    ----------
+    stress : float
+        Mean shear stress of the contact, Pa.
+    friction : float
+        Viscoelastic friction coefficient.
+    compliance : float
+        (1 − ν²)|S(v/a)|, 1/Pa.
+    coupling : float
+        Mean of |X|; NaN where it is unknown.
+    line : bool
+        Whether it is a line contact.
+    filled : float
+        Contact area over the nominal one, zero for indenters.
+    where : str
+        Its conditions in words.
+    """
+
+    stress: float
+    friction: float
+    compliance: float
+    coupling: float
+    line: bool = False
+    filled: float = 0.0
+    where: str = ""
+
+    @property
+    def change(self) -> float:
+        """Estimated change of the friction coefficient, of either sign."""
+        both = (2.0 if self.line else 1.0) * self.compliance * self.coupling * abs(self.stress)
+        return both * max(_SQUARE - self.filled, 0.0)
+
+    @property
+    def share(self) -> float:
+        """The change over viscoelastic friction."""
+        return self.change / max(abs(self.friction), 1e-12)
+
+    @property
+    def said(self) -> str:
+        """The change in words."""
+        at = f"; {self.where}" if self.where else ""
+        percent = f"{100.0 * self.share:.2g}" if self.share < 0.1 else f"{100.0 * self.share:.0f}"
+        return (
+            f"Coulomb friction, a shear stress of {1e-6 * abs(self.stress):.2g} MPa, also displaces the surface in the "
+            f"normal direction, which changes the friction coefficient by about {self.change:.2g} "
+            f"({percent} % of viscoelastic friction{at}), with the opposite sign where the slip is "
+            "reversed. Contacts were solved without this effect"
+        )
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Numbers of the sentence by name, SI."""
+        return {"stress": abs(self.stress), "change": self.change, "share": self.share}
+
+
+def coupling_notes(contacts: Iterable[ShearedContact]) -> tuple[Note, ...]:
+    """Return a note on the contact whose friction changes most, relative to it; none if it hardly changes."""
+    sheared = [one for one in contacts if one.stress != 0.0]
+    if any(math.isnan(one.coupling) for one in sheared):
+        said = (
+            "Coulomb friction also displaces the surface of a layer on a sliding base in the normal direction, by an "
+            "amount that is not estimated; contacts were solved without this effect."
+        )
+        return (Note("tangential-coupling", said),)
+    worst = max(sheared, key=lambda one: one.share, default=None)
+    if worst is None or worst.share <= LARGEST:
+        return ()
+    return (Note("tangential-coupling", worst.said, remedy=_REMEDY, values=worst.values),)
+
+
+def mean_coupling(poisson_ratio: float, layer: Layer | None, radius: float, *, line: bool = False) -> float:
+    """Return the mean of |X| below Hertz's pressure on a contact of a radius or half-width, m."""
+    if layer is None:
+        return half_space_coupling(poisson_ratio)
+    if line:
+        from scipy.special import j1
+
+        weight = np.square(j1(_WAVES)) / _WAVES  # |p̂|² dq, in equal steps of ln q
+    else:
+        weight = np.square(np.sin(_WAVES) / _WAVES - np.cos(_WAVES)) / np.square(_WAVES)  # q |p̂|² dq
+    return _mean(layer.coupling(_WAVES / radius, poisson_ratio), weight) if layer.bonded else math.nan
+
+
+@dataclass(frozen=True)
+class SurfaceCoupling:
+    """What the shear of contacts on a rough surface depends on.
+
+    Attributes
+    ----------
+    slope : float
+        Rms slope of the surface.
+    coupling : float
+        Mean of |X| over that of Θ, over its waves, weighted with their slopes; NaN where it is unknown.
+    profile : bool
+        Whether it is the same everywhere across the motion.
+    """
+
+    slope: float
+    coupling: float
+    profile: bool = False
+
+    @classmethod
+    def of(cls, surface: PeriodicSurface, poisson_ratio: float, layer: Layer | None) -> SurfaceCoupling:
+        """Return that of a surface on a half-space or layer."""
+        waves = np.square(np.abs(scipy.fft.rfft2(surface.z, norm="forward"))) * hermitian_factor(surface.shape[1])
+        magnitude = np.hypot(*wave_number(surface.shape, surface.spacing)).ravel()[1:]
+        slopes = np.square(magnitude) * waves.ravel()[1:]
+        coupling = half_space_coupling(poisson_ratio)
+        if layer is not None:
+            coupling = math.nan
+            if layer.bonded:
+                over = _mean(layer.yielding(magnitude, poisson_ratio), slopes)
+                coupling = _mean(layer.coupling(magnitude, poisson_ratio), slopes) / over
+        return cls(math.sqrt(float(slopes.sum())), coupling, surface.shape[1] == 1)
+
+    def contact(self, coulomb: float, friction: float, area: float, pressure: float, where: str = "") -> ShearedContact:
+        """Return a contact of a Coulomb friction, with its area over the nominal one and its nominal pressure, Pa.
+
+        The compliance times the mean of Θ is that with which Persson's theory, erf(√2 (1−ν²)|S| σ0/h'), has the area,
+        but for a factor.
+        """
+        from scipy.special import erfinv
+
+        compliance = self.slope * float(erfinv(area / _SOLVED)) / (math.sqrt(2.0) * pressure)
+        stress = abs(coulomb) * pressure / area
+        return ShearedContact(stress, friction, compliance, self.coupling, self.profile, area, where)
+
+
+def _mean(values: Array, weight: Array) -> float:
+    return float(weight @ np.abs(values)) / float(weight.sum())
