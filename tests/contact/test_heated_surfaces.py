@@ -10,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.contact.fields import periodic_dissipation as dissipation
 from viscofric.contact.fields.dissipation import Modes
 from viscofric.contact.fields.periodic_dissipation import periodic_dissipation
 from viscofric.contact.heating import thermal_resistances
@@ -45,6 +46,20 @@ def one_wave(speed: float, step: float = 0.6) -> tuple[Any, complex]:
     found = periodic_dissipation((1e5 + 5e4 * np.cos(Q * x))[:, None], WAVES, ONE_MODE, NU, (speed, 0.0), step)
     phase = 1j * Q * speed * 1e-3
     return found, phase / (phase - 1.0)
+
+
+@pytest.mark.parametrize("speed", [1e-3, 3e-2, 1.0])
+def test_few_waves_and_modes_place_the_loss_as_all_of_them(speed: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rises to 1/200 of that of the face by heat on it: waves are cut off where they lose 1/100 of their part."""
+    material = vf.synthetic_fluoroelastomer()
+    solution = vf.solve_periodic(material, road(64), speed=speed, pressure="0.2 MPa", temperature=303.15)
+    spectrum = material.modes_at(303.15)
+    modes = Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+    few = periodic_resistances(solution, modes, 0.5, HEATING)
+    for name, value in (("_FADED", 8.0), ("_TOP", 0.0), ("_TOGETHER", 2.5), ("_MARGIN", 20.0)):
+        monkeypatch.setattr(dissipation, name, value)
+    every = periodic_resistances(solution, modes, 0.5, HEATING)
+    assert np.abs(np.subtract(few, every)).max() < 5e-3 * every.surface
 
 
 @pytest.mark.parametrize("speed", [1e-3, 0.1, 10.0])

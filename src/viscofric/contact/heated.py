@@ -5,19 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.coupling import ShearedContact, coupling_notes
+from viscofric.contact.heated_result import INTERFACE, SHIFT, Heat, Warmed, beyond, described, ends
 from viscofric.errors import InputError
 from viscofric.heat.branches import LEFT, HeatCurve, outermost, settled
-from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
+from viscofric.heat.heating import Heating, ThermalResistances
 from viscofric.heat.interface import END, SlidingInterface, last_known
-from viscofric.heat.result import ContactHeating
-from viscofric.notes import Note, Remedy
-from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,56 +23,20 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.fields.dissipation import Modes
     from viscofric.heat.branches import State
+    from viscofric.heat.result import ContactHeating
+    from viscofric.notes import Note
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
 
 
-#: What gives friction at the temperature where the loss is released.
-AT_THE_LOSS = Remedy(
-    "Heating(average='loss')", "--heating-average loss", "average = 'loss' under [heating]", field="heating.average"
-)
 #: Of the contacts among which states are looked for.
 LOOSE = 2e-2
 #: Between two of them α falls by this much, log10, or the temperature rises by this many K.
 _DECADES, _KELVIN = 0.4, 10.0
 #: States are looked for up to this rise, K, and up to this multiple of the largest rise that a contact produced.
 _LEAST, _BEYOND = 30.0, 2.0
-#: Laws that end at some temperature, as codes and sentences call them.
-SHIFT, INTERFACE = "shift", "interface"
-_NAMES = {SHIFT: "α(T) of the rubber", INTERFACE: "the law of the interface"}
-#: Below it, over the contact radius, the heat of a passing contact is in a skin.
-THIN = 0.5
-#: Rises per heat are accurate to this; a part of the loss that is left out is noted where it may change the rise by
-#: more, and friction by more than this.
-_ACCURATE, _FELT = 0.2, 1e-2
-
-
-class Heat(NamedTuple):
-    """Heats of a solved contact and rises per heat; what they are per, its area, and half its length along the motion.
-
-    Heats are in W, of a line contact in W/m, of a rough surface in W/m² of its nominal area, of which `area` is a part.
-    """
-
-    resistances: ThermalResistances
-    coulomb: float
-    loss: float
-    area: float
-    size: float
-
-    @property
-    def balance(self) -> HeatBalance:
-        """The state in which both faces are equally warm."""
-        return HeatBalance.of(self.resistances, self.coulomb, self.loss)
-
-
-class Warmed(NamedTuple):
-    """A contact solved at a rise of temperature, K, what is kept of its solution, and the rise that it produces, K."""
-
-    rise: float
-    friction: float
-    solution: Any
-    heat: Heat
-    produced: float
+#: Decades of α within which a contact of a curve keeps its resistances: a tenth of the distance of those found.
+_ALIKE = 0.03
 
 
 @dataclass(frozen=True)
@@ -108,6 +70,14 @@ class ThermalContact:
     def area(self, solution: Any) -> float:
         """Return the area of a solved contact."""
         raise NotImplementedError
+
+    def relative(self, heat: Heat) -> ThermalResistances:
+        """Return the resistances of a contact over those in closed form, with which `heat` finds those of another."""
+        (rubber, other), one = self.closed(heat.area, heat.size), heat.resistances
+        # Infinite below a strip that does not slide over the counterface.
+        over = one.counterface / other if math.isfinite(other) else 1.0
+        parts: Any = (*(part / rubber for part in one[:4]), 0.0, over, one.beyond)
+        return ThermalResistances(*parts)
 
     def scaled(self, heat: Heat, larger: Array) -> ThermalResistances:
         """Return resistances of contacts (n,) whose area is larger by factors, from those of one solved."""
@@ -234,7 +204,7 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
         raise beyond(ended, contact.kelvin + scanned[-1].rise)
     found, left_out = within_law(contact, [settle(contact, curve, one, accuracy) for one in states])
     order = found if contact.heating.branch == "cold" else found[::-1]
-    heating, notes = described(contact, order, isothermal.friction)
+    heating, notes = described(contact.heating, contact.speed, order, isothermal.friction)
     shear = coupling_notes([contact.sheared(order[0])])
     said = dict.fromkeys((*notes, *shear, *left_out, *sought(curve, ended, contact.kelvin)))
     return finished(contact, order[0].solution, heating, tuple(said))
@@ -245,31 +215,12 @@ def finished(contact: ThermalContact, solution: Any, heating: ContactHeating, no
     return replace(solution, temperature=contact.kelvin, heating=heating, warnings=(*solution.warnings, *notes))
 
 
-def beyond(law: str, kelvin: float) -> InputError:
-    """Return the error of a contact that is hotter than a law is known, or than states are looked for."""
-    said = f"The contact heats beyond {shown_celsius(kelvin)} °C"
-    values = {"temperature": kelvin}
-    if not law:
-        return InputError(f"{said}, up to which a state is looked for; reduce the heat.", code="too-hot", values=values)
-    return InputError(
-        f"{said}, up to which {_NAMES[law]} is known; reduce the heat, or give one that is valid at higher "
-        "temperatures.",
-        code=f"beyond-{law}",
-        values=values,
-    )
-
-
 def sought(curve: HeatCurve, ended: str, kelvin: float) -> tuple[Note, ...]:
     """Return a note if a law ends before a hotter state of a contact can be excluded; its temperature without heat."""
     last = float(curve.rise[-1])
     if not ended or last >= _BEYOND * float(curve.produced.max()):
         return ()
-    return (_ends(ended, kelvin + last),)
-
-
-def _ends(law: str, kelvin: float) -> Note:
-    said = f"Thermal states were looked for up to {shown_celsius(kelvin)} °C only, where {_NAMES[law]} ends."
-    return Note("states-beyond", said, values={"temperature": kelvin})
+    return (ends(ended, kelvin + last),)
 
 
 def _curve_of(scanned: list[Warmed]) -> HeatCurve:
@@ -283,12 +234,23 @@ def settle(
     state: State,
     accuracy: float,
     relative: ThermalResistances | None = None,
+    *,
+    in_curve: bool = False,
 ) -> Warmed:
-    """Return the contact solved at a state of its curve; `relative` as in `ThermalContact.heat`."""
+    """Return the contact solved at a state of its curve; `relative` as in `ThermalContact.heat`.
+
+    Contacts in a friction curve keep their resistances where α has hardly changed since they were found.
+    """
     last: list[Warmed] = []
+    found: list[tuple[float, ThermalResistances]] = []
 
     def produced(rise: float) -> float:
-        last[:] = [contact.at(rise, accuracy, relative, hot=state.hot)]
+        near, shift = relative, contact.log10_shift(contact.kelvin + rise)
+        if near is None and found and abs(shift - found[0][0]) <= _ALIKE:
+            near = found[0][1]
+        last[:] = [contact.at(rise, accuracy, near, hot=state.hot)]
+        if in_curve and near is None:
+            found[:] = [(shift, contact.relative(last[0].heat))]
         return last[0].produced
 
     settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
@@ -306,84 +268,4 @@ def within_law(contact: ThermalContact, found: list[Warmed]) -> tuple[list[Warme
         end = contact.kelvin + face.known
     if not known or (len(known) < len(found) and contact.heating.branch == "hot"):
         raise beyond(INTERFACE, end)
-    return known, () if len(known) == len(found) else (_ends(INTERFACE, end),)
-
-
-def described(
-    contact: ThermalContact, found: list[Warmed], isothermal: float
-) -> tuple[ContactHeating, tuple[Note, ...]]:
-    """Return the heat of the first of one or two states of a contact, with the numbers of the other, and notes."""
-    heating, (rise, _, _, heat, produced) = contact.heating, found[0]
-    balance, alone = heat.balance, HeatBalance.of(heat.resistances, heat.coulomb, 0.0)
-    by_coulomb = heating.rise(alone)
-    result = ContactHeating(
-        temperature_rise=rise,
-        coulomb_rise=by_coulomb,
-        loss_rise=produced - by_coulomb,
-        track_rise=balance.track_rise,
-        face_rise=balance.face_rise,
-        loss_weighted_rise=balance.loss_weighted_rise,
-        residual=produced - rise,
-        coulomb_heat=heat.coulomb,
-        loss_heat=heat.loss,
-        loss_beyond=heat.resistances.beyond * heat.loss,
-        rubber_heat=balance.rubber_heat,
-        counterface_heat=balance.counterface_heat,
-        skin=math.sqrt(2.0 * heating.rubber.diffusivity / (abs(contact.speed) * heat.size)),
-        isothermal_friction=isothermal,
-        other_rise=found[1].rise if len(found) > 1 else None,
-        other_friction=found[1].friction if len(found) > 1 else None,
-    )
-    notes = [] if len(found) == 1 else [_two_states(result, found[1].heat.balance.face_rise)]
-    if heating.average == "contact" and result.skin < THIN and rise > 0.0:
-        notes.append(_thin_skin(result))
-    notes += _loss_beyond(result, found[0].friction, heating.average)
-    return result, tuple(notes)
-
-
-def _two_states(result: ContactHeating, other_face: float) -> Note:
-    assert result.other_rise is not None
-    assert result.other_friction is not None
-    cold, hot = sorted((result.temperature_rise, result.other_rise))
-    cold_face, hot_face = sorted((result.face_rise, other_face))
-    return Note(
-        "two-thermal-states",
-        f"The contact has two stable states: the rubber {cold:.3g} K or {hot:.3g} K warmer than the body, its face "
-        f"{cold_face:.3g} K or {hot_face:.3g} K; which one it is in depends on the speeds before.",
-        values={"cold": cold, "hot": hot, "cold_face": cold_face, "hot_face": hot_face}
-        | {"other_friction": result.other_friction},
-    )
-
-
-def _thin_skin(result: ContactHeating) -> Note:
-    return Note(
-        "thin-skin",
-        f"While the contact passes, heat spreads {result.skin:.2g} contact radii deep: its face is "
-        f"{result.face_rise:.2g} K warmer, but the rubber where the loss is released "
-        f"{result.loss_weighted_rise:.2g} K",
-        remedy="; for friction at the latter, give " + AT_THE_LOSS + ".",
-        values={
-            "skin": result.skin,
-            "face_rise": result.face_rise,
-            "loss_weighted_rise": result.loss_weighted_rise,
-        },
-    )
-
-
-def _loss_beyond(result: ContactHeating, friction: float, average: str) -> tuple[Note, ...]:
-    """Return a note where the loss that is released too far away to warm the contact may matter."""
-    rise, share = result.temperature_rise, result.loss_beyond / max(result.loss_heat, 1e-300)
-    if share == 0.0 or rise <= 0.0:
-        return ()
-    if average == "loss":  # the rubber beyond counts as cold
-        bound, where = rise * (1.0 - share), "is that of the rest, where it is released; over all of it, it is down to"
-    else:
-        bound, where = rise + result.loss_rise * share / (1.0 - share), "is without it; with it, it is up to"
-    part = abs(bound - rise) / rise
-    if part <= _ACCURATE or part * abs(friction / result.isothermal_friction - 1.0) <= _FELT:
-        return ()
-    said = (
-        f"{100 * share:.0f} % of the viscoelastic loss is released too far away to warm the contact: the mean rise of "
-        f"temperature, {rise:.3g} K, {where} {bound:.3g} K."
-    )
-    return (Note("loss-beyond", said, values={"share": share, "rise": rise, "bound": bound}),)
+    return known, () if len(known) == len(found) else (ends(INTERFACE, end),)

@@ -15,17 +15,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heated import (
-    LOOSE,
-    Heat,
-    beyond,
-    described,
-    enough,
-    settle,
-    sought,
-    within_law,
-)
+from viscofric.contact.heated import LOOSE, enough, settle, sought, within_law
 from viscofric.contact.heated_knots import Between, Knot, knots_of
+from viscofric.contact.heated_result import Heat, beyond, described
 from viscofric.heat.branches import HeatCurve, outermost
 from viscofric.heat.result import OF_CONTACT
 from viscofric.processes import Workers, call_all
@@ -34,7 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from viscofric.arrays import Array
-    from viscofric.contact.heated import ThermalContact, Warmed
+    from viscofric.contact.heated import ThermalContact
+    from viscofric.contact.heated_result import Warmed
     from viscofric.heat.branches import State
     from viscofric.heat.heating import ThermalResistances
     from viscofric.heat.result import ContactHeating
@@ -120,7 +113,7 @@ def _relative(knot: Knot | None) -> dict[str, ThermalResistances]:
 def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed], said: tuple[Note, ...]) -> States:
     found, left_out = within_law(contact, found)
     order = found if contact.heating.branch == "cold" else found[::-1]
-    heating, notes = described(contact, order, isothermal.friction)
+    heating, notes = described(contact.heating, contact.speed, order, isothermal.friction)
     notes = tuple(dict.fromkeys((*notes, *left_out, *said)))
     return States(contact, isothermal, found[0], found[-1], order[0], heating, notes)
 
@@ -162,7 +155,7 @@ class _Curve:
             for branch, state in enumerate(states):
                 near = None if at_knots else self._near(row, self._branch(len(states), branch))
                 rise = state.rise if near is None else min(state.rise * math.exp(near.rise), curve.limits[1])
-                start = {"curve": curve, "state": state._replace(rise=rise), **_relative(near)}
+                start = {"curve": curve, "state": state._replace(rise=rise), "in_curve": True, **_relative(near)}
                 found.append((self, row, {**self._call(row), **start}))
         return found
 

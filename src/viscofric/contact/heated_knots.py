@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
-    from viscofric.contact.heated import Heat, ThermalContact
+    from viscofric.contact.heated import ThermalContact
+    from viscofric.contact.heated_result import Heat
 
 #: By how much log10 α may differ between the states of two knots for others in between.
 _SHIFTED = 0.4
@@ -48,11 +49,7 @@ class Knot(NamedTuple):
     @classmethod
     def of(cls, contact: ThermalContact, heat: Heat, drop: float = 0.0, rise: float = 0.0) -> Knot:
         """Return the knot of a contact whose resistances are known."""
-        (rubber, other), one = contact.closed(heat.area, heat.size), heat.resistances
-        # Infinite below a strip that does not slide over the counterface.
-        over = one.counterface / other if math.isfinite(other) else 1.0
-        parts: Any = (*(part / rubber for part in one[:4]), 0.0, over, one.beyond)
-        return cls(drop, ThermalResistances(*parts), rise)
+        return cls(drop, contact.relative(heat), rise)
 
     @property
     def columns(self) -> list[float]:

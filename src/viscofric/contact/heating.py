@@ -10,7 +10,8 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.fields.dissipation import dissipation
-from viscofric.contact.heated import Heat, ThermalContact
+from viscofric.contact.heated import ThermalContact
+from viscofric.contact.heated_result import Heat
 from viscofric.heat.heating import HeatBalance, ThermalResistances
 from viscofric.heat.influence import Diffusion
 from viscofric.heat.means import disc_mean, strip_mean

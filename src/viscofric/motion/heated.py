@@ -15,7 +15,7 @@ import numpy as np
 from viscofric.arguments import insist_on
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.coupling import ShearedContact, coupling_notes
-from viscofric.contact.heated import AT_THE_LOSS, THIN
+from viscofric.contact.heated_result import AT_THE_LOSS, THIN
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
 from viscofric.heat.path import Passage, path_rise

@@ -72,8 +72,12 @@ def _solution(name: str, surface: PeriodicSurface | OnDisk, **call: Any) -> Peri
         raise error.at(f"surface {name!r} at {call['speed']:g} m/s") from None
 
 
+#: Statistics of the solution that was asked for last: of heated contacts their area is needed first.
+_statistics = functools.lru_cache(maxsize=1)(contact_statistics)
+
+
 def _numbers(solution: PeriodicSolution) -> Numbers:
-    described = contact_statistics(solution)
+    described = _statistics(solution)
     return Numbers(
         solution.friction_coefficient,
         solution.diagnostics.friction_error,
@@ -89,7 +93,7 @@ class _ThermalContact(PeriodicThermalContact):
 
     def area(self, solution: PeriodicSolution) -> float:
         """Return the corrected contact area over the nominal one."""
-        return contact_statistics(solution).corrected_area_fraction
+        return _statistics(solution).corrected_area_fraction
 
     def kept(self, solution: PeriodicSolution) -> Numbers:
         """Return the numbers of a solution."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.contact.heated import AT_THE_LOSS, THIN
+from viscofric.contact.heated_result import AT_THE_LOSS, THIN
 from viscofric.errors import InputError
 from viscofric.friction.cases.case import moved
 from viscofric.friction.cases.record import Failure, HistoryRecord

@@ -11,14 +11,12 @@ all depths a wave loses 2(1−ν²)/q (q·v) Im S |p|², the work of friction.
 
 from __future__ import annotations
 
-import functools
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.fields.dissipation import power_density
 from viscofric.heat.layers import LayeredHeat
 
 if TYPE_CHECKING:
@@ -33,8 +31,14 @@ if TYPE_CHECKING:
 _STEP = 0.6
 #: First and last depth, times the wave number of the shortest and of the longest wave.
 _FIRST, _LAST = 0.2, 7.0
-#: Waves are followed down to this qz, at which their stress is 3e-3 of the pressure: the loss changes by 1e-5.
-_FADED = 8.0
+#: Waves place the loss down to this qz, below which they lose 1/100 of their part.
+_FADED = 4.0
+#: Modes with which the loss is placed: the ratio of their times, and how far these go beyond the periods of the waves.
+_TOGETHER, _MARGIN = 6.0, 4.0
+#: Largest share of the loss in the first layer.
+_TOP = 0.01
+#: Width in ln q of groups of waves that count as one for how much is lost, and frequencies of the loss compliance.
+_GROUP, _POINTS = 0.01, 500
 
 
 def periodic_dissipation(
@@ -47,34 +51,83 @@ def periodic_dissipation(
 ) -> LayeredHeat:
     """Return where the loss is released below a pressure (nx, ny), Pa, that moves at a velocity, m/s.
 
-    `waves` are those of its grid; `step` is that of the logarithm of the depth.
+    `waves` are those of its grid; `step` is that of the logarithm of the depth.  How much is lost in a layer follows
+    from all waves, where from those that have not faded there, and from few modes.  The first layer has a
+    hundredth of the loss at most.
     """
-    loads, longest, shortest = waves.of(pressure), float(waves.magnitude[0]), float(waves.magnitude[-1])
-    ahead = waves.q.T @ np.asarray(velocity)
-    rate = np.abs(ahead)
-    few = modes.merged(0.05 / float(rate.max()), 50.0 / float(rate[rate > 1e-12 * rate.max()].min()))
+    loads, ahead = waves.of(pressure), waves.q.T @ np.asarray(velocity)
+    longest, shortest, rate = float(waves.magnitude[0]), float(waves.magnitude[-1]), np.abs(ahead)
+    fastest, slowest = float(rate.max()), float(rate[rate > 1e-12 * rate.max()].min())
+    lost = _Lost.of(waves.magnitude, np.square(np.abs(loads)) * _loss_rate(rate, slowest, modes), poisson_ratio)
     count = 1 + math.ceil(math.log(_LAST / _FIRST * shortest / longest) / step)
     depths = _FIRST / shortest * np.exp(step * np.arange(count))
-    weights = step * depths
-    weights[0] *= 1.0 + 1.0 / math.expm1(step)  # all depths above, at which nothing has changed
-    means, powers = [], []
-    for depth, weight in zip(depths.tolist(), weights.tolist(), strict=True):
+    below = np.array([lost.below(edge) for edge in (0.0, *(depths * math.exp(0.5 * step)).tolist())])
+    first = max(0, int(np.searchsorted(-below, -(1.0 - _TOP) * below[0])) - 2)
+    depths, below = depths[first:], np.delete(below, np.s_[1 : first + 1])
+    few = modes.merged(1.0 / (_MARGIN * fastest), _MARGIN / slowest, _TOGETHER)
+    powers = []
+    for depth, mean in zip(depths.tolist(), (-np.diff(below)).tolist(), strict=True):
         points = _grid_of(waves, _FADED / depth)
         grid = waves.on(points)
         some = slice(grid.held)
-        stress = grid.spread(_stress(waves.q[:, some], loads[some], depth, poisson_ratio)).astype(np.complex64)
-        on_dashpot = functools.partial(_on_dashpot, stress, grid.spread(1j * ahead[some]), points)
-        released = weight * scipy.fft.rfft2(power_density(on_dashpot, few, poisson_ratio).astype(float), norm="forward")
-        means.append(released[0, 0].real)
-        powers.append(grid.gathered(released))
+        stress = _components(_stress(waves.q[:, some], loads[some], depth, poisson_ratio), poisson_ratio)
+        spread, turned = grid.spread(stress).astype(np.complex64), grid.spread(1j * ahead[some]).astype(np.complex64)
+        power: Any = sum(
+            C / tau * _squares(spread, turned * np.float32(tau), points) for C, tau in zip(*few, strict=True)
+        )
+        released = scipy.fft.rfft2(power.astype(float), norm="forward")
+        powers.append(mean / released[0, 0].real * grid.gathered(released))
     edges = np.concatenate([[0.0], depths * math.exp(0.5 * step)])
-    return LayeredHeat(np.diff(edges), np.array(means), powers)
+    return LayeredHeat(np.diff(edges), -np.diff(below), powers)
 
 
-def _on_dashpot(stress: NDArray[np.complex64], ahead: ComplexArray, points: tuple[int, int], tau: float) -> Array:
-    """Return the stress (6, nx, ny) that waves of stress leave on the dashpot of a mode; `ahead` are i q·v."""
-    on_dashpot = stress * (ahead * tau / (ahead * tau - 1.0)).astype(stress.dtype)
-    return np.asarray(scipy.fft.irfft2(on_dashpot, points, norm="forward"))
+class _Lost(NamedTuple):
+    """Loss of waves (n,) in groups of nearly equal length, as one wave each.
+
+    At the depth d/q a wave loses (1 + ν) [2(1 − 2ν) + 4d²] e^(−2d) times |p|² ω Im S, and so does its opposite.
+    """
+
+    magnitude: Array
+    power: Array  # |p|² ω Im S
+    poisson_ratio: float
+
+    @classmethod
+    def of(cls, magnitude: Array, power: Array, poisson_ratio: float) -> _Lost:
+        """Group waves that ascend by magnitude, with their |p|² ω Im S."""
+        group = np.floor(np.log(magnitude / magnitude[0]) / _GROUP)
+        starts = np.flatnonzero(np.diff(group, prepend=-1.0))
+        total = np.add.reduceat(power, starts)
+        mean = np.add.reduceat(power * magnitude, starts) / np.maximum(total, 1e-300)
+        return cls(np.where(total > 0.0, mean, magnitude[starts]), total, poisson_ratio)
+
+    def below(self, depth: float) -> float:
+        """Return the mean loss below a depth."""
+        d, ratio = self.magnitude * depth, self.poisson_ratio
+        left = 2.0 * (1.0 + ratio) * (2.0 * (1.0 - ratio) + 2.0 * d + 2.0 * np.square(d)) * np.exp(-2.0 * d)
+        return float(self.power @ (left / self.magnitude))
+
+
+def _loss_rate(rate: Array, slowest: float, modes: Modes) -> Array:
+    """Return ω Im S of waves (n,), 1/(Pa s)."""
+    table = np.geomspace(0.5 * slowest, 2.0 * float(rate.max()), _POINTS)
+    x = np.multiply.outer(table, modes.tau)
+    logs = np.log(table * ((x / (1.0 + np.square(x))) @ modes.C))
+    return np.where(rate < slowest, 0.0, np.exp(np.interp(np.log(np.maximum(rate, slowest)), np.log(table), logs)))
+
+
+def _squares(stress: NDArray[np.complex64], turned: NDArray[np.complex64], points: tuple[int, int]) -> Array:
+    """Return the sum of squares of what waves of components leave on the dashpot of a mode; `turned` are i q·v τ."""
+    on_dashpot = scipy.fft.irfft2(stress * (turned / (turned - 1.0)), points, norm="forward")
+    return np.asarray(np.einsum("ixy,ixy->xy", on_dashpot, on_dashpot))
+
+
+def _components(stress: ComplexArray, poisson_ratio: float) -> ComplexArray:
+    """Return five or six components whose squares sum up to (1 + ν) s:s − ν (tr s)² of stresses (6, n)."""
+    xx, yy, zz = stress[:3]
+    parts = [(xx - yy) / math.sqrt(2.0), (xx + yy - 2.0 * zz) / math.sqrt(6.0), *(math.sqrt(2.0) * stress[3:])]
+    found = [math.sqrt(1.0 + poisson_ratio) * one for one in parts]
+    trace = (1.0 - 2.0 * poisson_ratio) / 3.0
+    return np.stack(found + ([math.sqrt(trace) * (xx + yy + zz)] if trace > 0.0 else []))
 
 
 def _stress(q: Array, loads: ComplexArray, depth: float, poisson_ratio: float) -> ComplexArray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -16,7 +17,8 @@ import numpy as np
 from viscofric.arguments import insist_on
 from viscofric.contact.fields.dissipation import Dissipation
 from viscofric.contact.fields.periodic_dissipation import periodic_dissipation
-from viscofric.contact.heated import Heat, ThermalContact, solve_heated
+from viscofric.contact.heated import ThermalContact, solve_heated
+from viscofric.contact.heated_result import Heat
 from viscofric.contact.heating import Cells
 from viscofric.errors import InputError
 from viscofric.heat.heating import Heating, ThermalResistances
@@ -135,10 +137,16 @@ def periodic_resistances(
     return ThermalResistances(surface, loss, surface_below, loss_below, nominal.track, _counterface(solution, heating))
 
 
+@lru_cache(maxsize=1)
+def _waves(shape: tuple[int, int], period: tuple[float, float]) -> Waves:
+    """Return the waves of a grid, which all contacts of a curve share."""
+    return Waves(shape, period)
+
+
 def _on_face(solution: PeriodicSolution) -> tuple[Waves, ComplexArray, ComplexArray]:
     """Return waves of the heat on the face and of the weights of its mean, both of mean 1."""
     shape = solution.pressure.shape[0], solution.pressure.shape[1]
-    waves = Waves(shape, (shape[0] * _step(solution.x), shape[1] * _step(solution.y)))
+    waves = _waves(shape, (shape[0] * _step(solution.x), shape[1] * _step(solution.y)))
     flux, loaded = waves.of(solution.pressure / solution.pressure.mean()), solution.pressure > 0.0
     # Where all is in contact its mean is that of the surface: the mean of what the heat meets takes its place.
     return waves, flux, flux if loaded.all() else waves.of(loaded / loaded.mean())
