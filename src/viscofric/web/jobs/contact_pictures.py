@@ -12,6 +12,7 @@ from scipy.ndimage import uniform_filter
 from viscofric.contact.fields.surface import surface_displacement
 from viscofric.datasets import plain
 from viscofric.notes import listed
+from viscofric.web.figures.contact import contact_view
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -204,8 +205,8 @@ def pictures(
         ``stage`` ("coarse" or "sharp"), ``kind`` ("point", "line" or "rough"), ``speed``, ``temperature``,
         ``direction`` (rad, of the motion in the map), ``numbers`` (each ``value`` and ``error``), ``peak_resolved``,
         ``map`` (null of line contacts; ``pressure`` has a row for each y), ``outline`` (closed lines), ``profile``,
-        ``warnings``.  Of the numbers, ``within`` is 1 where the rubber was measured at the contact's frequencies, 0
-        where it is extrapolated, null where that is not known.
+        ``warnings``, and what is shown of them (`contact_view`).  Of the numbers, ``within`` is 1 where the rubber was
+        measured at the contact's frequencies, 0 where it is extrapolated, null where that is not known.
     """
     case = requested.case
     known = requested.rubber.frequency_range is not None
@@ -219,7 +220,7 @@ def pictures(
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
     found: dict[str, Any] = drawn(requested, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
-    return shared | found
+    return (whole := shared | found) | contact_view(whole, case)
 
 
 def _doubts(requested: RequestedContact, within: bool | None) -> list[str]:

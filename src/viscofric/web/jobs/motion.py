@@ -14,6 +14,7 @@ from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import surface_of
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import prefixed
+from viscofric.web.figures.motion import motion_view
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import notes_without_folder, study_rubber
@@ -118,7 +119,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         The data set of the solution as plain types, ``steps``, ``rejected_steps``, ``temperature`` (K), ``warnings``
-        and ``notes``; of an impact also ``contacts``, what each of them has done.
+        and ``notes``; of an impact also ``contacts``, what each of them has done.  Then what is shown (`motion_view`).
 
     Raises
     ------
@@ -133,19 +134,21 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     solved: TransientSolution | ImpactSolution
     if options.impact is not None:
         hit = solved = _impact(rubber.material, case, options.impact)
-        whole, contacts = hit.run, {"contacts": plain([one._asdict() for one in hit.contacts], _DIGITS)}
+        whole, contacts = hit.run, hit.contacts
     else:
         whole = solved = _transient(rubber.material, case, options, accuracy, context)
-        contacts = {}
+        contacts = ()
         if not len(whole.time):  # nothing was reached
             raise KeyboardInterrupt
     # as of the friction curve: what is unknown is a note, what is doubtful a warning
     doubts, notes = rubber.doubts([case.temperature]), list(rubber.rubber.notes)
     warnings = list(solved.warnings)
     (notes if rubber.frequency_range is None else warnings).extend(doubts)
+    data = solved.to_dataset()
     return {
-        **record(solved.to_dataset(), _DIGITS),
-        **contacts,
+        **record(data, _DIGITS),
+        **({"contacts": plain([one._asdict() for one in contacts], _DIGITS)} if contacts else {}),
+        **plain(motion_view(data, contacts, f"{whole.steps} steps, {whole.rejected_steps} rejected"), _DIGITS),
         "steps": whole.steps,
         "rejected_steps": whole.rejected_steps,
         "temperature_of_contact": plain(case.temperature),

@@ -57,9 +57,6 @@ export function shapeOf(study) {
   return study.indenter?.shape ?? "ball";
 }
 
-/** Its name in a sentence. */
-export const nounOf = (study) => (ROUGH.includes(shapeOf(study)) ? "rough surface" : shapeOf(study));
-
 const shape = computed(() => shapeOf(state.study));
 const of = (shapes, ...fields) => where(() => shapes.includes(shape.value), ...fields);
 const left = new Map(); // what the study had of other shapes

@@ -215,7 +215,12 @@ function specOf(given) {
     ...each(all, ["title", "caption"], units.filled),
     map: all.map && { ...all.map, ...each(all.map, ["x", "y", "z"], column) },
     marks: all.marks.map((mark) => ({ ...mark, ...each(mark, ["label"], units.filled) })),
-    traces: all.traces.map((one) => ({ ...one, ...each(one, ["name"], units.filled), ...each(one, COLUMNS, column) })),
+    traces: all.traces.map(({ temperature, ...one }) => ({
+      ...(temperature === undefined ? {} : { temperature, name: units.show(temperature, "temperature") }),
+      ...one,
+      ...each(one, ["name"], units.filled),
+      ...each(one, COLUMNS, column),
+    })),
     synthetic: all.synthetic ?? Boolean(of && (of.synthetic || isSynthetic(studyOf(of)))),
     origin: of ? originOf(studyOf(of)) : "",
     picked: picked(),

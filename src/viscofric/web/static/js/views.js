@@ -89,20 +89,32 @@ export const Notes = view(({ of, list = [], kind = "note", ...rest }) => {
   return html`<ul ...${shown(of, `notes ${kind}`)} hidden=${sentences.length === 0} ...${rest}>${sentences}</ul>`;
 });
 
-/** The main numbers of a result: [{label, value, remark}]. */
-export const Numbers = view(({ of, list }) => {
+/** A number of a result (figures/spec.py) in the user's units: its label, its value, and its error with what is remarked. */
+export function told({ label, value, kind, unit, digits, error, remark }) {
+  const show = (one, precision) => `${units.show(one, kind, precision)}${unit ? `\u00a0${unit}` : ""}`;
+  const words = [error ? `± ${show(error, 2)}` : "", units.filled(remark)].filter(Boolean).join(", ");
+  return {
+    label: units.filled(label),
+    value: typeof value === "string" ? units.filled(value) : show(value, digits),
+    remark: words,
+  };
+}
+
+/** The main numbers of a result. */
+export const Numbers = view(({ of, list = of?.key_numbers ?? [] }) => {
   const one = ({ label, value, remark }) =>
     html`<div><dt>${label}</dt><dd class="value">${value}</dd>${remark && html`<dd class="remark">${remark}</dd>`}</div>`;
-  return list.length > 0 && html`<dl ...${shown(of, "key-numbers")}>${list.map(one)}</dl>`;
+  return list.length > 0 && html`<dl ...${shown(of, "key-numbers")}>${list.map(told).map(one)}</dl>`;
 });
 
-/** A table of numbers. */
+/** A table of numbers, and of texts and views. */
 export const Table = view(({ of, head, rows, caption }) => {
-  const cell = (value) => html`<td>${typeof value === "number" ? units.plainNumber(value, 5) : (value ?? "–")}</td>`;
+  const said = (value) => (typeof value === "string" ? units.filled(value) : (value ?? "–"));
+  const cell = (value) => html`<td>${typeof value === "number" ? units.plainNumber(value, 5) : said(value)}</td>`;
   return html`<div ...${shown(of, "scroll")} tabindex="0" role="group" aria-label=${caption}>
     <table>
       <caption>${caption}</caption>
-      <thead><tr>${head.map((text) => html`<th scope="col">${text}</th>`)}</tr></thead>
+      <thead><tr>${head.map((text) => html`<th scope="col">${units.filled(text)}</th>`)}</tr></thead>
       <tbody>${rows.map((row) => html`<tr>${row.map(cell)}</tr>`)}</tbody>
     </table>
   </div>`;

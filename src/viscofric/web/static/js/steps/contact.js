@@ -1,17 +1,17 @@
 // Step 4, with which the page opens: what slides, its friction curve, and one contact that follows two sliders.
 
 import { runJob } from "../api.js";
-import { ContactForm, nounOf } from "../contact_form.js";
-import { Pictures, numbersOf, whyItLeans } from "../contact_result.js";
+import { ContactForm } from "../contact_form.js";
 import { Box } from "../fields.js";
+import { Figure } from "../figures.js";
 import { FrictionCard, combination, curve } from "../friction_curve.js";
-import { Job, studyOf } from "../jobs.js";
+import { Job } from "../jobs.js";
 import { follow } from "../live.js";
-import { goTo, isSynthetic, page, waits } from "../page.js";
+import { goTo, page, waits } from "../page.js";
 import { effect, html, untracked, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Notes, Numbers, shown } from "../views.js";
+import { Button, Card, Notes, Numbers, shown, told } from "../views.js";
 
 const STEPS = 400; // of the speed's slider
 const DECADE = 1; // beyond the speeds of the study, on either side
@@ -96,28 +96,32 @@ const Failed = view(() => {
   return html`<${Notes} kind="error" list=${[error && (beyond ? error.message : waits("the contact", error))]} />`;
 });
 
-const More = view(({ of, rows }) => {
+/** The pictures of the contact, or their empty frames, and the numbers that are not the main ones. */
+const Pictures = view(({ of }) => {
+  const shared = { of, empty: "Computing the contact." };
   const row = ({ label, value, remark }) =>
     html`<tr><th scope="row">${label}</th><td>${value}</td><td>${remark}</td></tr>`;
-  return html`<div class="more-numbers" tabindex="0" role="group" aria-labelledby="more-numbers">
-    <h3 id="more-numbers">Results with their numerical errors</h3>
-    <table ...${shown(of)}><tbody>${rows.map(row)}</tbody></table>
+  return html`<div class="grid contact-figures ${of && !of.map ? "without-map" : ""}">
+    ${of?.map !== null && html`<${Figure} id="pressure-map" title="Contact pressure" ...${shared} />`}
+    <${Figure} id="pressure-profile" title="Pressure along the motion" ...${shared} />
+    <${Figure} id="surface-profile" title="Rubber and indenter" ...${shared} />
+    <div class="more-numbers" tabindex="0" role="group" aria-labelledby="more-numbers">
+      <h3 id="more-numbers">Results with their numerical errors</h3>
+      <table ...${shown(of)}><tbody>${of?.more_numbers.map(told).map(row)}</tbody></table>
+    </div>
   </div>`;
 });
 
-const Why = view(({ of, words }) => html`<p ...${shown(of, "why")} aria-live="off">${words}</p>`);
-
 const Found = view(() => {
   const of = contact.result;
-  const study = of && studyOf(of);
-  const noun = of && nounOf(study);
-  const radius = ["ball", "cylinder"].includes(noun) ? units.parse(study.indenter?.radius, "length") : null;
-  const { key, others } = of ? numbersOf(of) : { key: [], others: [] };
   return html`<div class="live-contact">
-    <${Numbers} of=${of} list=${key} />
-    <div class="why-box"><h3>Cause of the friction</h3><${Why} of=${of} words=${of && whyItLeans(of, noun, radius)} /></div>
+    <${Numbers} of=${of} />
+    <div class="why-box">
+      <h3>Cause of the friction</h3>
+      <p ...${shown(of, "why")} aria-live="off">${units.filled(of?.why)}</p>
+    </div>
     <${Notes} of=${of} kind="warning" list=${of?.warnings} />
-    <${Pictures} of=${of} noun=${noun} synthetic=${of && isSynthetic(study)}><${More} of=${of} rows=${others} /><//>
+    <${Pictures} of=${of} />
   </div>`;
 });
 

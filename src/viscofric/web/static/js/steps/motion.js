@@ -1,12 +1,11 @@
 // Motion over time: a history edited as a table or a sketch, or an impact, and the solved contact.
 
 import { Box, Select } from "../fields.js";
-import { save } from "../figures.js";
-import { Job, studyOf } from "../jobs.js";
-import { Figures, numbersOf } from "../motion_figures.js";
+import { Figure, save } from "../figures.js";
+import { Job } from "../jobs.js";
 import { CONTROLS, PATHS, PRESETS, PointTable, Sketch, contactOf, converted, presetRows } from "../motion_history.js";
 import { StudyHistory } from "../motion_study.js";
-import { announce, explain, isSynthetic } from "../page.js";
+import { announce, explain } from "../page.js";
 import { html, signal, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
@@ -142,6 +141,12 @@ const Drawing = view(() => {
   <//>`;
 });
 
+// figures before there is a result
+const FRAMES = {
+  "motion-load": { title: "Load over time" },
+  "motion-indentation": { title: "Indentation over time" },
+  "motion-contact": { title: "Contact over time" },
+};
 const reached = ({ time }) => units.show(time.at(-1) - time[0], "time");
 const endOf = ({ cancelled }) => {
   if (cancelled) return "Cancelled.";
@@ -156,9 +161,13 @@ const Found = view(() => {
     <${Progress} job=${motion} label="Solving" ended=${endOf} />
     <${Notes} kind="error" list=${[sentence]} />
     <${Notes} of=${of} kind="warning" list=${of?.warnings} />
-    <${Numbers} of=${of} list=${of ? numbersOf(of) : []} />
+    <${Numbers} of=${of} />
     ${of && html`<p class="help">${about}</p>`}
-    <${Figures} of=${of} synthetic=${of && isSynthetic(studyOf(of))} />
+    <div class="grid contact-figures">
+      ${Object.entries(of?.figures ?? FRAMES).map(
+        ([id, { title }]) => html`<${Figure} key=${id} ...${{ of, id, title }} empty="Not solved yet." />`,
+      )}
+    </div>
     <${Notes} of=${of} list=${of?.notes} />
   <//>`;
 });

@@ -1,0 +1,238 @@
+"""What the page shows of one contact: maps and cuts, its numbers with their errors, and why it has friction."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.web.figures.spec import Spec, axis, figure, line, number, points, quantity
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.study.cases.case import Case
+
+_EDGE, _MARK = "vermilion", "grey"
+_ASIDE: Spec = {"legend": False, "decoration": True}
+_PRESSURE = axis("pressure", "pressure")
+#: Below this loss tangent, a contact is nearly symmetric.
+_LOSSY = 0.03
+
+
+def contact_view(found: dict[str, Any], case: Case) -> dict[str, Any]:
+    """Return ``figures``, ``key_numbers``, ``more_numbers`` and ``why``, the cause of the friction.
+
+    Parameters
+    ----------
+    found : dict
+        As of `contact_pictures.pictures`.
+    """
+    indenter = getattr(case, "indenter", None)
+    noun = "rough surface" if indenter is None else indenter.noun
+    rough = found["kind"] == "rough"
+    figures = {"pressure-profile": _pressure(found), "surface-profile": _surface(found, noun)}
+    key, more = _numbers(found)
+    return {
+        "figures": figures if found["map"] is None else {"pressure-map": _map(found), **figures},
+        "key_numbers": key,
+        "more_numbers": more,
+        "why": _why_rough(found) if rough else _why(found, noun, getattr(indenter, "radius", None)),
+    }
+
+
+def _along(found: dict[str, Any]) -> str:
+    return "x" if found["kind"] == "rough" else "along the motion"
+
+
+def _map(found: dict[str, Any]) -> Spec:
+    rough = found["kind"] == "rough"
+    outlines = [
+        line(f"outline[{at}].x", f"outline[{at}].y", width=1.5, colour=_MARK, **_ASIDE)
+        for at in range(len(found["outline"]))
+    ]
+    return figure(
+        "Contact pressure",
+        axis(_along(found), "length"),
+        axis("y" if rough else "across", "length", equal=True),
+        [*outlines, *([] if rough else _centres(found)), _arrow(found)],
+        "One period of the surface; white is not in contact. The arrow is the surface's motion."
+        if rough
+        else "Top view: outline of the contact, + the indenter's axis, ● the centre of pressure. The indenter moves to "
+        "the right; the leading edge is on the right.",
+        z=_PRESSURE,
+        map={"x": "map.x", "y": "map.y", "z": "map.pressure", "smooth": False if rough else "best"},
+    )
+
+
+def _centres(found: dict[str, Any]) -> list[Spec]:
+    centre = found["numbers"]["centre_of_pressure"]["value"]
+    return [
+        points([0.0], [0.0], symbol="cross-thin", colour="#ffffff", size=12, **_ASIDE),
+        points([centre], [0.0], symbol="circle", colour=_EDGE, size=8, **_ASIDE),
+    ]
+
+
+def _arrow(found: dict[str, Any]) -> Spec:
+    """Draw an arrow along the motion, in a corner of the map."""
+    x, y, angle = found["map"]["x"], found["map"]["y"], found["direction"]
+    wide, high = x[-1] - x[0], y[-1] - y[0]
+    size = 0.14 * min(wide, high)
+    back = np.array([size if math.cos(angle) < 0.0 else 0.0, -size if math.sin(angle) > 0.0 else 0.0])
+    start = np.array([x[0] + 0.05 * wide, y[-1] - 0.06 * high]) + back
+
+    def towards(direction: float, length: float) -> Array:
+        return length * np.array([math.cos(direction), math.sin(direction)])
+
+    tip = start + towards(angle, size)
+    barbs = [tip - towards(angle + turn, 0.35 * size) for turn in (0.5, -0.5)]
+    along, across = np.array([start, tip, barbs[0], tip, barbs[1]]).T
+    return line(along, across, width=2.5, colour=_EDGE, **_ASIDE)
+
+
+def _pressure(found: dict[str, Any]) -> Spec:
+    """Draw the pressure on the centre line; what differs from its mirror image makes the friction."""
+    x, pressure = (np.array(found["profile"][name], dtype=float) for name in ("x", "pressure"))
+    pressed = line("profile.x", "profile.pressure", "pressure", fill="tozeroy", colour="blue")
+    y = {**_PRESSURE, "range": [0.0, 1.15 * max(float(pressure.max()), 1e-9)]}  # with room for the words at the top
+    across = axis(_along(found), "length")
+    if found["kind"] == "rough":
+        title = "Pressure along x, through the highest peak"
+        return figure(title, {**across, "range": [x[0], x[-1]]}, y, [pressed])
+    front, rear, centre = (found["numbers"][name]["value"] for name in ("front", "rear", "centre_of_pressure"))
+    reach = 1.12 * max(abs(front), abs(rear))  # the contact and a little more, the same on either side
+    mirrored: Spec = {"dash": "3px,3px", "width": 1.3, "colour": _MARK, "decoration": True}
+    return figure(
+        "Pressure along the motion",
+        {**across, "range": [-reach, reach]},
+        y,
+        [pressed, line(-x, "profile.pressure", "mirror image", **mirrored)],
+        "On the centre line; motion to the right, the indenter's axis at zero. The difference from the mirror image "
+        "causes the friction.",
+        marks=[{"x": 0.0}, {"x": centre, "label": "centre of pressure"}],
+    )
+
+
+def _surface(found: dict[str, Any], noun: str) -> Spec:
+    rough = found["kind"] == "rough"
+    surface, indenter = (np.array(found["profile"][name], dtype=float) for name in ("surface", "indenter"))
+    if not rough:  # of the indenter, only what is near
+        high, low = np.nanmax(surface), np.nanmin(surface)
+        indenter = np.where(indenter <= high + 0.6 * (high - low), indenter, np.nan)
+    return figure(
+        "Rubber and surface along x" if rough else "Rubber and indenter along the motion",
+        axis(_along(found), "length"),
+        axis("height", "length"),
+        [
+            line("profile.x", indenter, noun, colour=_MARK, width=2),
+            line("profile.x", "profile.surface", "rubber", colour="vermilion", width=2.5),
+        ],
+        "Heights are exaggerated; the section goes through the highest pressure."
+        if rough
+        else "Motion to the right; heights are exaggerated. Behind the contact the rubber has not recovered yet (the "
+        "trail).",
+    )
+
+
+def _value(found: dict[str, Any], name: str) -> float:
+    return float(found["numbers"][name]["value"])
+
+
+def _numbers(found: dict[str, Any]) -> tuple[list[Spec], list[Spec]]:
+    """Return the main numbers and the others."""
+
+    def one(label: str, name: str, kind: str = "plain", digits: int = 4, **more: Any) -> Spec:
+        return number(label, **found["numbers"][name], kind=kind, digits=digits, **more)
+
+    friction = one("Friction coefficient μ", "friction_coefficient")
+    rubber = [
+        one("Shift factor α(T)", "shift_factor", digits=3),
+        one("Loss tangent tan δ at v/a", "loss_factor", digits=3),
+        one("Storage modulus E′ at v/a", "storage_modulus", "modulus", 3),
+        number("Energy balance error", 100.0 * abs(_value(found, "energy_balance")), unit="%", digits=2),
+    ]
+    if found["kind"] == "rough":
+        area = _value(found, "contact_area_fraction")
+        sideways, lateral = "Lateral force over load", abs(_value(found, "lateral_friction_coefficient"))
+        given, asked = (int(_value(found, name)) for name in ("points", "points_requested"))
+        return [
+            friction,
+            number("Contact area fraction", 100.0 * area, unit="%"),
+            one("Mean pressure in contact", "mean_contact_pressure", "pressure", 3),
+            one("Mean gap", "mean_gap", "length", 3)
+            if area < 1.0 - 1e-9
+            else number("Mean gap", "none", remark="full contact"),
+        ], [
+            one("Maximum pressure", "max_pressure", "pressure", 3, remark="on this grid"),
+            one(sideways, "lateral_friction_coefficient") if lateral > 1e-12 else number(sideways, 0.0),
+            one("Dissipated power", "power", digits=3, unit="W/m²"),
+            one("Frequency of the longest wave", "slowest_frequency", "angular_frequency", 3),
+            one("Frequency of the shortest wave", "fastest_frequency", "angular_frequency", 3),
+            *rubber,
+            number("Points along an edge", str(given), remark=f"of {asked}: coarse" if given < asked else ""),
+        ]
+    wide = found["kind"] == "line"
+    peak = one("Maximum pressure", "max_pressure", "pressure")
+    least = f"≥ {quantity(peak['value'], 'pressure', 4)}"
+    return [
+        friction,
+        one("Indentation", "indentation", "length"),
+        one("Contact width", "contact_area", "length") if wide else one("Contact area", "contact_area", "area"),
+        peak if found["peak_resolved"] else number("Maximum pressure", least, remark="not resolved"),
+    ], [
+        one("Friction force per length", "friction_force", "line_load")
+        if wide
+        else one("Friction force", "friction_force", "load"),
+        one("Dissipated power", "power", digits=3, unit="W/m" if wide else "W"),
+        one("Leading edge ahead of axis", "front", "length"),
+        one("Trailing edge behind axis", "rear", "length"),
+        *([] if wide else [one("Contact half-width", "half_width", "length")]),
+        one("Centre of pressure ahead of axis", "centre_of_pressure", "length", 3),
+        one("Mean pressure", "mean_pressure", "pressure", 3),
+        one("Frequency {v/a}", "frequency", "angular_frequency", 3),
+        *rubber,
+        number("Cells along an edge", str(int(_value(found, "cells")))),
+    ]
+
+
+def _of_rubber(found: dict[str, Any]) -> str:
+    loss, modulus = _value(found, "loss_factor"), _value(found, "storage_modulus")
+    return f"tan δ {quantity(loss, 'plain', 2)} and a storage modulus E′ of {quantity(modulus, 'modulus')}"
+
+
+def _why_rough(found: dict[str, Any]) -> str:
+    ends = [
+        quantity(_value(found, name), "angular_frequency", 2) for name in ("slowest_frequency", "fastest_frequency")
+    ]
+    return (
+        f"At {quantity(found['speed'], 'speed')}, the longest wave of the surface deforms the rubber at {ends[0]}, the "
+        f"shortest at {ends[1]}, where the rubber has {_of_rubber(found)}. On the leading flanks the rubber is being "
+        "compressed and resists; behind the summits it has not recovered yet, and the pressure is lower. This "
+        f"difference, over {quantity(100.0 * _value(found, 'contact_area_fraction'))} % of the area, causes the "
+        f"friction: μ = {quantity(_value(found, 'friction_coefficient'))}."
+    )
+
+
+def _why(found: dict[str, Any], noun: str, radius: float | None) -> str:
+    front, rear, lean = (_value(found, name) for name in ("front", "rear", "centre_of_pressure"))
+    passing = quantity((front + rear) / found["speed"], "time", 2)
+    frequency = quantity(_value(found, "frequency"), "angular_frequency", 2)
+    friction = f"μ = {quantity(_value(found, 'friction_coefficient'))}"
+    cause = (
+        "It dissipates little energy at this frequency and recovers almost completely behind the contact, so that the "
+        "pressure is nearly symmetric."
+        if _value(found, "loss_factor") < _LOSSY
+        else "Ahead of the axis it is being compressed and resists; behind, it has not recovered yet, and the pressure "
+        "is lower."
+    )
+    lever = (
+        f", where the slope opposes the motion: {friction}."
+        if radius is None
+        else f"; divided by the radius of {quantity(radius, 'length')}, this is the friction coefficient, {friction}."
+    )
+    return (
+        f"The {noun} passes each point of the rubber in {passing}, which deforms it at {{v/a}} = {frequency}. At this "
+        f"frequency the rubber has {_of_rubber(found)}. {cause} The contact therefore extends "
+        f"{quantity(front, 'length')} in front of the axis and {quantity(rear, 'length')} behind it, and the resultant "
+        f"lies {quantity(lean, 'length')} ahead{lever}"
+    )

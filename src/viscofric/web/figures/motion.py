@@ -1,0 +1,99 @@
+"""What the page shows of a contact over time: its figures and main numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscofric.web.figures.spec import Spec, around, axis, axis_of, figure, kind_of, line, number, quantity
+
+if TYPE_CHECKING:
+    import xarray
+
+    from viscofric.motion.impact_solution import ImpactContact
+
+_SIZES = {
+    "contact_radius": "radius",
+    "front": "ahead of the axis",
+    "rear": "behind the axis",
+    "half_width": "half-width across",
+}
+_ENERGIES = {"work": "work on the material", "stored": "stored", "dissipated": "dissipated"}
+
+
+def motion_view(data: xarray.Dataset, contacts: tuple[ImpactContact, ...], steps: str) -> dict[str, Any]:
+    """Return ``figures`` and ``key_numbers`` of a solution's data set; `steps` tells how many there were."""
+    error = data["friction_force_error"] / data["load"].where(data["load"] > 0.0)
+    data = data.assign(friction_coefficient_error=error.fillna(0.0))
+    balance = number("Energy balance error", 100.0 * data.attrs["energy_imbalance"], unit="%", digits=2)
+    if contacts:
+        return {"figures": _figures(data), "key_numbers": [*_of_impact(data, contacts[0]), balance]}
+    return {"figures": _figures(data), "key_numbers": [*_of_history(data), {**balance, "remark": steps}]}
+
+
+def _over_time(data: xarray.Dataset, title: str, y: Spec, names: dict[str, str | None]) -> Spec:
+    """Draw columns with their errors over the time."""
+    lines = []
+    for name, words in names.items():
+        error = data.get(f"{name}_error")
+        lines.append(line("time", name, words, band=None if error is None else around(data[name], error)))
+    return figure(title, axis_of(data, "time"), y, lines)
+
+
+def _figures(data: xarray.Dataset) -> dict[str, Spec]:
+    # a constant load has no range of its own
+    load = axis_of(data, "load", range=[0.0, 1.08 * float(data["load"].max()) or 1.0])
+    sizes = {name: words for name, words in _SIZES.items() if name in data and data[name].notnull().any()}
+    contact: dict[str, str | None] = {**sizes} or {"contact_area": None}
+    size = axis("size of the contact", "length") if sizes else axis("contact area fraction")
+    energy = axis(f"energy ({data['work'].attrs['units'].replace('m2', 'm²')})")
+    path = data["position_x"] * data.attrs["direction"][0] + data["position_y"] * data.attrs["direction"][1]
+    steps = np.diff(path)
+    friction = axis_of(data, "friction_coefficient")
+    loop = figure(
+        "Friction loop",
+        axis("position along the motion", "length"),
+        axis_of(data, "friction_force"),
+        [line(path, "friction_force")],
+        "Its area is the work of friction.",
+    )
+    found = {
+        "load": _over_time(data, "Load", load, {"load": None}),
+        "indentation": _over_time(data, "Indentation", axis_of(data, "indentation"), {"indentation": None}),
+        "friction": np.any(steps != 0.0)
+        and _over_time(data, "Friction coefficient", friction, {"friction_coefficient": None}),
+        "contact": _over_time(data, "Contact", size, contact),
+        "loop": np.any(steps > 0.0) and np.any(steps < 0.0) and loop,
+        "energy": _over_time(data, "Energy", energy, {**_ENERGIES}),
+    }
+    return {f"motion-{name}": spec for name, spec in found.items() if spec}
+
+
+def _of_impact(data: xarray.Dataset, first: ImpactContact) -> list[Spec]:
+    stays = not np.isfinite(first.contact_time)
+    return [
+        number("Restitution", first.restitution, digits=4, error=first.restitution_error),
+        number("Contact time", "stays" if stays else first.contact_time, "time", digits=4),
+        number("Largest force", first.peak_force, kind_of(data, "load"), digits=4),
+        number("Largest indentation", first.largest_indentation, "length", digits=4),
+    ]
+
+
+def _of_history(data: xarray.Dataset) -> list[Spec]:
+    def at(label: str, name: str, place: int, remark: str = "") -> Spec:
+        value, error = float(data[name][place]), float(data[f"{name}_error"][place])
+        shown = error if error > 1e-9 * abs(value) else None
+        return number(label, value, kind_of(data, name), digits=4, error=shown, remark=remark)
+
+    found = [at("Load at the end", "load", -1), at("Indentation at the end", "indentation", -1)]
+    friction = data["friction_coefficient"]
+    most = int(np.argmax(np.abs(friction.values)))
+    if friction[most] == 0.0:
+        return found
+    after = f"after {quantity(float(data['time'][most] - data['time'][0]), 'time')}"
+    return [
+        *found,
+        at("Largest friction coefficient", "friction_coefficient", most, after),
+        at("Friction coefficient at the end", "friction_coefficient", -1),
+    ]
