@@ -91,6 +91,20 @@ def quantity(value: float | None, kind: str = "plain", digits: int = 3) -> str:
     return "–" if value is None else f"{{{value:.9g}|{kind}|{digits}}}"
 
 
+def fixed(value: float, decimals: int) -> str:
+    """Return a number with so many decimals."""
+    return f"{value:.{decimals}f}".replace("-", "−")
+
+
 def table(caption: str, head: list[str], rows: list[list[Any]]) -> Spec:
     """Return a table; a cell is text or a plain number."""
     return {"caption": caption, "head": head, "rows": rows}
+
+
+def isotherms(path: str, curves: list[dict[str, Any]], x: str, y: str, **look: Any) -> list[Spec]:
+    """Return columns of curves at one temperature each; `path` is where the result has the curves."""
+    style = {"mode": "lines+markers", "dash": "solid", "symbol": "circle", "size": 5, "width": 1.2, **look}
+    return [
+        line(f"{path}[{at}].{x}", f"{path}[{at}].{y}", temperature=one["temperature"], **style)
+        for at, one in enumerate(curves)
+    ]

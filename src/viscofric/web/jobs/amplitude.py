@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain, record
 from viscofric.errors import InputError
 from viscofric.notes import listed
 from viscofric.study.at_strain import payne_of
+from viscofric.web.figures.spec import MODULUS, Spec, axis, figure, line, points
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import (
     checked_tables,
@@ -42,8 +44,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         The sweep and the law as their data set names them, ``words`` (the law), ``linear`` (its linear ranges in
-        words), ``notes`` and ``contact``: None, or ``strain`` of the contact, ``friction`` at it and ``linear``
-        friction, ``speed`` and ``temperature``.
+        words), ``figures``, ``notes`` and ``contact``: None, or ``strain`` of the contact, ``friction`` at it and
+        ``linear`` friction, ``speed`` and ``temperature``.
 
     Raises
     ------
@@ -57,13 +59,27 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         raise named_without_folder(error, context) from None
     if fit is None:
         raise JobError("The study has no amplitude sweep; drop one under “Data”.", "material.amplitude_sweep")
-    return record(fit.to_dataset(), _DIGITS) | {
+    found = record(fit.to_dataset(), _DIGITS)
+    return found | {
+        "figures": {"amplitude-sweep": _figure(found, "G" if fit.sweep.deformation == "shear" else "E")},
         "deformation": fit.sweep.deformation,
         "words": str(fit.law),
         "linear": [str(one) for one in fit.linear_ranges],
         "contact": _contact(study, fit, table.measured_at, context) if options.contact else None,
         **listed("notes", notes_without_folder(fit.notes, context)),
     }
+
+
+def _figure(found: dict[str, Any], letter: str) -> Spec:
+    percent = 100.0 * np.array(found["strain_amplitude"])
+    traces = []
+    for key, name, symbol, colour in (("storage", "′", "square", "blue"), ("loss", "″", "circle", "vermilion")):
+        traces += [
+            points(percent, f"{key}_modulus", f"{letter}{name}", symbol=symbol, colour=colour, size=5),
+            line(percent, f"{key}_fitted", f"{letter}{name}, Kraus", colour=colour, legend=False),
+        ]
+    strain = axis("strain amplitude (%)", log=True)
+    return figure("Amplitude sweep", strain, MODULUS, traces, "Points: as measured; lines: Kraus’s law.")
 
 
 def _contact(study: dict[str, Any], fit: PayneFit, measured_at: float | None, context: Context) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from viscofric.datasets import plain
 from viscofric.study.run_file.tables import kelvin
+from viscofric.web.figures.spectrum import moduli_figures
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import friction_bands, made_rubber
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, moduli
@@ -44,7 +45,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``temperature`` (K), ``modulus``, ``band`` or None, ``moved`` (all measured points, brought there by α and b) or
-        None, ``isotherm`` (the sweep measured there, as it was read) or None, ``extrapolated`` (whether α is).
+        None, ``isotherm`` (the sweep measured there, as it was read) or None, ``extrapolated`` (whether α is), and
+        ``figures``.
 
     Raises
     ------
@@ -58,7 +60,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     alpha = float(material.shift(at))
     omega = frequencies(rubber) / alpha
     samples = friction_bands(study, context).samples if options.bands else None
-    return {
+    found = {
         "temperature": plain(at),
         "log10_shift": plain(float(np.log10(alpha))),
         "extrapolated": bool(material.shift.extrapolates(at)),
@@ -67,6 +69,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "moved": _moved(rubber, at, alpha),
         "isotherm": _isotherm(rubber, at),
     }
+    fitted = getattr(material.spectrum, "fit", None) is not None
+    return found | {"figures": moduli_figures(found, at, fitted=fitted, moved="moved" if found["moved"] else "")}
 
 
 def _moved(rubber: Rubber, at: float, alpha: float) -> dict[str, Any] | None:

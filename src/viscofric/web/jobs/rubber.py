@@ -11,6 +11,7 @@ from viscofric.datasets import plain, record
 from viscofric.notes import listed
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
+from viscofric.web.figures.rubber import rubber_view
 from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber, notes_without_folder, without_folder
 from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
@@ -46,7 +47,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``name``, ``synthetic``, ``source``; ``notes`` (but those on files, which the job ``sweeps`` returns); ``shift``
         (`shift_numbers`), ``check`` (`check_numbers`; of ramps and step tests alone its verdict; else None),
         ``spectrum`` (`spectrum_numbers`) and ``band`` (`band_numbers`; None where the material's uncertainty is
-        unknown, and ``no_band`` then says why).
+        unknown, and ``no_band`` then says why).  Then what is shown (`rubber_view`).
 
     Raises
     ------
@@ -59,6 +60,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     )
     rubber = made_rubber(study, context)
     reply = _without_bands(rubber, table.fixed_shift_factors, context)
+    reply |= rubber_view(reply)
     if not options.bands or wanted.draws == 0 or rubber.superposed is None:
         why = (
             ""
@@ -71,7 +73,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     drawn = friction_bands(study, context)
     if drawn.samples is None:
         return reply | {"band": None, "no_band": " ".join(drawn.notes)}
-    return reply | {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
+    whole = reply | {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
+    return whole | rubber_view(whole)
 
 
 def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from viscofric.notes import listed
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.study.make_rubber import read_steps_of
+from viscofric.web.figures.sweeps import sweeps_view
 from viscofric.web.jobs.context import Context, JobError
 from viscofric.web.jobs.other_tests import read_other, step_curves
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
@@ -57,7 +58,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         (what each was taken for), ``left_open`` (keys of [material] that the files leave open), ``isotherms``,
         ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K) and ``steps`` (`step_curves`) of
         tests beside them; of ramps and step tests see `read_other`.  Of other sources ``about`` (words), ``synthetic``
-        and ``notes``.
+        and ``notes``.  Then what is shown (`sweeps_view`).
 
     Raises
     ------
@@ -65,6 +66,11 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         If a file cannot be used; with the key of [material] that would say what is missing.
     """
     table, _ = checked_tables(_with_reference(study), context)
+    found = _read(table, study, context)
+    return found | sweeps_view(found, table.deformation)
+
+
+def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict[str, Any]:
     if table.dma is None and not (table.ramps or table.steps):
         return _other(table, study, context)
     try:

@@ -15,7 +15,8 @@ export const amplitude = new Job("amplitude", {
   inputs: () => {
     const [material] = [state.get("material") ?? {}].flat();
     // the law is that of the sweep, whatever strain the moduli are scaled to
-    return material.amplitude_sweep === undefined ? null : { study: { material: { ...material, strain: undefined } } };
+    if (material.amplitude_sweep === undefined) return null;
+    return { study: { material: { ...material, strain: undefined }, data_origin: state.get("data_origin") } };
   },
 });
 const atContact = new Job("amplitude", {
@@ -35,18 +36,6 @@ const ofContact = ({ strain, friction, linear, speed, temperature }) =>
   `At ${units.show(speed, "speed")}, ${units.show(temperature, "temperature")} the strain of the contact is ` +
   `${(100 * strain).toPrecision(2)} %: friction ${friction.toPrecision(3)} instead of ${linear.toPrecision(3)} (small strain).`;
 
-function traces(found) {
-  const letter = found.deformation === "shear" ? "G" : "E";
-  const x = found.strain_amplitude.map((one) => 100 * one);
-  return [
-    ["storage", `${letter}′`, "square", "blue"],
-    ["loss", `${letter}″`, "circle", "vermilion"],
-  ].flatMap(([key, name, symbol, colour]) => [
-    { name, mode: "markers", symbol, colour, size: 5, x, y: found[`${key}_modulus`] },
-    { name: `${name}, Kraus`, colour, legend: false, x, y: found[`${key}_fitted`] },
-  ]);
-}
-
 /** The card; nothing without an amplitude sweep. */
 export const Amplitude = view(() => {
   if (state.get("material.amplitude_sweep") === undefined) return null;
@@ -56,9 +45,7 @@ export const Amplitude = view(() => {
   return html`<${Card} title="Amplitude sweep">
     <${Notes} kind="error" list=${[error && explain(error, "amplitude")]} />
     <${Notes} of=${of} list=${of ? [of.words, ...of.linear, ...of.notes] : []} />
-    <${Figure} id="amplitude-sweep" title="Amplitude sweep" of=${of} x=${{ label: "strain amplitude (%)", log: true }}
-      y=${{ label: "modulus", kind: "modulus", log: true }} caption="Points: as measured; lines: Kraus’s law."
-      synthetic=${state.get("data_origin") === "synthetic"} traces=${of ? traces(of) : []} />
+    <${Figure} id="amplitude-sweep" title="Amplitude sweep" of=${of} />
     <${Amount} path="material.strain" label="Scale the moduli to this tensile strain" min=${0} max=${10} placeholder="not scaled"
       help="A fraction: 0.05 is 5 %. An approximation by Kraus’s law, without 95 % bands." />
     <${Amount} path="material.measured_at" label="Tensile strain of the frequency sweeps" min=${0} max=${10} placeholder="small" />

@@ -32,9 +32,8 @@ export const isMade = () => ![null, "catalogue", "file"].includes(sourceOf(state
 export const rubber = new Job("rubber", {
   remember: 6,
   inputs: () => {
-    const { material, uncertainty } = state.study;
-    if (!sourceOf(material)) return null;
-    return { study: uncertainty === undefined ? { material } : { material, uncertainty } };
+    const { material, uncertainty, data_origin } = state.study;
+    return sourceOf(material) ? { study: { material, uncertainty, data_origin } } : null;
   },
 });
 
@@ -46,30 +45,6 @@ export const named = (kelvin) => units.show(kelvin, "temperature");
 
 /** A temperature as a run file writes it, near enough to name one isotherm. */
 export const worded = (kelvin) => `${Number((kelvin - 273.15).toFixed(2))} degC`;
-
-/** What is said below a figure whose curves are coloured by temperature. */
-export function byTemperature(temperatures) {
-  if (temperatures.length < 2) return "";
-  const [low, high] = [Math.min(...temperatures), Math.max(...temperatures)];
-  return `Colours show the temperature: blue is ${named(low)}, red ${named(high)}.`;
-}
-
-/** Traces of curves at one temperature each; `read(curve)` gives x and y, and what is other than usual. */
-export const isothermTraces = (curves, read) =>
-  curves.map((one) => ({
-    name: named(one.temperature),
-    legend: curves.length <= 8,
-    temperature: one.temperature,
-    mode: "lines+markers",
-    dash: "solid",
-    symbol: "circle",
-    size: 5,
-    width: 1.2,
-    ...read(one),
-  }));
-
-/** Whether figures of a result say that it is made up. */
-export const synthetic = (result) => result.synthetic || state.get("data_origin") === "synthetic";
 
 /** "0.12 decades" */
 export const decades = (value, digits = 2) => `${value.toFixed(digits).replace("-", "−")} decades`;

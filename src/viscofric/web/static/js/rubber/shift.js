@@ -3,15 +3,13 @@
 import { Figure } from "../figures.js";
 import { Choose, Quantity } from "../fields.js";
 import { explain } from "../page.js";
-import { html, view } from "../reactive.js";
+import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
-import { Button, Card, Drop, Notes, Numbers, Progress, shown } from "../views.js";
-import { decades, isMade, rubber, shownRubber, synthetic } from "./made.js";
-import { Quality } from "./quality.js";
+import * as units from "../units.js";
+import { Button, Card, Drop, Notes, Numbers, Pick, Progress, Table, shown } from "../views.js";
+import { TESTS, isMade, rubber, shownRubber } from "./made.js";
 import { Shifted, startShifted } from "./shifted.js";
 import { failed, takeFactors } from "./source.js";
-import { stepFigure } from "./sweeps_figures.js";
-import { LawTable, alphaFigure, limitsInWords, residualTraces, verticalFigure } from "./shift_figures.js";
 
 const SHIFTS = [
   ["measured", "as measured"],
@@ -37,48 +35,55 @@ const KIND = {
   untested: "warning",
 };
 
+const DIAGRAMS = [
+  ["van_gurp_palmen", "van Gurp–Palmen"],
+  ["booij_thoone_palmen", "tan δ against |E*|"],
+  ["cole_cole", "E″ against E′"],
+  ["wicket", "tan δ against E′"],
+];
+const diagram = signal("van_gurp_palmen");
+
+/** The laws that were compared, each with a button where shift factors are those of the sweeps. */
+const Laws = view(({ of }) => {
+  const { explanation, laws } = of.shift;
+  const { head, rows, caption } = of.tables.laws;
+  const measured = TESTS.some((key) => state.get(`material.${key}`) !== undefined);
+  const free = measured || state.get("material.shift_factors") !== undefined;
+  const use = ({ title, kind, refusal, used }) =>
+    !free || refusal || used
+      ? ""
+      : html`<${Button} kind="small" onClick=${() => state.set("material.shift", kind)}>Use ${title}<//>`;
+  const withButtons = rows.map((row, at) => [...row, use(laws[at])]);
+  return html`<${Card} title="Laws">
+    <p class="help">${explanation}</p>
+    <div class="words"><${Table} of=${of} head=${[...head, ""]} rows=${withButtons} caption=${caption} /></div>
+  <//>`;
+});
+
 /** Shift factors, their laws, and whether superposition holds. */
 const Factors = view(({ of }) => {
-  const { shift, check } = of;
-  const made = synthetic(of);
-  const temperature = { label: "temperature", kind: "temperature" };
-  const laws = shift.laws.length > 0;
+  const { figures, tables, check } = of;
+  const card = (title, id, more) =>
+    figures[id] && html`<${Card} title=${title}><${Figure} id=${id} of=${of} />${more}<//>`;
+  const causal = check?.kramers_kronig && html`<p class="help">${check.kramers_kronig.sentence}</p>`;
   return html`
     <div class="grid">
-      ${
-        shift.steps &&
-        html`<div class="card">
-          <${Figure} id="shifted-steps" title="Creep and relaxation tests over reduced time" of=${of}
-            ...${stepFigure(shift.steps, made)} />
-        </div>`
-      }
-      <${Card} title="Shift factors">
-        <${Figure} id="shift-factors" title="Shift factor against temperature" of=${of} x=${temperature}
-          y=${{ label: "log₁₀ α" }} ...${alphaFigure(of)} />
-        <p ...${shown(of, "help")}>${limitsInWords(shift)}</p>
-      <//>
-      ${
-        laws &&
-        html`<${Card} title="Residuals of each law">
-          <${Figure} id="law-residuals" title="Measured factors over each law" of=${of} synthetic=${made} x=${temperature}
-            y=${{ label: "log₁₀ measured/law" }} traces=${residualTraces(shift)}
-            caption="log₁₀ of the measured over the law’s α; the band is the measurement’s 95 %." />
-        <//>`
-      }
+      ${figures["shifted-steps"] && html`<div class="card"><${Figure} id="shifted-steps" of=${of} /></div>`}
+      ${card("Shift factors", "shift-factors", html`<p ...${shown(of, "help")}>${units.filled(of.limits)}</p>`)}
+      ${card("Residuals of each law", "law-residuals")}
     </div>
-    ${
-      laws &&
-      html`<${Card} title="Laws"><p class="help">${shift.explanation}</p><div class="words"><${LawTable} of=${of} /></div><//>`
-    }
+    ${tables.laws && html`<${Laws} of=${of} />`}
     <div class="grid thirds">
-      ${check?.diagrams && html`<${Quality} of=${of} />`}
       ${
-        shift.vertical &&
-        html`<${Card} title="Vertical shift">
-          <${Figure} id="vertical-shift" title="Vertical shift b(T)" of=${of} x=${temperature} y=${{ label: "b" }}
-            ...${verticalFigure(shift.vertical, of)} />
+        check?.diagrams &&
+        html`<${Card} title="Validity of superposition">
+          <${Pick} label="Diagram" options=${DIAGRAMS} value=${diagram.value} onChange=${(key) => (diagram.value = key)} />
+          <${Figure} id="superposition-diagram" of=${of} spec=${figures[`diagram-${diagram.value}`]} />
         <//>`
       }
+      ${card("Distance of neighbouring isotherms", "neighbour-distances")}
+      ${card("Consistency of E′ and E″", "kramers-kronig", causal)}
+      ${card("Vertical shift", "vertical-shift")}
     </div>
   `;
 });
@@ -113,28 +118,11 @@ const Settings = view(() => {
 });
 
 const Verdict = view(({ of }) => {
-  const { check, shift } = of;
-  const { misfit, used, origin } = shift;
+  const { check } = of;
   const kind = KIND[check.verdict];
-  const held = (shift.factors?.held ?? []).filter(Boolean).length;
-  const agree = check.kramers_kronig ? (check.kramers_kronig.holds ? "agree" : "do not agree") : "not tested";
-  const numbers = [
-    misfit && { label: "overlap", value: decades(misfit.joint, 3), remark: `rms over ${misfit.points} points` },
-    check.figure_of_merit !== undefined && {
-      label: "figure of merit",
-      value: check.figure_of_merit.toPrecision(2),
-      remark: "good if ≤ 1",
-    },
-    check.diagrams && { label: "E′ against E″", value: agree, remark: "Kramers–Kronig" },
-    {
-      label: "α(T) used",
-      value: used === "measured" ? "as measured" : used,
-      remark: origin === "given" ? "from a file" : held ? `${held} fixed manually` : "fitted to the measurements",
-    },
-  ];
   return html`<section ...${shown(of, "card")} aria-live="polite">
     <h3 class="verdict" data-kind=${kind}>${check.headline}</h3>
-    <${Numbers} list=${numbers.filter(Boolean)} />
+    <${Numbers} list=${of.verdict_numbers} />
     <${Notes} kind=${kind === "good" ? "note" : kind} list=${check.sentences} />
   </section>`;
 });

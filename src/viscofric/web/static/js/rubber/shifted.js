@@ -8,7 +8,7 @@ import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Pick } from "../views.js";
 import { draggable, moveTrace } from "./drag.js";
-import { byTemperature, decades, isothermTraces, named, rubber, shownRubber, synthetic, worded } from "./made.js";
+import { decades, named, rubber, shownRubber, worded } from "./made.js";
 
 const QUANTITIES = [
   ["storage_modulus", "E′"],
@@ -85,32 +85,17 @@ export const Shifted = view(({ of }, self) => {
     <div>
       <${Card} title="Shifted isotherms">
         <${Pick} label="Quantity" options=${QUANTITIES} value=${quantity.value} onChange=${(one) => (quantity.value = one)} />
-        <${Figure} id="shifted-isotherms" title="Isotherms shifted to the reference" height=${430} onPlot=${drawn} ...${figureOf(of)} />
+        <${Figure} id="shifted-isotherms" height=${430} onPlot=${drawn} of=${of} spec=${figureOf(of)} />
       <//>
     </div>
   </div>`;
 });
 
+/** The chosen quantity of the shifted isotherms; the one that can be moved is strong. */
 function figureOf(of) {
-  const { isotherms: all, vertical } = of.shift;
-  const temperatures = all.map((one) => one.temperature);
-  const [, label] = QUANTITIES.find(([key]) => key === quantity.value);
-  const tangent = quantity.value === "loss_tangent";
-  const squares = all.some((one) => one.held) ? "Squares are fixed manually." : "";
-  return {
-    of,
-    caption: [byTemperature(temperatures), squares].filter(Boolean).join(" "),
-    x: { label: "reduced frequency α {omega}", kind: "angular_frequency", log: true },
-    y: { label: vertical && !tangent ? `${label}/b` : label, kind: tangent ? undefined : "modulus", log: true },
-    synthetic: synthetic(of),
-    temperatures,
-    traces: isothermTraces(all, (one) => ({
-      x: one.angular_frequency,
-      y: one[quantity.value],
-      symbol: one.held ? "square" : "circle",
-      ...(one === chosen.value ? { size: 9, width: 3 } : {}),
-    })),
-  };
+  const spec = of.figures[`shifted-${quantity.value}`];
+  const at = isotherms().indexOf(chosen.value);
+  return { ...spec, traces: spec.traces.map((one, index) => (index === at ? { ...one, size: 9, width: 3 } : one)) };
 }
 
 const WHY = {

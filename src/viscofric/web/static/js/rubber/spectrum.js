@@ -5,18 +5,9 @@ import { Job } from "../jobs.js";
 import { explain } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import * as units from "../units.js";
-import { Button, Card, Notes, Numbers, Pick, Progress } from "../views.js";
-import { named, rubber, shownRubber, synthetic, worded } from "./made.js";
+import { Button, Card, Notes, Numbers, Pick, Progress, Table } from "../views.js";
+import { rubber, shownRubber, worded } from "./made.js";
 import { Settings } from "./spectrum_form.js";
-import {
-  ModesTable,
-  caption,
-  keyNumbers,
-  modesFigure,
-  modulusTraces,
-  residualTraces,
-  tangentTraces,
-} from "./spectrum_figures.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
 const moduli = new Job("moduli", {
@@ -38,48 +29,27 @@ const KINDS = [
   ["relaxation", "Relaxation E(τ)"],
 ];
 const kind = signal("retardation");
-const FREQUENCY = { label: "frequency", kind: "angular_frequency", log: true };
 
-/** The moduli at the chosen temperature, or at the reference; and what the figures of them share. */
-function shownModuli(of) {
-  const { reference, modulus, measured } = of.spectrum;
-  const moved = moduli.result;
-  const here = moved ?? { temperature: reference, modulus, band: of.band ?? null, moved: measured, isotherm: null };
-  const at = here.temperature === null ? "" : ` at ${named(here.temperature)}`;
-  return { here, at, shared: { of: moved ?? of, synthetic: synthetic(of), x: FREQUENCY } };
-}
-
-const Modulus = view(({ of }) => {
-  const { here, at, shared } = shownModuli(of);
-  return html`<${Card} title="Modulus against frequency">
-    ${of.shift && html`<${Temperature} of=${of} />`}
-    <${Figure} id="modulus" title="E′ and E″${at}" height=${430} y=${{ label: "modulus", kind: "modulus", log: true }}
-      ...${shared} caption=${caption(of, here)} traces=${modulusTraces(here)} />
-  <//>`;
-});
+/** The figures of a material; the moduli are those at the chosen temperature. */
+const Modulus = view(({ of }) => html`<${Card} title="Modulus against frequency">
+  ${of.shift && html`<${Temperature} of=${of} />`}
+  <${Figure} id="modulus" height=${430} of=${moduli.result ?? of} />
+<//>`);
 
 const Others = view(({ of }) => {
-  const { spectrum } = of;
-  const { here, at, shared } = shownModuli(of);
+  const { figures, tables } = of;
   return html`
-    <${Card} title="Loss tangent">
-      <${Figure} id="loss-tangent" title="tan δ${at}" y=${{ label: "tan δ", log: true }} ...${shared} traces=${tangentTraces(here)} />
-    <//>
+    <${Card} title="Loss tangent"><${Figure} id="loss-tangent" of=${moduli.result ?? of} /><//>
     ${
-      spectrum.residual &&
-      html`<${Card} title="Residuals of the fit">
-        <${Figure} id="spectrum-residuals" title="Measured over fitted modulus" of=${of} synthetic=${shared.synthetic}
-          caption="log₁₀, at the points of the master curve." marks=${[{ y: 0 }]} traces=${residualTraces(spectrum)}
-          x=${{ ...FREQUENCY, label: "reduced frequency α {omega}" }} y=${{ label: "log₁₀ measured/fit" }} />
-      <//>`
+      figures["spectrum-residuals"] &&
+      html`<${Card} title="Residuals of the fit"><${Figure} id="spectrum-residuals" of=${of} /><//>`
     }
     ${
-      spectrum.modes &&
+      tables.modes &&
       html`<${Card} title="Spectrum">
         <${Pick} label="Spectrum" options=${KINDS} value=${kind.value} onChange=${(one) => (kind.value = one)} />
-        <${Figure} id="modes" of=${of} x=${{ label: "time τ", kind: "time", log: true }}
-          ...${modesFigure(of, kind.value, shared.synthetic)} />
-        <details><summary>Table of modes</summary><${ModesTable} of=${of} /></details>
+        <${Figure} id="modes" of=${of} spec=${figures[`modes-${kind.value}`]} />
+        <details><summary>Table of modes</summary><${Table} of=${of} ...${tables.modes} /></details>
       <//>`
     }
   `;
@@ -114,7 +84,7 @@ export default view(() => {
     <p>Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors.</p>
     <div class="waiting"><${Progress} job=${rubber} label="Fitting the material" cancels=${false} ended=${ended} /></div>
     <${Notes} kind="error" list=${[rubber.error && explain(rubber.error, "spectrum")]} />
-    <${Numbers} of=${of} list=${of ? keyNumbers(of) : []} />
+    <${Numbers} of=${of} />
     <${Notes} of=${of} kind="warning" list=${of ? [...(fit?.notes ?? []), ...notes, ...(of.band?.notes ?? [])] : []} />
     <div class="columns">
       <div><${Settings} /></div>

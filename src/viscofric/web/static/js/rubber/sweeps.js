@@ -6,26 +6,45 @@ import { announce, explain, goTo, page } from "../page.js";
 import { effect, html, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Notes, Numbers, Progress } from "../views.js";
+import { Button, Card, Folded, Notes, Numbers, Progress, Table } from "../views.js";
 import { Amplitude, amplitude } from "./amplitude.js";
 import { FIRST_REFERENCE, rubber, shownRubber, sourceOf, worded } from "./made.js";
 import { failed } from "./source.js";
-import { FileTable, FlaggedTable, figuresOf, numbersOf } from "./sweeps_figures.js";
 import { Source } from "./sweeps_form.js";
 
 const MEASURED = ["dma", "ramps"]; // sources whose moduli are shown as measured
+const FIGURES = ["step-tests", ...["storage-modulus", "loss-modulus", "loss-tangent"].map((one) => `isotherms-${one}`)];
 
 const sweeps = new Job("sweeps", {
   wait: 120,
   remember: 6,
-  inputs: () => (sourceOf(state.get("material")) ? { study: { material: state.get("material") } } : null),
+  inputs: () => {
+    const { material, data_origin } = state.study;
+    return sourceOf(material) ? { study: { material, data_origin } } : null;
+  },
 });
 const isMeasured = () => MEASURED.includes(sweeps.result?.source ?? sourceOf(state.get("material")));
+
+/** Each file as it was read. */
+const Files = view(({ of }) => {
+  const { files, tables } = of;
+  const title = files?.length === 1 ? "The file" : `${files?.length} files`;
+  return html`
+    ${
+      tables.files &&
+      html`<${Folded} title=${title} open=${files.length <= 3}>
+        <div class="words"><${Table} of=${of} ...${tables.files} /></div>
+      <//>`
+    }
+    ${tables.flagged && html`<${Folded} title="Flagged readings"><${Table} of=${of} ...${tables.flagged} /><//>`}
+  `;
+});
 
 export default view(() => {
   const of = sweeps.error ? null : sweeps.result;
   const said = failed.value?.message ?? (sweeps.error && explain(sweeps.error, "sweeps"));
-  const pictures = of ? figuresOf(of, isMeasured() ? null : shownRubber()) : [];
+  // a material without measured moduli has those of its spectrum
+  const drawn = [of, of && !isMeasured() ? shownRubber() : null];
   return html`
     <div class="columns">
       <div>
@@ -37,17 +56,19 @@ export default view(() => {
       <div>
         <${Card} title="Recognised data">
           <div class="waiting"><${Progress} job=${sweeps} label="Reading" cancels=${false} /></div>
-          <${Numbers} of=${of} list=${of ? numbersOf(of) : []} />
+          <${Numbers} of=${of} />
           <${Notes} kind="error" aria-live="assertive" list=${[said]} />
           <${Notes} of=${of} list=${of ? [...(of.about ?? []), ...of.notes] : []} />
-          <${FileTable} of=${of} />
-          <${FlaggedTable} of=${of} />
+          ${of && html`<${Files} of=${of} />`}
         <//>
         <${Amplitude} />
       </div>
     </div>
     <div class="grid thirds">
-      ${pictures.map((one) => html`<div class="card" key=${one.id}><${Figure} ...${one} /></div>`)}
+      ${FIGURES.map((id) => {
+        const one = drawn.find((result) => result?.figures[id]);
+        return one && html`<div class="card" key=${id}><${Figure} id=${id} of=${one} /></div>`;
+      })}
     </div>
   `;
 });
