@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from viscofric.units import shown_number
 from viscofric.web.figures.spec import (
     MODULUS,
     REDUCED_FREQUENCY,
@@ -14,7 +15,6 @@ from viscofric.web.figures.spec import (
     around,
     axis,
     figure,
-    fixed,
     isotherms,
     line,
     number,
@@ -256,7 +256,9 @@ def verdict_numbers(found: dict[str, Any]) -> list[Spec]:
     causal = (check.get("kramers_kronig") or {}).get("holds")
     numbers = [
         misfit
-        and number("overlap", f"{fixed(misfit['joint'], 3)} decades", remark=f"rms over {misfit['points']} points"),
+        and number(
+            "overlap", f"{shown_number(misfit['joint'], 'z.3f')} decades", remark=f"rms over {misfit['points']} points"
+        ),
         merit is not None and number("figure of merit", merit, digits=2, remark="good if ≤ 1"),
         "diagrams" in check
         and number("E′ against E″", agree[None if causal is None else bool(causal)], remark="Kramers–Kronig"),
@@ -295,9 +297,9 @@ def _law_row(row: dict[str, Any]) -> list[Any]:
     return [
         row["title"],
         refused or row["words"],
-        None if row["aic"] is None else fixed(row["aic"], 1),
-        None if refused or row["kind"] == "polynomial" else fixed(row["weight"], 2),
-        None if refused else "exact" if row["exact"] else fixed(row["scatter"], 3),
+        None if row["aic"] is None else shown_number(row["aic"], "z.1f"),
+        None if refused or row["kind"] == "polynomial" else shown_number(row["weight"], "z.2f"),
+        None if refused else "exact" if row["exact"] else shown_number(row["scatter"], "z.3f"),
         valid,
         "used" if row["used"] else "best" if row["chosen"] else same,
     ]

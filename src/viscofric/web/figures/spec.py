@@ -91,11 +91,6 @@ def quantity(value: float | None, kind: str = "plain", digits: int = 3) -> str:
     return "–" if value is None else f"{{{value:.9g}|{kind}|{digits}}}"
 
 
-def fixed(value: float, decimals: int) -> str:
-    """Return a number with so many decimals."""
-    return f"{value:.{decimals}f}".replace("-", "−")
-
-
 def table(caption: str, head: list[str], rows: list[list[Any]]) -> Spec:
     """Return a table; a cell is text or a plain number."""
     return {"caption": caption, "head": head, "rows": rows}

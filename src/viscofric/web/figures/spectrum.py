@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from viscofric.units import shown_number
 from viscofric.web.figures.spec import (
     FREQUENCY,
     MODULUS,
@@ -13,7 +14,6 @@ from viscofric.web.figures.spec import (
     Spec,
     axis,
     figure,
-    fixed,
     line,
     number,
     points,
@@ -156,9 +156,9 @@ def spectrum_numbers_shown(found: dict[str, Any]) -> list[Spec]:
 
     misfits = []
     if fit.get("rms_step") is not None:
-        misfits.append(number("misfit of the step tests", fixed(fit["rms_step"], 3), remark="decades, rms"))
+        misfits.append(number("misfit of the step tests", shown_number(fit["rms_step"], "z.3f"), remark="decades, rms"))
     if fit.get("rms_storage") is not None:
-        both = ", ".join(fixed(fit[name], 3) for name in ("rms_storage", "rms_loss"))
+        both = ", ".join(shown_number(fit[name], "z.3f") for name in ("rms_storage", "rms_loss"))
         misfits.append(number("misfit of E′, E″", both, remark="decades, rms"))
     count, method = len(spectrum["modes"]["retardation_time"]), fit.get("method") or "from the material file"
     return [

@@ -52,7 +52,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``reduced_speed`` and ``remark``; ``lines``: by temperature ``friction``, ``lower``, ``upper`` and
         ``extrapolated``; ``along``: the same at the ``reference`` over the reduced speed, or null; ``sentences``: how
         well both agree; ``key``: name, value and remark of the most important numbers; ``table`` by temperature;
-        ``checks`` (name, verdict, words); ``warnings``, ``failures``, ``notes``; ``band``: whether there is any.
+        ``checks`` (name, verdict, words); ``warnings``, ``failures``, ``notes``; ``band``: whether there is any;
+        ``figures``.
 
     Raises
     ------
@@ -64,7 +65,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     from viscofric.study.running.executors import Serial
     from viscofric.study.running.running import run_plan
     from viscofric.study.running.store import CaseStore
-    from viscofric.web.jobs.friction_input import friction_curves
+    from viscofric.web.figures.friction import agreement_figures
+    from viscofric.web.jobs.friction_data import measured_points
+    from viscofric.web.jobs.friction_input import friction_curves, measured
 
     curves = friction_curves(study, context)
     context.progress(0, 1, "Making the rubber")
@@ -81,8 +84,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     reply = _reply(tree_of(contacts)) | listed("notes", dict.fromkeys(rubber.bands.notes), "page")
     if rubber.rubber.from_friction:
         reply |= listed("warnings", [CIRCULAR, *map(note_of, reply["warning_records"])], "page")
-    numbers: dict[str, Any] = plain(reply)
-    return numbers
+    numbers: dict[str, Any] = plain(reply | {"synthetic": measured(study, context).synthetic})
+    return numbers | {"figures": agreement_figures(numbers, plain(measured_points(curves)))}
 
 
 def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options) -> dict[str, Any]:
@@ -139,13 +142,14 @@ def _reply(tree: xarray.DataTree) -> dict[str, Any]:
     from viscofric.report.texts.checks import friction_checks
     from viscofric.report.texts.friction_tables import agreement_table
     from viscofric.report.texts.study import AGREEMENT, key_numbers
+    from viscofric.web.figures.spec import number
     from viscofric.web.jobs.friction_data import by_temperature, drawn_line, table_record, texts
 
     requested, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
     assert requested is not None
     lines = predicted(cases_of(requested))
     kinds = {"friction": lines.friction, "lower": lines.lower, "upper": lines.upper, "extrapolated": lines.extrapolated}
-    about = [number for number in key_numbers(tree) if number.name == AGREEMENT]
+    about = [one for one in key_numbers(tree) if one.name == AGREEMENT]
     said = [] if agreement is None else sentences(agreement.attrs, "sentences")
     at_reference = None
     if along is not None:
@@ -156,6 +160,7 @@ def _reply(tree: xarray.DataTree) -> dict[str, Any]:
         "along": at_reference,
         "sentences": texts(said),
         "key": [number._asdict() for number in about],
+        "key_numbers": [number(one.name, one.value, remark=one.remark) for one in about],
         "table": table_record(agreement_table(tree)),
         "checks": [one.record("page") for one in friction_checks(tree)],
         "band": lines.has_band,

@@ -88,7 +88,7 @@ def table_record(table: Table | None) -> dict[str, Any] | None:
     """Return a table of the report in plain texts."""
     if table is None:
         return None
-    return {"caption": table.caption, "headings": table.headings, "rows": table.rows, "note": table.note}
+    return {"caption": table.caption, "head": table.headings, "rows": table.rows, "note": table.note}
 
 
 def pairs(lines: Iterable[tuple[str, str]]) -> list[dict[str, str]]:

@@ -65,7 +65,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         angular frequency and temperature, or null); ``factors``, as of `IdentifiedMaterial.shift_dataset` (null where
         there is one temperature only); ``known``: ``name``, ``storage_modulus`` and ``loss_modulus`` of the page's
         rubber, or null; ``fit``: by temperature ``measured``, ``fitted``, ``lower``, ``upper`` and ``residual``;
-        ``family``; ``rms``; ``sentences``; ``download``.
+        ``family``; ``rms``; ``sentences``; ``download``; and what is shown (`identified_view`).
 
     Raises
     ------
@@ -74,8 +74,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     from viscofric.friction.identification.identify import LEVELS, identify_material
     from viscofric.notes import Note
+    from viscofric.web.figures.friction import identified_view
     from viscofric.web.jobs.context import JobError
-    from viscofric.web.jobs.friction_input import friction_curves, indenter_of
+    from viscofric.web.jobs.friction_data import measured_points
+    from viscofric.web.jobs.friction_input import friction_curves, indenter_of, measured
     from viscofric.web.jobs.rubbers import made_rubber
 
     curves = friction_curves(study, context)
@@ -111,7 +113,11 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         **chosen,
     )
     numbers: dict[str, Any] = plain(_reply(found, curves, rubber if options.beside else None, anchor, context))
-    return numbers
+    made_up = measured(study, context).synthetic
+    view = identified_view(
+        numbers, plain(measured_points(curves)), synthetic=made_up or (None if options.beside else False)
+    )
+    return numbers | view
 
 
 def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:

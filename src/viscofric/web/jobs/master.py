@@ -58,7 +58,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         them (`shift_numbers.with_bars`), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
         friction determines no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
         (or null) and ``line``; null without a rubber, and at one
-        temperature.  ``notes``.
+        temperature.  ``notes``, ``figures``.
 
     Raises
     ------
@@ -66,7 +66,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         If a table is wrong, or friction curves can be shifted neither way.
     """
     from viscofric.errors import SuperpositionError
-    from viscofric.web.jobs.friction_input import friction_curves, indenter_of
+    from viscofric.web.figures.friction import master_figures
+    from viscofric.web.jobs.friction_input import friction_curves, indenter_of, measured
     from viscofric.web.jobs.rubbers import made_rubber
 
     curves = friction_curves(study, context)
@@ -94,7 +95,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     if known is not None:
         result["known"] = _known(known, result["found"] or result["by_rubber"])
     numbers: dict[str, Any] = plain(result | listed("notes", dict.fromkeys(notes), "page"))
-    return numbers
+    made_up = measured(study, context).synthetic
+    return numbers | {"figures": master_figures(numbers, synthetic=made_up or (None if options.beside else False))}
 
 
 def _settings(curves: FrictionCurves, indenter: Any, rubber: Material | None) -> dict[str, Any]:

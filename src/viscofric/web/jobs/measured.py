@@ -39,13 +39,14 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``steps`` (number and text of each), ``synthetic`` (whether a file says that it was made up), ``runs`` (whether
         they are a tribometer's), ``refusal`` (why they cannot be separated, or null), ``notes``, and unless refused
         ``curves`` (by temperature, see `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and
-        ``download``.
+        ``download``; ``figures``.
 
     Raises
     ------
     StudyError, DataFileError
         If [measurement] is wrong, or a file cannot be read.
     """
+    from viscofric.web.figures.friction import measured_figures
     from viscofric.web.jobs.friction_data import measured_points, pairs
     from viscofric.web.jobs.friction_input import measured, table_of_files
 
@@ -73,7 +74,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             "download": _written(found.curves, context),
         }
     numbers: dict[str, Any] = plain(result)
-    return numbers
+    return numbers | {"figures": measured_figures(numbers) if numbers["curves"] else {}}
 
 
 def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:

@@ -7,7 +7,6 @@ import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Box, Button, Card, Choice, Notes, Table, choice } from "../views.js";
-import { fitFigure, modulusFigure } from "./measurement_inverse.js";
 import { master } from "./measurement_master.js";
 import { Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
 
@@ -81,7 +80,7 @@ async function take({ download }) {
 }
 
 /** The card of the identification. */
-export const Identification = view(({ step }) => {
+export const Identification = view(() => {
   const of = identify.error ? null : identify.result;
   identify.done = ({ sentences: [first] }) => announce(`The material is identified. ${first}`);
   // which factors to use is not known before
@@ -99,39 +98,19 @@ export const Identification = view(({ step }) => {
     </div>
     <div class="row"><${Button} kind="main" disabled=${!known} onClick=${() => identify.run()}>Identify the material<//></div>
     <${Run} job=${identify} label="Identifying" />
-    ${of && html`<${Identified} step=${step} of=${of} />`}
+    ${of && html`<${Identified} of=${of} />`}
   <//>`;
 });
 
-const Identified = view(({ step, of }) => {
-  const made = alone() ? step.data() : step.synthetic();
-  const { modulus, angular_frequency: omega, temperature } = of.anchor ?? {};
-  const at = of.anchor
-    ? `Anchored to |E| = ${units.show(modulus, "modulus")} at ${units.show(omega, "angular_frequency")} and ${units.show(temperature, "temperature")}.`
-    : null;
-  const head = [
-    "level",
-    `|E| at ${units.show(of.middle, "angular_frequency")}`,
-    "rms of friction",
-    "χ² above the best",
-  ];
-  const rows = of.family.map((one) => [
-    `× ${one.factor}`,
-    units.show(one.modulus, "modulus"),
-    `${units.plainNumber(100 * one.rms, 2)} %`,
-    units.plainNumber(one.penalty, 2),
-  ]);
+const Identified = view(({ of }) => {
+  const { family } = of.tables;
   return html`<div class="step-body">
     <div class="grid">
-      <${Figure} id="identified-modulus" title="Modulus identified from friction" height=${380} of=${of}
-        x=${{ label: "reduced frequency", kind: "angular_frequency", log: true }}
-        y=${{ label: "modulus", kind: "modulus", log: true }} ...${modulusFigure(of, made)} />
-      <${Figure} id="identified-friction" title="Friction of the identified material" height=${380} of=${of}
-        x=${{ label: "speed", kind: "speed", log: true }} y=${{ label: "viscoelastic friction coefficient" }}
-        ...${fitFigure(of, shownMeasured(), made)} />
+      <${Figure} id="identified-modulus" height=${380} of=${of} />
+      <${Figure} id="identified-friction" height=${380} of=${of} />
     </div>
-    <${Notes} of=${of} list=${[at, ...of.sentences]} />
-    ${rows.length > 0 && html`<${Table} of=${of} head=${head} rows=${rows} caption="Materials that friction alone hardly distinguishes" />`}
+    <${Notes} of=${of} list=${[units.filled(of.anchored_at), ...of.sentences]} />
+    ${family && html`<${Table} of=${of} ...${family} />`}
     <div class="row">
       <a class="button small" download="rubber_from_friction.json" href=${downloadUrl(of.download)}>Material (JSON)</a>
       <${Button} kind="small" onClick=${() => take(of)}>Use this material on the page<//>

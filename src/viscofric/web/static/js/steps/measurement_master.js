@@ -5,7 +5,6 @@ import { downloadUrl } from "../api.js";
 import { html, view } from "../reactive.js";
 import { Card, Choice, Notes, choice } from "../views.js";
 import { agreement } from "./measurement_comparison.js";
-import { factorsFigure, masterFigure } from "./measurement_inverse.js";
 import { Facts, Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
 
 const LAWS = [
@@ -29,14 +28,20 @@ const shiftedBy = choice("friction.shifted", [
 const law = choice("friction.law", LAWS);
 export const master = ofMeasured("master", () => ({ beside: !alone(), law: law.value() }));
 
+/** The figure of a master curve; by the material's shift factors with the prediction, which is made with them, if it is known. */
+function specOf(of, name) {
+  const spec = of?.figures[`master-${name}`];
+  const { figures, along } = (name === "by_rubber" && agreement.current) || {};
+  if (!spec || !figures?.along || Math.abs(along.reference - of.by_rubber.reference) > 0.01) return spec;
+  const points = spec.traces.filter(({ temperature }) => temperature !== undefined);
+  return { ...spec, traces: [...figures.along.traces, ...points] };
+}
+
 /** The card of the friction master curve. */
-export const MasterCurve = view(({ step }) => {
+export const MasterCurve = view(() => {
   const of = master.error ? null : master.result;
   const { found, by_rubber: byRubber, refusal, notes = [] } = of ?? {};
-  const drawn = (shiftedBy.value() === "found" ? found : byRubber) ?? byRubber ?? found;
-  // The prediction is made with the rubber's shift factors.
-  const along = drawn && drawn === byRubber ? agreement.current?.along : null;
-  const synthetic = alone() ? step.data() : step.synthetic();
+  const drawn = found && (!byRubber || shiftedBy.value() === "found") ? "found" : "by_rubber";
   const refused = refusal && `Shift factors cannot be determined from friction alone: ${refusal}`;
   return html`<${Card} title="Friction master curve" hidden=${!shownMeasured()?.curves}>
     <div class="form">
@@ -47,11 +52,9 @@ export const MasterCurve = view(({ step }) => {
     <${Run} job=${master} label="Shifting" />
     <div class="grid">
       <${Figure} id="friction-master-curve" title="Friction at one temperature" height=${340} of=${of}
-        x=${{ label: "reduced speed", kind: "speed", log: true }} y=${{ label: "viscoelastic friction coefficient" }}
-        ...${masterFigure(drawn, along, synthetic)} />
+        spec=${specOf(of, drawn)} />
       <${Figure} id="friction-shift-factors" title="Shift factors" height=${340} of=${of}
-        x=${{ label: "temperature", kind: "temperature" }} y=${{ label: "log₁₀ α" }}
-        empty="Friction at one temperature determines no shift factor." ...${factorsFigure(of, synthetic)} />
+        empty="Friction at one temperature determines no shift factor." />
     </div>
     <${Notes} of=${of} list=${[refused, ...notes]} />
     <${Facts} of=${of} list=${found?.words ?? byRubber?.words} />
