@@ -20,6 +20,7 @@ from viscofric.study.running.executors import Serial
 from viscofric.study.running.running import run_plan
 from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import band_columns
+from viscofric.web.figures.curve import curve_layout, curve_parts
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import study_rubber
@@ -57,9 +58,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         The tables of a run file; what it measured is not looked at.
     context : Context
         The first part has ``layout``: for each case ``combination``, ``temperature`` (K), ``speed`` (m/s) and
-        ``reduced_speed`` (m/s), with the ``combinations`` in words, ``kind``, ``accuracy`` and the ``reference``
-        temperature.  Those that follow have ``cases`` (numbers), ``friction`` and ``known``: whether it is to the
-        accuracy already, or lies between contacts that may be too far apart.
+        ``reduced_speed`` (m/s), with the ``combinations`` in words, ``kind``, ``accuracy``, the ``reference``
+        temperature and what can be drawn (`curve_layout`).  Those that follow have ``cases`` (numbers), ``friction``
+        and ``known``: whether it is to the accuracy already, or lies between contacts that may be too far apart.
 
     Returns
     -------
@@ -67,7 +68,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         For each case ``friction``, ``error``, ``lower``, ``upper``, ``material_error``, ``interpolated`` and what else
         is known of it (null where it is not), and ``doubts``, a list of words: "extrapolated", "shift", "strain",
         "unresolved", "failed".  Then ``master`` (friction along the master curve), ``failures``, ``warnings``,
-        ``notes`` and ``checks``, in sentences.
+        ``notes`` and ``checks``, in sentences, and what is drawn (`curve_parts`).
 
     Raises
     ------
@@ -88,16 +89,32 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     if not requested.records:
         first = requested.failures[0]
         raise JobError(f"No case could be solved; the first one failed: {first}", code=first.code)
+    found = {**layout, **columns(contacts, requested), **more}
     return {
-        **layout,
-        **columns(contacts, requested),
-        **more,
+        **found,
+        **curve_parts(found),
         "master": master_curve(contacts, along),
         **listed("failures", [one.note for one in requested.failures]),
-        **listed("warnings", [*_of_rubbers(contacts, known=True), *doubts((requested,), contacts.rubbers)]),
+        **listed(
+            "warnings",
+            [
+                *_of_rubbers(contacts, known=True),
+                *doubts((requested,), contacts.rubbers),
+                *_unresolved(found["doubts"]),
+            ],
+        ),
         **listed("notes", [*_notes(contacts, checked), *said], "page"),
         "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points)]),
     }
+
+
+def _unresolved(doubts_of: list[list[str]]) -> list[Note]:
+    count = sum("unresolved" in words for words in doubts_of)
+    words = (
+        f"At {count} of {len(doubts_of)} points the grid does not resolve friction to the requested accuracy; the "
+        "error bars show its accuracy."
+    )
+    return [Note("unresolved", words)] if count else []
 
 
 def _contacts(checked: Study, study: dict[str, Any], context: Context) -> Contacts:
@@ -119,7 +136,7 @@ def _layout(contacts: Contacts) -> dict[str, Any]:
     study = contacts.study
     heated = study.heating is not None and (study.interface is None or _is_given(study))
     kind = "rough" if study.indenter is None else "line" if study.indenter.LINE else "point"
-    return {
+    layout = {
         "kind": kind,
         "accuracy": study.solver.accuracy,
         "reference": plain(rubbers[0].shift.reference),
@@ -128,11 +145,12 @@ def _layout(contacts: Contacts) -> dict[str, Any]:
         "temperature": plain([case.temperature for case in cases], 9),
         "speed": plain([case.speed for case in cases], 9),
         "reduced_speed": plain([alpha[case.material, case.temperature] * case.speed for case in cases], 9),
-        "extra": [
-            *(("interface_friction", "total_friction") if _is_given(study) else ()),
-            *(("heated_friction", "temperature_rise") if heated else ()),
-        ],
     }
+    extra = [
+        *(("interface_friction", "total_friction") if _is_given(study) else ()),
+        *(("heated_friction", "temperature_rise") if heated else ()),
+    ]
+    return layout | curve_layout(kind, extra, layout)
 
 
 def _is_given(study: Study) -> bool:

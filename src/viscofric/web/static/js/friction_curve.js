@@ -1,19 +1,10 @@
 // The card of the friction curve: computed after each change, its points drawn as they are known, till then the one before.
 
-import { Figure, temperatureColour } from "./figures.js";
-import {
-  QUANTITIES,
-  curveTraces,
-  ghostTraces,
-  hasQuantity,
-  liveTrace,
-  quantityOf,
-  speedsOf,
-  valuesOf,
-} from "./curve_traces.js";
+import { curveTraces, ghostTraces, liveTrace, speedsOf } from "./curve_traces.js";
 import { Select } from "./fields.js";
-import { Job, isStale, studyOf } from "./jobs.js";
-import { announce, isSynthetic, waits } from "./page.js";
+import { Figure } from "./figures.js";
+import { Job, isStale } from "./jobs.js";
+import { announce, waits } from "./page.js";
 import { computed, html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
@@ -26,20 +17,20 @@ const VIEWS = [
 const MOST_FAILURES = 5;
 
 const missingOf = (result) => result.friction.filter((value) => value === null).length;
-const hasPoints = (curve) => Boolean(curve?.points.friction.some((value) => value !== null));
+const hasPoints = (curve) => Boolean(curve?.columns.friction.some((value) => value !== null));
 
 /** The curve's points as they come: the first part has the cases, the others values of some. */
 function drafted(part, before) {
   if (part.layout) {
-    const cases = part.layout.speed;
-    return { layout: part.layout, points: { friction: cases.map(() => null), known: cases.map(() => false) } };
+    const none = part.layout.speed.map(() => null);
+    return { layout: part.layout, columns: { friction: none, known: none, open: none } };
   }
-  const [friction, known] = [before.points.friction.slice(), before.points.known.slice()];
+  const [friction, known, open] = ["friction", "known", "open"].map((name) => before.columns[name].slice());
   part.cases.forEach((at, index) => {
     friction[at] = part.friction[index];
-    known[at] = part.known[index];
+    [known[at], open[at]] = part.known[index] ? [friction[at], null] : [null, friction[at]];
   });
-  return { layout: before.layout, points: { friction, known } };
+  return { layout: before.layout, columns: { friction, known, open } };
 }
 
 /** The study; without its measurement, unless that tells the law of an interface. */
@@ -50,17 +41,12 @@ function predicted() {
 
 export const curve = new Job("curve", { wait: 350, remember: 6, part: drafted, inputs: predicted });
 
-/** What is drawn of the job's result or of its parts: {source, layout, points, result}. */
+/** What is drawn of the job's result or of its parts: {source, layout, columns, result}. */
 function curveOf(source) {
   if (!source) return null;
-  if (source.layout) return { source, ...source, result: null };
-  const { friction } = source;
-  return {
-    source,
-    layout: source,
-    points: { friction, known: friction.map((value) => value !== null) },
-    result: source,
-  };
+  return source.layout
+    ? { source, result: null, ...source }
+    : { source, layout: source, columns: source, result: source };
 }
 
 /** The newest curve, of whatever inputs. */
@@ -74,8 +60,8 @@ export const combination = computed(() =>
   Math.min(asked.combination.value, (drawn.value?.layout.combinations.length ?? Infinity) - 1),
 );
 const quantity = computed(() => {
-  const { layout } = drawn.value ?? {};
-  return layout && !hasQuantity(asked.quantity.value, layout) ? "friction" : asked.quantity.value;
+  const { quantities = {} } = drawn.value?.layout ?? {};
+  return quantities[asked.quantity.value] ? asked.quantity.value : "friction";
 });
 const against = () => state.view("curve.view", "speed");
 
@@ -104,23 +90,22 @@ function caption({ result, ...shownCurve }, shifted) {
 /** What the figure shows of a curve and of the live contact. */
 function drawing(shownCurve, live) {
   const look = { view: against(), quantity: quantity.value, combination: combination.value };
-  const { label, kind } = quantityOf(look.quantity, shownCurve.layout);
+  const axis = shownCurve.layout.quantities[look.quantity];
   const shifted = look.view === "shifted";
   const traces = [
     ...ghostTraces(pinned.value, look, "kept", "6px,4px"),
     ...(hasPoints(shownCurve) ? [] : ghostTraces(before, look, "before", "solid")),
-    ...curveTraces(shownCurve, look, { units, temperatureColour }),
-    ...liveTrace(isStale(live.result) ? null : live.result, look, units),
+    ...curveTraces(shownCurve, look),
+    ...liveTrace(isStale(live.result) ? null : live.result, look),
   ];
   const speed = shifted ? `α(T)·v at ${units.show(shownCurve.layout.reference, "temperature")}` : "speed";
   return {
     of: shownCurve.source,
-    title: `${label[0].toUpperCase()}${label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
+    title: `${axis.label[0].toUpperCase()}${axis.label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
     caption: curve.error ? "Previous curve." : caption(shownCurve, shifted),
     x: { label: speed, kind: "speed", log: true, range: speedsOf(shownCurve, look) },
-    y: state.view("curve.log", false) ? { label, kind, log: true } : { label, kind, range: valuesOf(traces) },
+    y: { ...axis, log: state.view("curve.log", false), zero: 1.06 },
     temperatures: shownCurve.layout.temperature,
-    synthetic: isSynthetic(studyOf(shownCurve.source)),
     traces,
   };
 }
@@ -135,15 +120,13 @@ const Curve = view(({ live, onPick }) => {
   const shownCurve = drawn.value;
   const found = shownCurve && drawing(shownCurve, live);
   if (hasPoints(shownCurve)) before = shownCurve;
-  return html`<${Figure} id="friction-curve" title="Friction against speed" x=${x} y=${{ label: QUANTITIES.friction.label }}
+  return html`<${Figure} id="friction-curve" title="Friction against speed" x=${x} y=${{ label: "friction coefficient μ" }}
     empty=${curve.error ? "No curve yet." : "Computing the first points."} onClick=${pick} ...${found} />`;
 });
 
 /** What is shown, of what there is of this kind of contact and this study. */
 const Tools = view(() => {
-  const layout = drawn.value?.layout ?? { kind: "point" };
-  const of = Object.keys(QUANTITIES).filter((name) => hasQuantity(name, layout));
-  const combinations = layout.combinations ?? [];
+  const { quantities = {}, combinations = [] } = drawn.value?.layout ?? {};
   const { result } = drawn.value ?? {};
   const pin = () => {
     pinned.value = pinned.value ? null : drawn.value;
@@ -151,7 +134,7 @@ const Tools = view(() => {
   };
   return html`<div class="row curve-tools">
     <${Select} aria-label="Against" options=${VIEWS} value=${against()} onChange=${(one) => state.setView("curve.view", one)} />
-    <${Select} aria-label="Shown" options=${of.map((name) => [name, quantityOf(name, layout).label])}
+    <${Select} aria-label="Shown" options=${Object.entries(quantities).map(([name, { label }]) => [name, label])}
       value=${quantity.value} onChange=${(one) => (asked.quantity.value = one)} />
     ${
       combinations.length > 1 &&
@@ -168,14 +151,6 @@ const Tools = view(() => {
   </div>`;
 });
 
-function warningsOf({ doubts, speed, warnings }) {
-  const unresolved = doubts.filter((words) => words.includes("unresolved")).length;
-  const said =
-    `At ${unresolved} of ${speed.length} points the grid does not resolve friction to the requested accuracy; ` +
-    "the error bars show its accuracy.";
-  return [...warnings, unresolved && said];
-}
-
 function failuresOf(result) {
   const missing = missingOf(result);
   if (!missing) return [];
@@ -191,7 +166,7 @@ const Words = view(() => {
   const { checks = [], notes = [] } = result ?? {};
   return html`
     <${Notes} kind="error" list=${curve.error ? [waits("the friction curve", curve.error)] : failures} />
-    <${Notes} of=${of} kind="warning" list=${result ? warningsOf(result) : []} />
+    <${Notes} of=${of} kind="warning" list=${result?.warnings} />
     <${Folded} title="Checks" hidden=${checks.length + notes.length === 0}>
       <${Notes} of=${of} list=${checks.map(({ verdict, words }) => `${MARKS[verdict]}${words}`)} />
       <${Notes} of=${of} list=${notes} />
