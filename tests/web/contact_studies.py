@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from viscofric.web.jobs.context import Context
+from web.figure_columns import drawn
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -64,7 +65,7 @@ class Desk:
         """Run a job from nothing, and return its result."""
         self.reported.clear()
         found: dict[str, Any] = job.run(study, job.Options(**options), self.context)
-        return found
+        return drawn(found)
 
     @property
     def parts(self) -> list[dict[str, Any]]:

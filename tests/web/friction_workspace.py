@@ -13,6 +13,7 @@ import numpy as np
 import viscofric as vf
 from friction.synthetic_curves import synthetic_curves
 from viscofric.web.jobs.context import Context
+from web.figure_columns import drawn
 
 EXAMPLE = Path(vf.__file__).parent / "templates" / "paper"
 STUDY: dict[str, Any] = {
@@ -44,7 +45,7 @@ def done(kind: str, context: Context, study: dict[str, Any], **options: Any) -> 
     job = import_module(f"viscofric.web.jobs.{kind}")
     result = job.run(study, job.Options.model_validate(options), context)
     read: dict[str, Any] = json.loads(json.dumps(result, allow_nan=False))
-    return read
+    return drawn(read)
 
 
 def column(isotherms: list[dict[str, Any]], name: str) -> Any:

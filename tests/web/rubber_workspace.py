@@ -11,6 +11,7 @@ from typing import Any
 import viscofric
 from viscofric.web.jobs import KINDS
 from viscofric.web.jobs.context import Context
+from web.figure_columns import drawn
 
 EXAMPLE = Path(viscofric.__file__).parent / "templates" / "paper" / "dma.csv"
 SWEEPS: dict[str, Any] = {"dma": "dma.csv", "reference_temperature": "30 degC"}
@@ -31,4 +32,4 @@ def done(kind: str, context: Context, material: dict[str, Any], **more: Any) -> 
     options = more.pop("options", {})
     module = import_module(KINDS[kind].module)
     answer = module.run({"material": material, **more}, module.Options(**options), context)
-    return json.loads(json.dumps(answer, allow_nan=False))
+    return drawn(json.loads(json.dumps(answer, allow_nan=False)))

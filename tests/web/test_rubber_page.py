@@ -258,3 +258,27 @@ def test_workbook_of_an_instrument_on_a_phone(browser: Browser, server: Server, 
             assert wide <= 0
             opened.screenshot(f"rubber-phone-{step}")
         assert opened.findings() == []
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.apart
+def test_number_of_modes_is_slid_with_the_misfit_beside_it(tab: Tab) -> None:
+    example(tab)
+    tab.value(
+        "page.state.state.change({ 'uncertainty.draws': 0, 'material.spectrum': 'sparse', 'material.modes': 20 })"
+    )
+    tab.step("spectrum")
+    fit = "page.jobs.result('rubber')?.spectrum.fit"
+    tab.until(f"{fit}?.method === 'sparse'", 60.0)
+    few = tab.value(fit)
+    slider = tab.page.locator("#step-spectrum").get_by_label("Largest number of modes: slider")
+    slider.evaluate("(one) => { one.value = 100; one.dispatchEvent(new Event('input', { bubbles: true })); }")
+    slider.dispatch_event("change")
+    modes = tab.value("page.state.state.get('material.modes')")
+    assert 1 < modes < 20
+    tab.until(f"{fit} && {fit}.rms_storage !== given[0]".replace("given[0]", repr(few["rms_storage"])), 60.0)
+    fewer = tab.value(fit)
+    assert fewer["rms_storage"] > few["rms_storage"]  # fewer modes fit less well
+    assert f"{fewer['rms_storage']:.3f}, {fewer['rms_loss']:.3f}" in tab.text(
+        "#step-spectrum .form, #step-spectrum .panel"
+    )

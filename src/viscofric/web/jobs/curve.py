@@ -65,7 +65,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        For each case ``friction``, ``error``, ``lower``, ``upper``, ``material_error``, ``interpolated`` and what else
+        For each case ``friction``, ``error``, ``lower``, ``upper``, ``interpolated`` and what else
         is known of it (null where it is not), and ``doubts``, a list of words: "extrapolated", "shift", "strain",
         "unresolved", "failed".  Then ``master`` (friction along the master curve), ``failures``, ``warnings``,
         ``notes`` and ``checks``, in sentences, and what is drawn (`curve_parts`).
@@ -287,7 +287,6 @@ def columns(contacts: Contacts, requested: Solved) -> dict[str, Any]:
         "interpolated": [getattr(outcome, "interpolated", False) for outcome in requested.outcomes],
         "lower": None if bands is None else column(bands.viscoelastic_lower),
         "upper": None if bands is None else column(bands.viscoelastic_upper),
-        "material_error": None if bands is None else column(bands.material_error),
         "doubts": [
             _doubts(contacts, case, outcome) for case, outcome in zip(requested.cases, requested.outcomes, strict=True)
         ],

@@ -11,7 +11,6 @@ from viscofric.datasets import plain, record
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.identification.anchors import Anchor
-    from viscofric.friction.identification.identified import IdentifiedBand
     from viscofric.friction.identification.result import IdentifiedMaterial
     from viscofric.rheology.material import Material
     from viscofric.web.jobs.context import Context
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
 
 _DOWNLOAD = "rubber_from_friction.json"
 _DIGITS = 6
+_OF_A_BAND = ("low", "high", "limit", "relative", "decades")
 #: Steps that settle it as a rule, before the family of levels.
 _STEPS = 4
 
@@ -60,12 +60,12 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``reference``; ``modulus``, as of `IdentifiedMaterial.to_dataset`;
-        ``identified``, ``identified_storage``, ``identified_loss``: ``low``, ``high``, ``limit``, ``relative`` and
-        ``decades``; ``frequency_range`` of the contacts, ``middle`` of it; ``anchored``; ``anchor`` (its modulus,
-        angular frequency and temperature, or null); ``factors``, as of `IdentifiedMaterial.shift_dataset` (null where
-        there is one temperature only); ``known``: ``name``, ``storage_modulus`` and ``loss_modulus`` of the page's
-        rubber, or null; ``fit``: by temperature ``measured``, ``fitted``, ``lower``, ``upper`` and ``residual``;
-        ``family``; ``rms``; ``sentences``; ``download``; and what is shown (`identified_view`).
+        ``identified``: ``low``, ``high``, ``limit``, ``relative`` and ``decades``; ``frequency_range`` of the contacts,
+        ``middle`` of it; ``anchored``; ``anchor`` (its modulus, angular frequency and temperature, or null);
+        ``factors``, as of `IdentifiedMaterial.shift_dataset` (null where there is one temperature only); ``known``:
+        ``name``, ``storage_modulus`` and ``loss_modulus`` of the page's rubber, or null; ``fit``: by temperature
+        ``fitted``, ``lower``, ``upper`` and ``residual``; ``family``; ``rms``; ``sentences``; ``download``; and what
+        is shown (`identified_view`).
 
     Raises
     ------
@@ -145,9 +145,7 @@ def _reply(
     return {
         "reference": found.material.reference,
         "modulus": modulus,
-        "identified": _band(found.identified),
-        "identified_storage": _band(found.identified_storage),
-        "identified_loss": _band(found.identified_loss),
+        "identified": {name: getattr(found.identified, name) for name in _OF_A_BAND},
         "frequency_range": found.frequency_range,
         "middle": found.middle,
         "anchored": found.anchored,
@@ -163,11 +161,6 @@ def _reply(
         "sentences": texts(found.sentences),
         "download": _DOWNLOAD,
     }
-
-
-def _band(band: IdentifiedBand) -> dict[str, Any]:
-    names = ("low", "high", "limit", "relative", "decades")
-    return {name: getattr(band, name) for name in names}
 
 
 def _known(rubber: Material, found: IdentifiedMaterial) -> dict[str, Any]:

@@ -52,7 +52,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``by_rubber`` and ``found``, each a master curve or null: ``reference``, ``load``, ``load_unit``, ``points``
+        ``by_rubber`` and ``found``, each a master curve or null: ``reference``, ``points``
         (by temperature over the reduced speed), ``line`` (smoothed, with its band), ``overlap`` (a sentence) and
         ``words`` (name and value).  ``found`` has ``factors`` and ``law`` (or null) as their data sets name
         them (`shift_numbers.with_bars`), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
@@ -126,8 +126,6 @@ def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
     columns = {"friction": master.friction, "error": master.error, "scatter": master.scatter}
     return {
         "reference": master.reference,
-        "load": master.load,
-        "load_unit": master.curves.load_unit,
         "points": by_temperature(master.temperature, master.reduced_speed, **columns),
         "line": drawn_line(measured_line(master)),
         "overlap": master.overlap_sentence,

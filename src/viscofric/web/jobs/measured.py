@@ -67,8 +67,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         result |= {
             "curves": measured_points(found.curves),
             "points": len(found.curves),
-            "load_unit": found.curves.load_unit,
-            "assumption": found.curves.assumption or None,
             "lines": pairs(_lines(found.curves)),
             "checks": _checks(found.curves),
             "download": _written(found.curves, context),

@@ -107,7 +107,9 @@ def _check(rubber: Rubber) -> dict[str, Any] | None:
 
 def _verdict(verdict: str, sentences: list[str]) -> dict[str, Any]:
     short = _VERDICTS[verdict]
-    return {"verdict": verdict, "short": short, "headline": f"Superposition {short}", "sentences": sentences}
+    kind = {"holds": "good", "fails": "error"}.get(verdict, "warning")
+    headline = f"Superposition {short}"
+    return {"verdict": verdict, "kind": kind, "short": short, "headline": headline, "sentences": sentences}
 
 
 # What superposition does, in the words of the page.
@@ -128,7 +130,7 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``verdict`` (`SuperpositionCheck.verdict`), ``headline`` and ``sentences``;
+        ``verdict`` (`SuperpositionCheck.verdict`), its ``kind``, ``headline`` and ``sentences``;
         distances of ``neighbours`` in decades; ``diagrams`` in SI units and rad; ``kramers_kronig`` or None.
     """
     check, found = fit.check, fit.check.kramers_kronig

@@ -129,12 +129,9 @@ def _file(readings: Readings) -> dict[str, Any]:
         "name": Path(readings.source).name,
         "format": readings.format,
         "deformation": readings.deformation,
-        "said_by": readings.said_by,
         "readings": len(readings),
         "temperature": _range(readings.temperature),
         "angular_frequency": _range(readings.angular_frequency),
-        "strain_amplitude": None if readings.strain_amplitude is None else _range(readings.strain_amplitude),
-        "notes": list(readings.notes),
     }
 
 

@@ -25,22 +25,6 @@ const VERTICALS = [
   ["free", "fitted"],
   ["density", "density times temperature"],
 ];
-const KIND = {
-  holds: "good",
-  "other factors": "warning",
-  "not identified": "warning",
-  doubtful: "warning",
-  roughly: "warning",
-  fails: "error",
-  untested: "warning",
-};
-
-const DIAGRAMS = [
-  ["van_gurp_palmen", "van Gurp–Palmen"],
-  ["booij_thoone_palmen", "tan δ against |E*|"],
-  ["cole_cole", "E″ against E′"],
-  ["wicket", "tan δ against E′"],
-];
 const diagram = signal("van_gurp_palmen");
 
 /** The laws that were compared, each with a button where shift factors are those of the sweeps. */
@@ -65,6 +49,7 @@ const Factors = view(({ of }) => {
   const { figures, tables, check } = of;
   const card = (title, id, more) =>
     figures[id] && html`<${Card} title=${title}><${Figure} id=${id} of=${of} />${more}<//>`;
+  const diagrams = Object.keys(check?.diagrams ?? {}).map((key) => [key, figures[`diagram-${key}`].title]);
   const causal = check?.kramers_kronig && html`<p class="help">${check.kramers_kronig.sentence}</p>`;
   return html`
     <div class="grid">
@@ -75,9 +60,9 @@ const Factors = view(({ of }) => {
     ${tables.laws && html`<${Laws} of=${of} />`}
     <div class="grid thirds">
       ${
-        check?.diagrams &&
+        diagrams.length > 0 &&
         html`<${Card} title="Validity of superposition">
-          <${Pick} label="Diagram" options=${DIAGRAMS} value=${diagram.value} onChange=${(key) => (diagram.value = key)} />
+          <${Pick} label="Diagram" options=${diagrams} value=${diagram.value} onChange=${(key) => (diagram.value = key)} />
           <${Figure} id="superposition-diagram" of=${of} spec=${figures[`diagram-${diagram.value}`]} />
         <//>`
       }
@@ -119,11 +104,10 @@ const Settings = view(() => {
 
 const Verdict = view(({ of }) => {
   const { check } = of;
-  const kind = KIND[check.verdict];
   return html`<section ...${shown(of, "card")} aria-live="polite">
-    <h3 class="verdict" data-kind=${kind}>${check.headline}</h3>
+    <h3 class="verdict" data-kind=${check.kind}>${check.headline}</h3>
     <${Numbers} list=${of.verdict_numbers} />
-    <${Notes} kind=${kind === "good" ? "note" : kind} list=${check.sentences} />
+    <${Notes} kind=${check.kind === "good" ? "note" : check.kind} list=${check.sentences} />
   </section>`;
 });
 
