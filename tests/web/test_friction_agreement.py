@@ -40,7 +40,7 @@ def test_the_prediction_meets_the_friction_that_it_was_planted_with(agreement: d
     noise = column(agreement["points"], "measured") / predicted - 1.0
     np.testing.assert_allclose(column(agreement["points"], "difference"), 1.0 / (1.0 + noise) - 1.0, atol=1e-5)
     assert predicted.size == 20
-    assert agreement["key"][0]["name"] == "Prediction minus measurement"
+    assert agreement["key_numbers"][0]["label"] == "Prediction minus measurement"
     assert [row[0] for row in agreement["table"]["rows"]] == ["30 °C", "90 °C"]
     assert {word for points in agreement["points"] for word in points["remark"]} == {""}  # none is doubtful
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from viscofric.web.figures.spec import Spec, axis
+from viscofric.web.figures.spec import Spec, axis, quantity
 
 #: Quantities of cases; those in `_ROUGH` are a rough surface's, those in `_SMOOTH` an indenter's.
 _QUANTITIES = {
@@ -62,7 +62,7 @@ def curve_layout(kind: str, extra: list[str], layout: dict[str, Any]) -> dict[st
 
 
 def curve_parts(found: dict[str, Any]) -> dict[str, Any]:
-    """Return ``parts``: of each quantity the columns that are drawn, and ``remarks``: what is doubtful of each case."""
+    """Return ``parts``, the columns drawn of each quantity, ``remarks``, doubts of each case, and ``summary``."""
     band: Spec = {"lower": "lower", "upper": "upper"} if any(one is not None for one in found["lower"] or ()) else {}
     parts = {}
     for name in found["quantities"]:
@@ -73,4 +73,6 @@ def curve_parts(found: dict[str, Any]) -> dict[str, Any]:
         beside = [{**style, "y": other, "dash": dash, "text": words} for other, dash, words in _BESIDE.get(name, [])]
         parts[name] = [main, *beside]
     remarks = ["<br>".join(_DOUBTS.get(word, word) for word in words) for words in found["doubts"]]
-    return {"parts": parts, "remarks": remarks}
+    known = [one for one in found["friction"] if one is not None]
+    summary = f"μ {quantity(min(known), digits=2)} to {quantity(max(known), digits=2)}" if known else ""
+    return {"parts": parts, "remarks": remarks, "summary": summary}

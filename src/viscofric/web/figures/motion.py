@@ -23,13 +23,17 @@ _ENERGIES = {"work": "work on the material", "stored": "stored", "dissipated": "
 
 
 def motion_view(data: xarray.Dataset, contacts: tuple[ImpactContact, ...], steps: str) -> dict[str, Any]:
-    """Return ``figures`` and ``key_numbers`` of a solution's data set; `steps` tells how many there were."""
+    """Return ``figures``, ``key_numbers`` and ``summary`` of a solution's data; `steps` says how many there were."""
     error = data["friction_force_error"] / data["load"].where(data["load"] > 0.0)
     data = data.assign(friction_coefficient_error=error.fillna(0.0))
     balance = number("Energy balance error", 100.0 * data.attrs["energy_imbalance"], unit="%", digits=2)
     if contacts:
-        return {"figures": _figures(data), "key_numbers": [*_of_impact(data, contacts[0]), balance]}
-    return {"figures": _figures(data), "key_numbers": [*_of_history(data), {**balance, "remark": steps}]}
+        numbers = [*_of_impact(data, contacts[0]), balance]
+        summary = f"restitution {quantity(contacts[0].restitution, digits=2)}"
+    else:
+        numbers = [*_of_history(data), {**balance, "remark": steps}]
+        summary = f"{data.sizes['time']} times{', stopped' if data.attrs['interrupted'] else ''}"
+    return {"figures": _figures(data), "key_numbers": numbers, "summary": summary}
 
 
 def _over_time(data: xarray.Dataset, title: str, y: Spec, names: dict[str, str | None]) -> Spec:

@@ -10,7 +10,7 @@ from viscofric.web.figures.sweeps import moduli_of_material
 
 
 def rubber_view(found: dict[str, Any]) -> dict[str, Any]:
-    """Return ``figures``, ``tables``, ``key_numbers``, ``verdict_numbers`` and ``limits`` of a result of ``rubber``."""
+    """Return what is shown of a result of the job ``rubber``; ``limits`` says where its law is valid."""
     shift, spectrum = found["shift"], found["spectrum"]
     tables = {}
     if shift and shift["laws"]:
@@ -26,5 +26,18 @@ def rubber_view(found: dict[str, Any]) -> dict[str, Any]:
         "tables": tables,
         "key_numbers": spectrum_numbers_shown(found),
         "verdict_numbers": verdict_numbers(found) if shift and found["check"] else [],
+        "summary": {"shift": _shift_summary(found), "spectrum": _spectrum_summary(spectrum)},
         "limits": limits_in_words(shift["material"]) if shift else "",
     }
+
+
+def _shift_summary(found: dict[str, Any]) -> str:
+    if not found["shift"]:
+        return "no shift with temperature"
+    if found["check"]:
+        return str(found["check"]["short"])
+    return "assumed law" if found["shift"]["used"] == "assumed" else "from the material file"
+
+
+def _spectrum_summary(spectrum: dict[str, Any]) -> str:
+    return f"{len(spectrum['modes']['retardation_time'])} modes" if spectrum["modes"] else "a table of moduli"

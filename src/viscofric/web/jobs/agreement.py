@@ -51,7 +51,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``points``: by temperature ``measured``, ``predicted``, ``lower``, ``upper``, ``difference`` (relative),
         ``reduced_speed`` and ``remark``; ``lines``: by temperature ``friction``, ``lower``, ``upper`` and
         ``extrapolated``; ``along``: the same at the ``reference`` over the reduced speed, or null; ``sentences``: how
-        well both agree; ``key``: name, value and remark of the most important numbers; ``table`` by temperature;
+        well both agree; ``key_numbers``, the most important ones, and ``summary``; ``table`` by temperature;
         ``checks`` (name, verdict, words); ``warnings``, ``failures``, ``notes``; ``band``: whether there is any;
         ``figures``.
 
@@ -159,7 +159,7 @@ def _reply(tree: xarray.DataTree) -> dict[str, Any]:
         "lines": by_temperature(lines.temperature, lines.speed, **kinds),
         "along": at_reference,
         "sentences": texts(said),
-        "key": [number._asdict() for number in about],
+        "summary": f"predicted to {about[0].value}" if about else "",
         "key_numbers": [number(one.name, one.value, remark=one.remark) for one in about],
         "table": table_record(agreement_table(tree)),
         "checks": [one.record("page") for one in friction_checks(tree)],

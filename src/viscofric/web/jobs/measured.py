@@ -39,7 +39,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``steps`` (number and text of each), ``synthetic`` (whether a file says that it was made up), ``runs`` (whether
         they are a tribometer's), ``refusal`` (why they cannot be separated, or null), ``notes``, and unless refused
         ``curves`` (by temperature, see `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and
-        ``download``; ``figures``.
+        ``download``; ``figures`` and ``summary``.
 
     Raises
     ------
@@ -62,6 +62,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "refusal": found.refusal.words("page") or None,
         **listed("notes", dict.fromkeys(found.notes), "page"),
         "curves": None,
+        "summary": "not separated" if found.curves is None else f"{len(found.curves)} points",
     }
     if found.curves is not None:
         result |= {

@@ -7,40 +7,15 @@ import { Job, newest, result } from "./jobs.js";
 import { contactOf, explain, goTo, isSynthetic, named, page, sourceOf } from "./page.js";
 import { effect, html, render, signal, view } from "./reactive.js";
 import { state } from "./state.js";
+import * as units from "./units.js";
 import { Notes } from "./views.js";
 
-function friction() {
-  const found = result("curve")?.friction?.filter((value) => value !== null) ?? [];
-  const range = found.length ? `, μ ${Math.min(...found).toPrecision(2)} to ${Math.max(...found).toPrecision(2)}` : "";
-  return `${contactOf(state.study)}${range}`;
+/** What a job says in short of the inputs as they are. */
+function said(name, part) {
+  const { summary } = result(name) ?? {};
+  return units.filled(part ? summary?.[part] : summary);
 }
-
-function superposition() {
-  const rubber = result("rubber");
-  if (!rubber) return "";
-  if (!rubber.shift) return "no shift with temperature";
-  return rubber.check?.short ?? (rubber.shift.used === "assumed" ? "assumed law" : "from the material file");
-}
-
-function modes() {
-  const spectrum = result("rubber")?.spectrum;
-  if (!spectrum) return "";
-  return spectrum.modes ? `${spectrum.modes.retardation_time.length} modes` : "a table of moduli";
-}
-
-function motion() {
-  const solved = result("motion");
-  if (!solved) return "";
-  if (solved.contacts) return `restitution ${solved.contacts[0].restitution.toPrecision(2)}`;
-  return `${solved.time.length} times${solved.interrupted ? ", stopped" : ""}`;
-}
-
-function agreement() {
-  const measured = result("measured");
-  if (!measured?.curves) return measured?.refusal ? "not separated" : "";
-  const rms = result("agreement")?.key?.[0]?.value;
-  return `${measured.points} points${rms ? `, predicted to ${rms}` : ""}`;
-}
+const joined = (...parts) => parts.filter(Boolean).join(", ");
 
 function results() {
   const done = result("export-study");
@@ -52,11 +27,11 @@ function results() {
 // The module of a step, whose default is its view, is fetched when somebody looks at it.
 const STEPS = [
   ["sweeps", "Data", () => sourceOf(state.study), "./rubber/sweeps.js"],
-  ["shift", "Shift", superposition, "./rubber/shift.js"],
-  ["spectrum", "Spectrum", modes, "./rubber/spectrum.js"],
-  ["contact", "Contact and friction", friction, "./steps/contact.js"],
-  ["motion", "Motion in time", motion, "./steps/motion.js"],
-  ["measurement", "Measurement", agreement, "./steps/measurement.js"],
+  ["shift", "Shift", () => said("rubber", "shift"), "./rubber/shift.js"],
+  ["spectrum", "Spectrum", () => said("rubber", "spectrum"), "./rubber/spectrum.js"],
+  ["contact", "Contact and friction", () => joined(contactOf(state.study), said("curve")), "./steps/contact.js"],
+  ["motion", "Motion in time", () => said("motion"), "./steps/motion.js"],
+  ["measurement", "Measurement", () => joined(said("measured"), said("agreement")), "./steps/measurement.js"],
   ["export", "Export", results, "./steps/export.js"],
 ].map(([id, title, summary, module]) => ({ id, title, summary, module, content: signal(null) }));
 const FIRST = "contact";
