@@ -388,7 +388,8 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         from importlib.metadata import version
 
-        return version("viscofric")
+        globals()[name] = version("viscofric")  # which reads files each time
+        return globals()[name]
     return _fetched(name)
 
 

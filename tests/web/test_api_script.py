@@ -83,16 +83,14 @@ def test_tab_that_is_closed_cancels_its_jobs(tab: Page, server: Server) -> None:
             time.sleep(0.02)
 
 
-def test_files_are_uploaded_listed_and_removed(tab: Page) -> None:
-    upload = """
-        const names = await api.uploadFiles([new File(["1"], "Messung 3 (60 °C).csv"), new File(["22"], "b.csv")]);
-        const stored = await api.listFiles();
-        for (const name of names) await api.removeFile(name);
-        return [names, stored, await api.listFiles()];
-        """
-    names, stored, left = script(tab, upload)
+def test_files_are_uploaded_to_the_tabs_own_folder(tab: Page, server: Server) -> None:
+    upload = 'return api.uploadFiles([new File(["1"], "Messung 3 (60 °C).csv"), new File(["22"], "b.csv")])'
+    names = script(tab, upload)
     assert names == ["Messung 3 (60 °C).csv", "b.csv"]
-    assert stored == [{"name": names[0], "size": 1}, {"name": "b.csv", "size": 2}]
-    assert left == []
+    with server.client(script(tab, "return JSON.parse(sessionStorage['viscofric.workspace'])")) as client:
+        assert client.get("/api/files").json() == [{"name": names[0], "size": 1}, {"name": "b.csv", "size": 2}]
+        for name in names:
+            client.delete(f"/api/files/{name}")
+        assert client.get("/api/files").json() == []
     caught = "try { await api.uploadFiles([{name: 'a', size: 3e7}]) } catch (error) { return error.message }"
     assert script(tab, caught) == "a has 30 MB; the limit is 20 MB."

@@ -90,8 +90,14 @@ def _look_and_move(tab: Tab) -> None:
     # The leading edge of the map is on the right, and farther from the axis.
     x = tab.value(f"document.querySelector('{MAP} .plot').data[0].x")
     assert max(x) > -min(x) > 0.0
+    definition = tab.page.get_by_role("note").get_by_text("Friction force over normal load")
+    assert not definition.is_visible()
+    tab.page.get_by_role("button", name="Friction coefficient μ", exact=True).click()
+    definition.wait_for()
     assert tab.findings() == []
     tab.screenshot("contact-1400-light")
+    tab.page.keyboard.press("Escape")
+    definition.wait_for(state="hidden")
 
     before = requested(tab)
     drag(tab, "speed", *range(100, 300, 4))
@@ -110,21 +116,32 @@ def _look_and_move(tab: Tab) -> None:
 
 
 _FOLLOW = """async (given) => {
-  const { follow } = await import("/static/js/live.js");
+  const { Job } = await import("/static/js/jobs.js");
+  const { computed, effect, signal } = await import("/static/js/reactive.js");
   const requested = [], shown = [], failures = [], sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
-  const request = async (position, stage, signal) => {
-    requested.push([stage, position]);
-    await sleep(stage === "coarse" ? 40 : 150);
-    if (signal.aborted) throw new DOMException("gone", "AbortError");
-    if (position === 13) throw new Error("unlucky");
-    return { stage: stage === "coarse" && position === 7 ? "sharp" : stage, position };
+  const honest = window.fetch;
+  window.fetch = async (_, { body, signal: gone }) => {
+    const { position, stages } = JSON.parse(body).options;
+    requested.push([stages, position]);
+    await sleep(stages === "coarse" ? 40 : 150);
+    gone.throwIfAborted();
+    if (position === 13) return new Response(JSON.stringify({ event: "error", message: "unlucky" }) + "\\n");
+    const result = { stage: stages === "coarse" && position === 7 ? "sharp" : stages, position };
+    return new Response(JSON.stringify({ event: "result", result }) + "\\n");
   };
-  const show = ({ stage }, position) => shown.push([stage, position]);
-  const live = follow({ request, show, fail: (error) => failures.push(error.message), rest: 60 });
-  for (const [position, wait] of given) {
-    live.want(position);
+  const position = signal(null);
+  const inputs = () => (position.value === null ? null : { study: {}, options: { position: position.value } });
+  const job = new Job("followed", { drafts: true, wait: 0, inputs }).start();
+  const results = computed(() => job.result);
+  const stop = effect(() => results.value && shown.push([results.value.stage, results.value.position]));
+  const fails = effect(() => job.error && failures.push(job.error.message));
+  for (const [at, wait] of given) {
+    position.value = at;
     await sleep(wait);
   }
+  for (const end of [stop, fails]) end();
+  position.value = null;
+  window.fetch = honest;
   return { requested, shown, failures };
 }"""
 
@@ -140,17 +157,17 @@ def test_of_positions_that_come_too_fast_the_last_one_counts(browser: Browser, s
 
 
 def _follow_all(tab: Tab) -> None:
-    found = followed(tab, (1, 5), (2, 5), (3, 5), (4, 400))
+    found = followed(tab, (1, 20), (2, 5), (3, 5), (4, 700))
     assert found["requested"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
     assert found["shown"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
     # Sharpening that is overtaken is given up; what is sharp at once is not sharpened.
-    found = followed(tab, (5, 160), (7, 200))
+    found = followed(tab, (5, 380), (7, 500))
     assert found["requested"] == [["coarse", 5], ["sharp", 5], ["coarse", 7]]
     assert found["shown"] == [["coarse", 5], ["sharp", 7]]
     # An error is told where it is the newest position's, and does not stop the slider.
-    found = followed(tab, (13, 5), (1, 300))
+    found = followed(tab, (13, 20), (1, 700))
     assert found["failures"] == []
-    found = followed(tab, (13, 100), (1, 300))
+    found = followed(tab, (13, 100), (1, 700))
     assert found["failures"] == ["unlucky"]
     assert found["shown"][-1] == ["sharp", 1]
 
@@ -220,6 +237,36 @@ def _make_a_mistake(tab: Tab) -> None:
         "!document.querySelector('.live-contact .stale') && !document.querySelector('#step-contact .field.wrong')"
     )
     finished(tab)
+
+
+@pytest.mark.slow
+@pytest.mark.apart
+def test_a_cancelled_curve_keeps_its_points_and_is_resumed(browser: Browser, server: Server) -> None:
+    speeds = {"from": "1 mm/s", "to": "10 m/s", "points": 60, "spacing": "log"}
+    conditions = {**SMALL["conditions"], "speed": speeds}  # type: ignore[dict-item]
+    points = f"({_DRAWN}.find((one) => one.name === '30\u00a0°C')?.y ?? []).filter((one) => one !== null).length"
+    with opened_tab(browser, server, "#export") as tab:
+        tab.value("page.state.state.replace(given[0])", {**SMALL, "conditions": conditions})
+        tab.step("contact")
+        tab.until(f"{points} > 5", 60.0)
+        card = tab.page.locator("#step-contact .progress")
+        card.get_by_role("button", name="Cancel").click()
+        card.get_by_text("Cancelled.").wait_for()
+        kept = tab.value(points)
+        assert 5 < kept < 60
+        assert tab.value("page.jobs.result('curve')") is None
+        tab.screenshot("contact-cancelled")
+        tab.page.wait_for_timeout(1000)
+        assert tab.value(points) == kept  # nothing is computed meanwhile
+        card.get_by_role("button", name="Resume").click()
+        tab.until(f"{points} === 60 && page.jobs.result('curve') !== null", 120.0)
+        # a failed run has no numbers: those of the inputs before are grey
+        radius = tab.page.get_by_label("Radius", exact=True)
+        radius.fill("9 kg")
+        radius.press("Enter")
+        tab.until("document.querySelector('#step-contact .field.wrong .field-error')?.textContent.includes('kg')")
+        shown = "[...document.querySelectorAll('#step-contact [data-inputs]')]"
+        tab.until(f"{shown}.length > 3 && {shown}.every((one) => one.closest('.stale'))")
 
 
 @pytest.mark.slow

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from viscofric.web.forms import FORMS
 from web.browser_tab import tab as opened_tab
 from web.every_input import INPUTS, OTHERS, STATE, STEPS, STUDY, at_rest, example, wrong_figures
+from web.run_file_schema import keys
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -31,7 +33,15 @@ def test_no_field_of_the_page_is_left_out(tab: Tab) -> None:
     for step in STEPS:
         tab.step(step)
         tab.page.wait_for_selector(f"#step-{step} .card")
-    assert set(tab.value("page.fields.paths()")) - set(INPUTS) - set(OTHERS) == set()
+    in_forms = {field["path"] for fields in FORMS.values() for field in fields}
+    in_forms -= {path for path in in_forms if path.startswith("@")}  # no part of the study
+    of_page = set(tab.value("page.fields.paths()"))
+    assert in_forms - of_page == set()  # each form is on the page
+    assert of_page - set(INPUTS) - set(OTHERS) == set()
+
+
+def test_no_key_of_the_run_file_is_left_out() -> None:
+    assert keys() - set(INPUTS) - set(OTHERS) == set()
 
 
 @pytest.mark.parametrize("hidden", STEPS)

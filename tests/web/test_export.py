@@ -52,6 +52,42 @@ def unpacked(desk: Desk, folder: Path) -> Path:
     return folder / "study.toml"
 
 
+def test_a_packed_study_is_opened_with_its_data(desk: Desk, tmp_path: Path) -> None:
+    packed = desk.context.downloads / desk.run(export_run_file, SWEEPS, pack=True)["download"]["name"]
+    (tmp_path / "other").mkdir()
+    other = Desk(tmp_path / "other")
+    shutil.copyfile(packed, other.context.files / "study.zip")
+    found = other.run(open_run_file, {}, archive="study.zip")
+    assert found == {"study": SWEEPS, "missing": [], "files": ["dma.csv"]}
+    assert [one.name for one in other.context.files.iterdir()] == ["dma.csv"]  # the archive has gone
+    assert (other.context.files / "dma.csv").read_bytes() == EXAMPLE.read_bytes()
+
+
+def test_an_archive_that_is_none_or_leads_out_of_the_folder_is_refused(desk: Desk) -> None:
+    def refuses(code: str, **entries: bytes) -> None:
+        with zipfile.ZipFile(desk.context.files / "own.zip", "w", zipfile.ZIP_DEFLATED) as packed:
+            for name, content in entries.items():
+                packed.writestr(name, content)
+        with refused(code):
+            desk.run(open_run_file, {}, archive="own.zip")
+
+    refuses("no-run-file", **{"dma.csv": b"1"})
+    refuses("not-a-name", **{"study.toml": b"", "con.csv": b"1"})
+    refuses("too-large", **{"study.toml": b"", "bomb.csv": bytes(21_000_000)})
+    refuses("damaged", **{"study.toml": b"\xff"})
+    (desk.context.files / "own.zip").write_bytes(b"PK no archive")
+    with refused("damaged"):
+        desk.run(open_run_file, {}, archive="own.zip")
+    with refused("not-a-name"):
+        desk.run(open_run_file, {}, archive="../dma.csv")
+    with zipfile.ZipFile(desk.context.files / "own.zip", "w") as packed:
+        packed.writestr("../../outside/dma2.csv", b"1")
+        packed.writestr("folder/study.toml", b"title = 'of a folder'")
+    found = desk.run(open_run_file, {}, archive="own.zip")
+    assert (found["study"], found["files"]) == ({"title": "of a folder"}, ["dma2.csv"])
+    assert (desk.context.files / "dma2.csv").is_file()
+
+
 def test_packed_run_file_has_its_data_with_it_and_is_the_same_each_time(desk: Desk, tmp_path: Path) -> None:
     path = unpacked(desk, tmp_path / "elsewhere")
     assert sorted(one.name for one in path.parent.iterdir()) == ["dma.csv", "study.toml"]
@@ -81,7 +117,7 @@ def test_run_file_is_reported_with_its_cases_its_files_and_what_is_wrong(desk: D
 
 def test_run_file_that_was_taken_away_can_be_brought_back(desk: Desk) -> None:
     text = desk.run(export_run_file, SWEEPS)["text"]
-    assert desk.run(open_run_file, {}, text=text) == {"study": SWEEPS, "missing": []}
+    assert desk.run(open_run_file, {}, text=text) == {"study": SWEEPS, "missing": [], "files": []}
     moved = text.replace('"dma.csv"', r"""["C:\\sweeps\\dma.csv", "../more/two.csv", "*.txt"]""")
     found = desk.run(open_run_file, {}, text="\ufeff" + moved)
     assert found["study"]["material"]["dma"] == ["dma.csv", "two.csv", "*.txt"]

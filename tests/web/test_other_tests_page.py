@@ -114,3 +114,34 @@ def test_an_amplitude_sweep_scales_the_material_of_the_contact(tab: Tab, tmp_pat
     assert "instead of" in tab.text("#step-sweeps")
     tab.until("page.jobs.result('rubber')?.name.includes('scaled')")
     tab.screenshot("amplitude")
+
+
+@pytest.mark.slow  # a browser
+@pytest.mark.apart
+def test_two_specimens_in_one_set_are_a_question(tab: Tab, tmp_path: Path) -> None:
+    first = samples.sweeps(tmp_path)
+    second, head = tmp_path / "second.csv", first.read_text().splitlines()
+    cells = [line.split(",") for line in head[1:]]
+    stiffer = [[*row[:-2], *(f"{1.3 * float(modulus):.9g}" for modulus in row[-2:])] for row in cells]
+    second.write_text("\n".join([head[0], *map(",".join, stiffer), ""]))
+    dropped(tab, first, second)
+    question = tab.page.get_by_role("group", name="Which files are of the specimen?")
+    question.wait_for()
+    assert "26\N{NO-BREAK SPACE}%" in question.inner_text()  # 0.3 of the mean, 1.15
+    tab.screenshot("two-specimens")
+    assert tab.findings() == []
+    files = "page.state.state.get('material.dma')"
+    question.get_by_role("button", name="Average all").click()
+    question.wait_for(state="detached")
+    assert tab.value(files) == ["second.csv", "sweeps.csv"]
+    tab.page.get_by_role("button", name="Undo").click()
+    question.wait_for()
+    question.get_by_label("second.csv").uncheck()
+    question.get_by_label("sweeps.csv").check()
+    question.get_by_role("button", name="Use the ticked files").click()
+    question.wait_for(state="detached")
+    assert tab.value(files) == "sweeps.csv"
+    drawn(tab, "isotherms-storage-modulus", 4)
+    tab.page.get_by_role("button", name="Undo").click()
+    question.wait_for()
+    assert tab.value(files) == ["second.csv", "sweeps.csv"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import openpyxl
 import pytest
 
 from refusals import refused
@@ -163,3 +164,44 @@ def test_files_of_instruments_are_recognised(
 
 def test_sweeps_need_no_reference_but_take_one(workspace: Context) -> None:
     assert done("sweeps", workspace, SWEEPS)["isotherms"] == done("sweeps", workspace, {"dma": "dma.csv"})["isotherms"]
+
+
+def test_files_that_differ_where_they_should_agree_are_asked_about(workspace: Context) -> None:
+    head = "T (degC),f (Hz),E' (MPa),E'' (MPa)"
+    for name, factor, temperatures in (("a", 1.0, (20.0, 30.0)), ("b", 1.3, (30.0, 40.0)), ("c", 1.0, (50.0, 60.0))):
+        rows = [row.split(",") for row in table(head, temperatures).splitlines()[1:]]
+        scaled = [f"{t},{f},{factor * float(storage)},{factor * float(loss)}" for t, f, storage, loss in rows]
+        (workspace.files / f"{name}.csv").write_text("\n".join([head, *scaled, ""]))
+
+    def asked(*names: str) -> tuple[Any, set[str]]:
+        found = done("sweeps", workspace, {"dma": [f"{name}.csv" for name in names], "deformation": "tension"})
+        return found["specimens"], {record["code"] for record in found["note_records"]}
+
+    specimens, notes = asked("a", "b", "c")
+    assert specimens["files"] == ["a.csv", "b.csv"]
+    assert specimens["temperature"] == 303.15
+    assert specimens["difference"] == pytest.approx(0.3 / 1.15, rel=1e-5)  # of the mean; the tables have six digits
+    assert "repeats-differ" not in notes  # the question stands for it
+    assert "averaged" in notes
+    assert asked("a", "c")[0] is None
+    # a file that contradicts itself is no question of files: its note stays
+    (workspace.files / "d.csv").write_text(
+        (workspace.files / "a.csv").read_text()
+        + "".join(line + "\n" for line in (workspace.files / "b.csv").read_text().splitlines()[1:])
+    )
+    specimens, notes = asked("d")
+    assert specimens is None
+    assert "repeats-differ" in notes
+
+
+def test_sheets_that_overlap_are_named(workspace: Context) -> None:
+    book = openpyxl.Workbook()
+    for name in ("first", "second"):
+        sheet = book.create_sheet(name)
+        for line in table("T (degC),f (Hz),E' (MPa),E'' (MPa)").splitlines():
+            sheet.append([float(cell) if cell[0].isdigit() else cell for cell in line.split(",")])
+    book.remove(book.worksheets[0])
+    book.save(workspace.files / "book.xlsx")
+    with refused("several-tables", JobError, naming="first") as caught:
+        done("sweeps", workspace, {"dma": "book.xlsx", "deformation": "tension"})
+    assert (caught.value.field, dict(caught.value.note.values)) == ("material.sheet", {"sheets": ["first", "second"]})

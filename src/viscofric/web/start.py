@@ -32,10 +32,15 @@ def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
     -------
     dict
         ``version``; ``study``, the tables of a run file; ``catalogue``, rubbers with ``name``, ``synthetic`` and
-        ``description``; ``limits``, ``upload`` in bytes and ``files`` of one page.
+        ``description``; ``limits``, ``upload`` in bytes and ``files`` of one page; ``forms``, fields by the name of
+        their form, and ``shapes``, what each shape of a contact begins with; ``glossary``, definitions of
+        numbers by their labels.
     """
     from importlib.metadata import version
 
+    from viscofric.web.forms import FORMS
+    from viscofric.web.forms.contact import SHAPES
+    from viscofric.web.glossary import GLOSSARY
     from viscofric.web.workspace import LARGEST_UPLOAD, MOST_FILES
 
     return {
@@ -43,6 +48,9 @@ def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
         "study": copy.deepcopy(FIRST_STUDY if study is None else study),
         "catalogue": rubbers(),
         "limits": {"upload": LARGEST_UPLOAD, "files": MOST_FILES},
+        "forms": FORMS,
+        "shapes": SHAPES,
+        "glossary": GLOSSARY,
     }
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import zipfile
+import zlib
 from fnmatch import fnmatchcase
 from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING, Any
@@ -9,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.datasets import plain
-from viscofric.errors import StudyError
-from viscofric.files import parse_toml
+from viscofric.errors import DataFileError, StudyError
+from viscofric.files import parse_toml, read_bytes
 from viscofric.study.run_file.study import LONGEST_RUN_FILE, parse_study
 from viscofric.web.study_files import named_files
 from viscofric.web.study_text import RUN_FILE
+from viscofric.web.workspace import LARGEST_UPLOAD, Workspace, checked_name
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -28,11 +32,14 @@ class Options(BaseModel):
     ----------
     text : str
         Of a run file.
+    archive : str
+        Name of an uploaded zip file instead, of a run file with its data files, as the page packs it.
     """
 
     model_config = ConfigDict(extra="forbid")
 
-    text: str = Field(max_length=LONGEST_RUN_FILE)
+    text: str = Field("", max_length=LONGEST_RUN_FILE)
+    archive: str = Field("", max_length=1_000)
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -41,14 +48,18 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``study``, its tables; ``missing``, names of data files that are not among the page's own.
+        ``study``, its tables; ``missing``, names of data files that are not among the page's own; ``files``, names of
+        those that came with it.
 
     Raises
     ------
     StudyError
         If it is no TOML, or none that a run file can be.
+    DataFileError, InputError
+        If the archive cannot be read, or its files cannot be kept.
     """
-    text = options.text.removeprefix("\ufeff")
+    text, files = _unpacked(options.archive, context) if options.archive else (options.text, [])
+    text = text.removeprefix("\ufeff")
     try:
         document = parse_toml(text)
     except ValueError:
@@ -61,11 +72,38 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         named.table[named.key] = names if isinstance(named.table[named.key], list) else names[0]
         missing += [one for one in names if one not in missing and not _is_there(one, context.files)]
     try:
-        return {"study": plain(document, digits=None), "missing": missing}
+        return {"study": plain(document, digits=None), "missing": missing, "files": files}
     except RecursionError:
         raise StudyError(
             f"{RUN_FILE}: lists or tables lie within each other too deeply for a run file.", code="too-deep"
         ) from None
+
+
+def _unpacked(name: str, context: Context) -> tuple[str, list[str]]:
+    """Put an archive's data files among the page's own, in its place; return the run file's text and their names."""
+    path = context.files / checked_name(name)
+    workspace = Workspace(context.files.parent)  # its limits hold here, too
+    text, files = None, []
+    try:
+        packed = zipfile.ZipFile(io.BytesIO(read_bytes(path)))
+        path.unlink()
+        for entry in packed.infolist():
+            plain_name = PureWindowsPath(entry.filename).name  # folders stay behind
+            if entry.is_dir():
+                continue
+            with packed.open(entry) as stream:
+                content = stream.read(LARGEST_UPLOAD + 1)  # whatever size it states
+            if plain_name.lower().endswith(".toml"):
+                text = content[: 4 * LONGEST_RUN_FILE].decode()
+            else:
+                files.append(checked_name(plain_name))
+                workspace.store(files[-1], content)
+    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, UnicodeDecodeError):
+        problem = "is damaged, encrypted, or no zip file; unpack it, and drop the run file with its data files."
+        raise DataFileError(name, problem, code="damaged") from None
+    if text is None:
+        raise DataFileError(name, "contains no run file, whose name ends with .toml.", code="no-run-file")
+    return text, files
 
 
 def _is_there(name: str, folder: Path) -> bool:

@@ -10,7 +10,8 @@ from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain, record
 from viscofric.errors import DataFileError, InputError
-from viscofric.notes import listed
+from viscofric.notes import listed, note_of
+from viscofric.readers.dma.isotherms import REPEATS_DIFFER
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.study.make_rubber import read_steps_of
@@ -56,9 +57,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     dict
         ``source``: "dma", "ramps", "creep", "relaxation", "master_curve", "file" or "catalogue".  Of sweeps ``files``
         (what each was taken for), ``left_open`` (keys of [material] that the files leave open), ``isotherms``,
-        ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K) and ``steps`` (`step_curves`) of
-        tests beside them; of ramps and step tests see `read_other`.  Of other sources ``about`` (words), ``synthetic``
-        and ``notes``.  Then what is shown (`sweeps_view`).
+        ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K), ``specimens`` (files that
+        differ where they should agree), and ``steps`` (`step_curves`) of tests beside them; of ramps and step tests see
+        `read_other`.  Of other sources ``about`` (words), ``synthetic`` and ``notes``.  Then what is shown
+        (`sweeps_view`).
 
     Raises
     ------
@@ -107,7 +109,8 @@ def _asking(error: InputError) -> JobError:
 
 
 def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> dict[str, Any]:
-    sweeps = traced.sweeps
+    sweeps, specimens = traced.sweeps, _specimens(traced)
+    notes = [note for note in sweeps.notes if specimens is None or note_of(note).code != "repeats-differ"]
     nearest = float(sweeps.temperatures[np.argmin(np.abs(sweeps.temperatures - _USUAL_REFERENCE))])
     return {
         "source": "dma",
@@ -118,10 +121,31 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> 
         "isotherms": [record(one.to_dataset(), _DIGITS) for one in sweeps.isotherms],
         "flagged": [*_left_out(traced), *_outliers(traced)],
         "left_out": int(traced.left_out.size),
-        **listed("notes", notes_without_folder(sweeps.notes, context)),
+        **listed("notes", notes_without_folder(notes, context)),
+        "specimens": specimens,
         "reference": plain(round(nearest, 2)),
         "synthetic": False,
     }
+
+
+def _specimens(traced: TracedSweeps) -> dict[str, Any] | None:
+    """Return the files that differ at one temperature and frequency, by how much at most and at which temperature."""
+    points = traced.points
+    size = np.hypot(points.storage_modulus, points.loss_modulus)
+    differing: set[int] = set()
+    worst, kelvin = 0.0, 0.0
+    for one in traced.isotherms:
+        for rows in one.origins:
+            files = np.unique(points.file[rows])
+            means = [float(np.mean(size[rows][points.file[rows] == file])) for file in files]
+            apart = float(np.ptp(means) / np.mean(means))
+            if apart > REPEATS_DIFFER:
+                differing.update(files.tolist())
+                worst, kelvin = max((worst, kelvin), (apart, float(one.isotherm.temperature)))
+    if not differing:
+        return None
+    names = [Path(traced.readings[file].source).name for file in sorted(differing)]
+    return {"files": names, "difference": plain(worst), "temperature": plain(kelvin)}
 
 
 def _file(readings: Readings) -> dict[str, Any]:

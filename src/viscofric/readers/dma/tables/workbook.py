@@ -92,7 +92,8 @@ def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -
             both += f"({shown_celsius(next_low)} to {shown_celsius(next_high)} °C)"
             problem = f"the sheets {both} each contain a DMA table and overlap; keep one of them, or choose one with "
             remedy = setting("material.sheet", "Sheet", repr(name)) + "."
-            raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
+            values = {"sheets": list(readings)}
+            raise DataFileError(source.path, problem, code="several-tables", remedy=remedy, values=values)
 
 
 def _joined(source: Source, readings: dict[str, Readings]) -> Readings:

@@ -1,55 +1,34 @@
 /**
  * Requests of the page to its server: jobs, files, the first study.
  *
- * runJob(kind, {study, options}, {onProgress, onPart, onStart, signal}) -> Promise<result>
- *   At most four jobs are streamed at once over all tabs; others wait.  `signal` (of an AbortController) cancels: the
+ * runJob(kind, {study, options}, {onProgress, onPart, onStart, signal, brief}) -> Promise<result>
+ *   At most four jobs are streamed at once over all tabs; others wait, but not `brief` ones.  `signal` (of an AbortController) cancels: the
  *   promise rejects with an AbortError, and the process that computed is free again.  What is wrong rejects with a
  *   JobError, {message, field, problems, values}: a sentence, the path in the study that it is about, or null, a list of
  *   such {message, field} of all that is wrong, and what a form can offer, such as the headings of a file.
  *   onStart(number): stopJob(number) interrupts the job, which then resolves with what it has found, if it can.
- * uploadFiles(files) -> Promise<names>, listFiles(), removeFile(name), useExample(), getStart(), getStatus(),
- * downloadUrl(name), workspace
+ * uploadFiles(files) -> Promise<names>, useExample(), getStart(), downloadUrl(name)
  */
 
+import { lasting } from "./reactive.js";
 import { state } from "./state.js";
 
-const MOST_STREAMS = 4;
+const PLACES = [0, 1, 2, 3].map((number) => `viscofric-stream-${number}`); // a browser has six connections to a server
 const LARGEST_UPLOAD = 20e6; // bytes
+const ENDED = "The program behind this page ended before it answered; restart it with: viscofric web";
 
 export class JobError extends Error {
-  /**
-   * @param {string} message
-   * @param {string | null} field
-   * @param {{message: string, field: string | null}[]} [problems]
-   * @param {object} [values]
-   */
-  constructor(message, field = null, problems = [{ message, field }], values = {}) {
+  name = "JobError";
+
+  constructor({ message, field = null, problems = [{ message, field }], values = {} }) {
     super(message);
-    this.name = "JobError";
-    this.field = field;
-    this.problems = problems;
-    this.values = values;
+    Object.assign(this, { field, problems, values });
   }
 }
 
-export const workspace = ownWorkspace();
-
+const random = () => [...crypto.getRandomValues(new Uint8Array(16))].map((byte) => byte.toString(16).padStart(2, "0"));
 /** The tab's name at the server, which a reload keeps and a copied tab does not share for long. */
-function ownWorkspace() {
-  try {
-    const known = sessionStorage.getItem("viscofric-workspace");
-    if (known) return known;
-    const fresh = randomName();
-    sessionStorage.setItem("viscofric-workspace", fresh);
-    return fresh;
-  } catch {
-    return randomName();
-  }
-}
-
-function randomName() {
-  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
-}
+const workspace = lasting("sessionStorage", "viscofric.workspace", random().join("")).value;
 
 /** A request of this tab; rejects with a JobError that says what is wrong. */
 async function request(address, options = {}) {
@@ -58,20 +37,17 @@ async function request(address, options = {}) {
     response = await fetch(address, { ...options, headers: { "X-Workspace": workspace, ...options.headers } });
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new JobError("The program behind this page does not respond; restart it with: viscofric web");
+    throw new JobError({ message: "The program behind this page does not respond; restart it with: viscofric web" });
   }
   if (response.ok) return response;
-  let reply = {};
-  try {
-    reply = await response.json();
-  } catch {
-    // not JSON: the status has to do
-  }
-  throw new JobError(reply.message ?? `The server answered ${response.status}.`, reply.field ?? null);
+  const { message = `The server answered ${response.status}.`, field } = await response.json().catch(() => ({}));
+  throw new JobError({ message, field });
 }
 
-export async function runJob(kind, { study = {}, options = {} } = {}, { onProgress, onPart, onStart, signal } = {}) {
-  return inTurn(signal, async () => {
+const answered = async (...asked) => (await request(...asked)).json();
+
+export const runJob = (kind, { study = {}, options = {} } = {}, { onProgress, onPart, onStart, signal, brief } = {}) =>
+  inTurn(!brief && navigator.locks, signal, async () => {
     const response = await request(`/api/jobs/${encodeURIComponent(kind)}`, {
       method: "POST",
       headers: { "Content-Type": "application/json" },
@@ -84,114 +60,52 @@ export async function runJob(kind, { study = {}, options = {} } = {}, { onProgre
       else if (message.event === "started") onStart?.(message.job);
       else if (message.event === "cancelled") throw new DOMException("The job was cancelled.", "AbortError");
       else if (message.event === "result") return message.result;
-      else if (message.event === "error") throw jobError(message);
+      else if (message.event === "error") throw new JobError(message);
     }
-    throw new JobError("The program behind this page ended before it answered; restart it with: viscofric web");
+    throw new JobError({ message: ENDED });
   });
-}
 
 export const stopJob = (number) => request(`/api/jobs/${number}/stop`, { method: "POST" });
-
-const jobError = ({ message, field, problems, values }) => new JobError(message, field, problems, values);
 
 /** The JSON objects of a stream, one a line. */
 async function* messages(stream) {
   const reader = stream.pipeThrough(new TextDecoderStream()).getReader();
-  const pieces = [];
+  let pieces = [];
   try {
     for (;;) {
       const { done, value } = await reader.read();
       if (done) return;
-      const lines = value.split("\n");
-      while (lines.length > 1) {
-        pieces.push(lines.shift());
-        const line = pieces.join("");
-        pieces.length = 0;
-        if (line) yield JSON.parse(line);
+      const [first, ...lines] = value.split("\n");
+      pieces.push(first);
+      for (const line of lines) {
+        const whole = pieces.join("");
+        pieces = [line];
+        if (whole) yield JSON.parse(whole);
       }
-      pieces.push(lines[0]);
     }
   } catch (error) {
     if (error.name === "AbortError" || error instanceof SyntaxError) throw error;
-    throw new JobError("The program behind this page ended before it answered; restart it with: viscofric web");
+    throw new JobError({ message: ENDED });
   } finally {
     reader.cancel().catch(() => {});
   }
 }
 
-let streams = 0;
-const waiting = [];
-
-/** Have something done when one of the four places is free: a browser has six connections to a server, for all tabs. */
-async function inTurn(signal, work) {
-  signal?.throwIfAborted();
-  const place = await freePlace(signal);
-  try {
-    return await work();
-  } finally {
-    place.leave();
-  }
-}
-
-async function freePlace(signal) {
-  if (streams >= MOST_STREAMS) await inLine(signal);
-  else streams += 1;
-  const leave = () => {
-    const next = waiting.shift();
-    if (next) next();
-    else streams -= 1;
-  };
-  if (!navigator.locks) return { leave };
-  try {
-    const unlock = await sharedPlace(signal);
-    return {
-      leave: () => {
-        unlock();
-        leave();
-      },
-    };
-  } catch (error) {
-    leave();
-    throw error;
-  }
-}
-
-function inLine(signal) {
+/** Have something done in the first place that is free, of four that all tabs share; at once without locks. */
+function inTurn(locks, signal, work) {
+  if (!locks) return work();
+  const found = new AbortController();
+  const waits = AbortSignal.any([found.signal, ...(signal ? [signal] : [])]);
   return new Promise((resolve, reject) => {
-    const go = () => {
-      signal?.removeEventListener("abort", giveUp);
-      resolve();
+    const take = () => {
+      if (found.signal.aborted) return undefined;
+      found.abort();
+      const done = work();
+      resolve(done);
+      return done.catch(() => {});
     };
-    const giveUp = () => {
-      waiting.splice(waiting.indexOf(go), 1);
-      reject(signal.reason);
-    };
-    waiting.push(go);
-    signal?.addEventListener("abort", giveUp, { once: true });
-  });
-}
-
-/** One of the places that all tabs share: the first that is free, or else one by chance to wait for. */
-async function sharedPlace(signal) {
-  for (let number = 0; number < MOST_STREAMS; number += 1) {
-    const unlock = await lock(number, { ifAvailable: true });
-    if (unlock) return unlock;
-  }
-  return lock(Math.floor(Math.random() * MOST_STREAMS), signal ? { signal } : {});
-}
-
-/** Resolves with what gives the lock back; with null where it is taken and only wanted if it is not. */
-function lock(number, options) {
-  return new Promise((resolve, reject) => {
-    navigator.locks
-      .request(`viscofric-stream-${number}`, options, (held) => {
-        if (!held) {
-          resolve(null);
-          return undefined;
-        }
-        return new Promise((release) => resolve(release));
-      })
-      .catch(reject);
+    for (const place of PLACES)
+      locks.request(place, { signal: waits }, take).catch((error) => found.signal.aborted || reject(error));
   });
 }
 
@@ -199,25 +113,17 @@ function lock(number, options) {
 export async function uploadFiles(files) {
   const names = [];
   for (const file of files) {
-    if (file.size > LARGEST_UPLOAD) {
-      throw new JobError(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB; the limit is 20 MB.`);
-    }
-    const response = await request(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
-    names.push((await response.json()).name);
+    if (file.size > LARGEST_UPLOAD)
+      throw new JobError({ message: `${file.name} has ${(file.size / 1e6).toFixed(0)} MB; the limit is 20 MB.` });
+    names.push((await answered(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file })).name);
   }
   state.renew(names);
   return names;
 }
 
-export const listFiles = async () => (await request("/api/files")).json();
+/** Put the synthetic example's measurements there. */
+export const useExample = () => answered("/api/files/example", { method: "POST" });
 
-export const removeFile = (name) => request(`/api/files/${encodeURIComponent(name)}`, { method: "DELETE" });
-
-/** Put the synthetic example's measurements there; returns all files. */
-export const useExample = async () => (await request("/api/files/example", { method: "POST" })).json();
-
-export const getStart = async () => (await request("/api/start")).json();
-
-export const getStatus = async () => (await request("/api/status")).json();
+export const getStart = () => answered("/api/start");
 
 export const downloadUrl = (name) => `/api/downloads/${encodeURIComponent(name)}?workspace=${workspace}`;

@@ -1,56 +1,32 @@
 // Fields of the study's document: each edits one path (state.js), and shows beside itself the errors whose `field` is that path,
 // of the check of the document and of the jobs.
 //
-// <${Quantity} path="conditions.load" label="Load" kind="load" placeholder help />       a quantity with its unit
-// <${Text} path label read write />       free text; `read` turns it into a document's value, `write` the reverse
-// <${Amount} path label min max step />   a plain number
-// <${Choose} path label options=${[[value, text], …]} otherwise onChange />               undefined removes the key
-// <${Toggle} path label value onChange /> a switch that stands for a table or a key
-// <${Ticks} path label options />         some of a list of words
-// <${Range} path label kind spacing otherwise />                                         one value, a list, or a range
-// slider=${[low, high]} (SI) gives a quantity, a number, or a range that is one value, a slider; `shown` is what a choice or a switch
-// shows in place of the value at its path.
-//
-// <${Form} of=${[{as: Amount, path, label, when: () => true, …}, …]} />    a form as data: fields in a grid, some of them only
-//                                         under a condition; without `as`, one with a `kind` is a quantity, others are text
-// where(when, ...fields), within(path, ...fields)    fields that are shown under a condition, or with a table or key
+// <${Form} of=${[field, …]} />   a grid of fields, which are data (web/forms.py):
+//   path, label, help, id        the path may be that of a view, "@card.program" (state.js)
+//   as         "text" if it is not given; "number", "range" (one value, a list or a range), "choice", "switch", "ticks" (some of
+//              a list of words)
+//   kind       of the quantity (units.js); `unit` is that of bare numbers instead; `list`: one or several, separated by commas
+//   min, max, step, placeholder                 of a box
+//   slider     [low, high], SI: a slider below the box, where that has one value
+//   options    [[value, text], …] or words; `otherwise` is the value without the key, or what a range begins with
+//   sets       {value: {path: value, …}}: other keys that a choice changes; null removes a key
+//   keys       {path: value, …}: what a switch turns on
+//   spacing    of a range: ["log", "linear"]
+//   when       [{path: true | false | [value, …]}, …]: it is shown if all of one entry hold; "shape" is that of the contact
+//   shown(), onChange(value)      instead of what a choice has at its path
 
 import * as jobs from "./jobs.js";
 import { computed, html, signal, view } from "./reactive.js";
-import { state } from "./state.js";
+import { shapeOf, state } from "./state.js";
 import * as units from "./units.js";
 
-const listed = (value) => (Array.isArray(value) ? value : value === undefined ? [] : [value]);
+const listed = (value) => [value ?? []].flat();
 const readable = (words) =>
   String(words ?? "")
+    .replace("delta_degC", "K")
     .replace("degC", "°C")
     .replace("degF", "°F")
     .replace(/(?<=\d\s*)u(?=[ms]\b)/, "µ");
-
-/** Label, controls, help and error of one path; `controls` gets what each of them has, `beside` is in the label's row. */
-function field(
-  self,
-  { path, label, help, classes = "", beside, isHome = true, id = `field-${self.number}` },
-  controls,
-) {
-  settle(self, isHome && path ? path : null);
-  const message = isHome ? [...(sentencesOf.value.get(path) ?? [])].join(" ") : "";
-  const described = {
-    "aria-describedby": `${help ? `${id}-help ` : ""}${id}-error`,
-    "aria-invalid": message ? "true" : undefined,
-  };
-  const group = beside ? { role: "group", "aria-labelledby": `${id}-label` } : {};
-  return html`<div class=${`field ${classes} ${message ? "wrong" : ""}`.trim()} ...${group}>
-    ${
-      beside
-        ? html`<span class="field-head"><span id="${id}-label" class="field-label">${label}</span>${beside(described)}</span>`
-        : html`<label for=${id} class="field-label">${label}</label>`
-    }
-    ${controls(beside ? described : { id, ...described })}
-    ${help && html`<p class="help" id="${id}-help">${help}</p>`}
-    <p class="field-error" id="${id}-error" hidden=${!message}>${message}</p>
-  </div>`;
-}
 
 /** A text box: `value()` is what it shows, but not while somebody types; `take` gets what was typed, undefined for nothing. */
 export const Box = view(({ value, take, type = "text", ...rest }, self) => {
@@ -66,12 +42,6 @@ export const Box = view(({ value, take, type = "text", ...rest }, self) => {
     onInput=${({ target }) => (target.dataset.typing = "yes")} onChange=${change} ...${rest} />`;
 });
 
-/** What a box needs for the value at a path; `read` turns text into it, `write` the reverse. */
-const at = (path, read, write) => ({
-  value: () => write(state.get(path)),
-  take: (text) => state.set(path, text === undefined ? undefined : read(text)),
-});
-
 /** A choice among [[value, text], …], or words; values need not be text. */
 export const Select = view(({ options, value, onChange, ...rest }, self) => {
   const entries = options.map((one) => (Array.isArray(one) ? one : [one, one]));
@@ -84,172 +54,174 @@ export const Select = view(({ options, value, onChange, ...rest }, self) => {
   </select>`;
 });
 
+/** What a box needs for the value at a path: text of a field's kind turned into it, and the reverse. */
+function at(path, { as, kind, unit, list }) {
+  const one = (text) => {
+    if (as === "number") return Number.isNaN(Number(text)) ? text : Number(text);
+    if (unit) return Number.isNaN(Number(text)) ? text.trim() : `${text.trim()} ${unit}`;
+    return kind ? units.typed(text, kind) : text.trim();
+  };
+  const several = (text) => {
+    const parts = text.split(/[,;]\s*/).filter((part) => part.trim() !== "");
+    // a unit at the end is that of all: "30, 60, 90 °C"
+    const common = /[\d.]\s*([^\d\s.].*)$/.exec(parts.at(-1) ?? "")?.[1];
+    const found = parts.map((part) => one(common && /^[\s\d.+−-]+$/.test(part) ? `${part.trim()} ${common}` : part));
+    return list === "always" || found.length > 1 ? found : found[0];
+  };
+  return {
+    value: () => listed(state.get(path)).map(kind || unit ? readable : String).join(", "),
+    take: (text) => state.set(path, text === undefined ? undefined : (list ? several : one)(text)),
+  };
+}
+
 /** A slider of a quantity, even in its logarithm; a drag is one step of undo. */
 const STEPS = 400;
-function slider({ path, kind, label, slider: [low, high], step }) {
+function slider({ path, kind = "plain", label, slider: ends, step }) {
+  if (!ends) return null;
   const now = units.parse(listed(state.get(path))[0], kind);
-  const ratio = Math.log(high / low) / STEPS;
+  const ratio = Math.log(ends[1] / ends[0]) / STEPS;
   const move = ({ target }) => {
-    const value = low * Math.exp(ratio * Number(target.value));
+    const value = ends[0] * Math.exp(ratio * Number(target.value));
     state.slide(path, step === 1 ? Math.round(value) : units.words(value, kind, 3));
   };
-  return html`<input type="range" min="0" max=${STEPS} step="1" value=${now > 0 ? Math.round(Math.log(now / low) / ratio) : 0}
+  return html`<input type="range" min="0" max=${STEPS} step="1" value=${now > 0 ? Math.round(Math.log(now / ends[0]) / ratio) : 0}
     aria-label="${label}: slider" aria-valuetext=${units.show(now, kind)} onInput=${move} onChange=${state.settle} />`;
 }
 
-export const Quantity = view(({ kind = "plain", placeholder, ...about }, self) =>
-  field(
-    self,
-    about,
-    (own) => html`<${Box} ...${at(about.path, (text) => units.typed(text, kind), readable)} placeholder=${placeholder}
-      inputmode="text" ...${own} />${about.slider && slider({ kind, ...about })}`,
-  ),
-);
+const isRange = (value) => value && typeof value === "object" && !Array.isArray(value);
+const formOf = (value) => (isRange(value) ? "range" : Array.isArray(value) && value.length !== 1 ? "list" : "one");
+const FORMS = [
+  ["one", "one value"],
+  ["list", "list"],
+  ["range", "range"],
+];
 
-const trimmed = (text) => text.trim();
-const orNothing = (value) => value ?? "";
+/** The same quantity in another form: one value, list or range. */
+function inForm(form, value, { spacing: [spacing], otherwise = {} }) {
+  const all = isRange(value) ? [value.from, value.to] : listed(value);
+  if (form === "one") return all[0] ?? otherwise.one;
+  if (form === "list") return all.length > 1 ? all : [all[0], otherwise.to ?? all[0]].filter(Boolean);
+  const to = all.length > 1 ? all.at(-1) : (otherwise.to ?? all[0]);
+  return { from: all[0], to, points: otherwise.points ?? 10, spacing };
+}
 
-export const Text = view(({ placeholder, read = trimmed, write = orNothing, ...about }, self) =>
-  field(self, about, (own) => html`<${Box} ...${at(about.path, read, write)} placeholder=${placeholder} ...${own} />`),
-);
+function range({ spacing = ["log", "linear"], ...about }, own) {
+  const { path, label } = about;
+  const box = (words, place, options, rest) =>
+    html`<${Box} key=${place} aria-label="${label}${words}" ...${at(place, options)} ...${rest} ...${own} />`;
+  const form = formOf(state.get(path));
+  if (form === "one") return html`${box("", path, about)}${slider(about)}`;
+  if (form === "list") return box(": list, separated by commas", path, { ...about, list: "always" });
+  const points = { type: "number", min: 2, step: 1 };
+  return html`<span class="range">
+    <span class="ends">${box(" from", `${path}.from`, about)}<span>to</span>${box(" to", `${path}.to`, about)}</span>
+    <span class="steps">
+      ${box(": number of points", `${path}.points`, { as: "number" }, points)}<span>points</span>
+      ${
+        spacing.length > 1 &&
+        html`<${Select} aria-label="${label}: spacing" options=${spacing} value=${state.get(`${path}.spacing`) ?? spacing[0]}
+          onChange=${(one) => state.set(`${path}.spacing`, one)} ...${own} />`
+      }
+    </span>
+  </span>`;
+}
 
-const asNumber = (text) => (Number.isNaN(Number(text)) ? text : Number(text));
+/** The choice of a range's form, in the row of its label. */
+function formChoice({ path, label, spacing = ["log", "linear"], otherwise }, own) {
+  const take = (form) => state.set(path, inForm(form, state.get(path), { spacing, otherwise }));
+  return html`<${Select} class="mode" aria-label="${label}: how to give it" options=${FORMS} value=${formOf(state.get(path))}
+    onChange=${take} ...${own} />`;
+}
 
-export const Amount = view(({ min, max, step = "any", placeholder, ...about }, self) =>
-  field(
-    self,
-    about,
-    (own) =>
-      html`<${Box} type="number" ...${at(about.path, asNumber, orNothing)} ...${{ min, max, step, placeholder }} ...${own} />
-      ${about.slider && slider({ kind: "plain", step, ...about })}`,
-  ),
-);
+function box(about, own) {
+  const { as, min, max, step = "any", placeholder } = about;
+  const rest = as === "number" ? { type: "number", min, max, step } : { inputmode: "text" };
+  return html`<${Box} ...${at(about.path, about)} ...${rest} placeholder=${placeholder} ...${own} />${slider(about)}`;
+}
 
-export const Choose = view(({ options, otherwise, shown, onChange, ...about }, self) => {
-  const { path } = about;
+function choice({ path, options, otherwise, sets = {}, shown, onChange }, own) {
   const now = shown ? shown() : (state.get(path) ?? otherwise);
-  const take = onChange ?? ((value) => state.set(path, value));
-  return field(self, about, (own) => html`<${Select} options=${options} value=${now} onChange=${take} ...${own} />`);
-});
+  const known = now === undefined || options.some((one) => [one].flat()[0] === now);
+  const take = onChange ?? ((value) => state.change({ [path]: value, ...sets[value] }));
+  return html`<${Select} options=${known ? options : [...options, now]} value=${now} onChange=${take} ...${own} />`;
+}
 
-/** Errors about a key that has its own field while it is there are not at its switch. */
-export const Toggle = view(({ value = true, shown, onChange, ...about }, self) => {
-  const { path } = about;
-  const now = state.get(path);
-  if (now !== undefined) self.last = now;
-  const put = onChange ?? ((next) => state.set(path, next));
-  const take = ({ target }) => put(target.checked ? (self.last ?? value) : undefined);
-  return field(
-    self,
-    { ...about, classes: "switch", isHome: typeof now !== "string" },
-    (own) =>
-      html`<input type="checkbox" role="switch" checked=${shown ? shown() : now !== undefined} onChange=${take} ...${own} />`,
-  );
-});
+function onOff({ keys }, own, self) {
+  const given = Object.keys(keys).filter((path) => state.get(path) !== undefined);
+  const now = () => Object.fromEntries(Object.keys(keys).map((path) => [path, state.get(path)]));
+  const none = Object.fromEntries(Object.keys(keys).map((path) => [path, undefined]));
+  if (given.length) self.last = now();
+  const take = ({ target }) => state.change(target.checked ? (self.last ?? keys) : none);
+  return html`<input type="checkbox" role="switch" checked=${given.length > 0} onChange=${take} ...${own} />`;
+}
 
-export const Ticks = view(({ path, label, options }, self) => {
+function ticks({ path, options }, own) {
   const now = listed(state.get(path));
   const known = options.map(([word]) => word);
   const turn = (word, on) => {
     const chosen = known.filter((one) => (one === word ? on : now.includes(one)));
     state.set(path, [...chosen, ...now.filter((one) => !known.includes(one))]);
   };
-  const tick = (own, [word, text]) => html`<label class="row">
-    <input type="checkbox" checked=${now.includes(word)} onChange=${({ target }) => turn(word, target.checked)} ...${own} />${text}
-  </label>`;
-  return field(self, { path, label, beside: () => null }, (own) => options.map((one) => tick(own, one)));
-});
+  return options.map(
+    ([word, text]) => html`<label class="row">
+      <input type="checkbox" checked=${now.includes(word)} onChange=${({ target }) => turn(word, target.checked)} ...${own} />${text}
+    </label>`,
+  );
+}
 
-const FORMS = [
-  ["one", "one value"],
-  ["list", "list"],
-  ["range", "range"],
-];
-const isRange = (value) => value && typeof value === "object" && !Array.isArray(value);
+const inSpan = (about, own) => html`<span class="range-field">${range(about, own)}</span>`;
+const CONTROLS = { text: box, number: box, choice, switch: onOff, ticks, range: inSpan };
+const BESIDE = { ticks: () => null, range: formChoice }; // of fields with several controls, what is in the label's row
 
-export const Range = view(({ spacing = ["log", "linear"], otherwise = {}, ...about }, self) => {
-  const { path, label, kind = "plain" } = about;
-  const value = state.get(path);
-  const form = isRange(value) ? "range" : Array.isArray(value) && value.length !== 1 ? "list" : "one";
-  const read = (text) => units.typed(text, kind);
-  const beside = (
-    own,
-  ) => html`<${Select} class="mode" aria-label="${label}: how to give it" options=${FORMS} value=${form} ...${own}
-    onChange=${(next) => state.set(path, inForm(next, state.get(path), { spacing, otherwise }))} />`;
-  const end = (key, own) =>
-    html`<${Box} aria-label="${label} ${key}" ...${at(`${path}.${key}`, read, readable)} ...${own} />`;
-  const gap = (
-    own,
-  ) => html`<${Select} aria-label="${label}: spacing" options=${spacing} value=${value.spacing ?? spacing[0]}
-    onChange=${(one) => state.set(`${path}.spacing`, one)} ...${own} />`;
-  const controls = {
-    one: (
-      own,
-    ) => html`<${Box} key="one" aria-label=${label} ...${at(path, read, (now) => readable(listed(now)[0]))} ...${own} />
-      ${about.slider && slider({ kind, ...about })}`,
-    list: (own) => html`<${Box} key="list" aria-label="${label}: list, separated by commas"
-      ...${at(
-        path,
-        (text) => withUnits(text, kind),
-        (now) => listed(now).map(readable).join(", "),
-      )} ...${own} />`,
-    range: (own) => html`<span class="range">
-      <span class="ends">${end("from", own)}<span>to</span>${end("to", own)}</span>
-      <span class="steps">
-        <${Box} type="number" min=${2} step=${1} aria-label="${label}: number of points" ...${at(`${path}.points`, Number, orNothing)} ...${own} />
-        <span>points</span>${spacing.length > 1 && gap(own)}
-      </span>
-    </span>`,
+/** What holds at a path: the value there, or else what its field has without one. */
+const valueOf = (path) => (path === "shape" ? shapeOf(state.study) : (state.get(path) ?? declared.get(path)));
+const holds = ([path, wanted]) =>
+  Array.isArray(wanted) ? wanted.includes(valueOf(path) ?? null) : (state.get(path) !== undefined) === wanted;
+
+export const Field = view((about, self) => {
+  const { path, label, as = "text", help, when, id = `field-${self.number}` } = about;
+  declared.set(path, as === "choice" ? about.otherwise : undefined);
+  const seen = !when || when.some((one) => Object.entries(one).every(holds));
+  // errors about a key that has its own field while it is there are not at its switch
+  const isHome = seen && !(as === "switch" && typeof state.get(path) === "string");
+  settle(self, isHome ? path : null);
+  if (!seen) return null;
+  const message = isHome ? [...(sentencesOf.value.get(path) ?? [])].join(" ") : "";
+  const described = {
+    "aria-describedby": `${help ? `${id}-help ` : ""}${id}-error`,
+    "aria-invalid": message ? "true" : undefined,
   };
-  return field(self, { ...about, beside }, (own) => html`<span class="range-field">${controls[form](own)}</span>`);
+  const beside = BESIDE[as]?.(about, described);
+  const group = as in BESIDE ? { role: "group", "aria-labelledby": `${id}-label` } : {};
+  const classes = ["field", as === "switch" && "switch", message && "wrong"].filter(Boolean).join(" ");
+  return html`<div class=${classes} ...${group}>
+    ${
+      as in BESIDE
+        ? html`<span class="field-head"><span id="${id}-label" class="field-label">${label}</span>${beside}</span>`
+        : html`<label for=${id} class="field-label">${label}</label>`
+    }
+    ${CONTROLS[as](about, as in BESIDE ? described : { id, ...described }, self)}
+    ${help && html`<p class="help" id="${id}-help">${help}</p>`}
+    <p class="field-error" id="${id}-error" hidden=${!message}>${message}</p>
+  </div>`;
 });
 
-const Field = view(({ as, when, ...about }) => {
-  declared.add(about.path);
-  if (when && !when()) return null;
-  return html`<${as ?? (about.kind ? Quantity : Text)} ...${about} />`;
-});
 export const Form = ({ of, children }) =>
-  html`<div class="form">${of.map((one) => html`<${Field} ...${one} />`)}${children}</div>`;
-
-export const where = (when, ...fields) =>
-  fields.map((one) => ({ ...one, when: () => when() && (one.when?.() ?? true) }));
-export const within = (path, ...fields) => where(() => state.get(path) !== undefined, ...fields);
-
-/** A list that people typed; a unit at its end is that of all: "30, 60, 90 °C". */
-function withUnits(text, kind) {
-  const parts = text.split(/[,;]\s*/).filter((part) => part.trim() !== "");
-  const unit = /[\d.]\s*([^\d\s.].*)$/.exec(parts.at(-1) ?? "")?.[1];
-  return parts.map((part) => units.typed(unit && /^[\s\d.+−-]+$/.test(part) ? `${part.trim()} ${unit}` : part, kind));
-}
-
-/** The same quantity in another form: one value, list or range. */
-function inForm(form, value, { spacing, otherwise }) {
-  const all = isRange(value) ? [value.from, value.to] : listed(value);
-  if (form === "one") return all[0] ?? otherwise.one;
-  if (form === "list") return all.length > 1 ? all : [all[0], otherwise.to ?? all[0]].filter(Boolean);
-  return {
-    from: all[0],
-    to: all.length > 1 ? all.at(-1) : (otherwise.to ?? all[0]),
-    points: otherwise.points ?? 10,
-    spacing: spacing[0],
-  };
-}
+  html`<div class="form">${of.map((one) => html`<${Field} key=${`${one.path} ${one.label}`} ...${one} />`)}${children}</div>`;
 
 // What is wrong with the study, each sentence beside the field that it is about.
 
 const homes = signal(new Map()); // number of a field that is shown -> its path
-const declared = new Set(); // paths of fields, shown or not
+const declared = new Map(); // paths of fields, shown or not, with what a choice is without a value
 const isIn = (place, path) => place === path || place.startsWith(`${path}.`) || place.startsWith(`${path}[`);
 
 /** Have a field show the errors about a path, null for none, as long as it is shown. */
 function settle(self, path) {
   self.gone ??= () => settle(self, null);
+  if ((homes.peek().get(self.number) ?? null) === path) return;
   const next = new Map(homes.peek());
-  if ((next.get(self.number) ?? null) === path) return;
   if (path === null) next.delete(self.number);
   else next.set(self.number, path);
-  declared.add(path);
   homes.value = next;
 }
 
@@ -260,7 +232,7 @@ export const homeOf = (place) =>
     .sort((one, other) => other.length - one.length)[0];
 
 /** All paths that have a field, shown or not. */
-export const paths = () => [...declared].filter(Boolean);
+export const paths = () => [...declared.keys()].filter((path) => !path.startsWith("@"));
 
 /** What the check of the document found, or else nothing yet: [{field, message}]. */
 const problems = () => jobs.newest("export-run-file")?.problems ?? [];

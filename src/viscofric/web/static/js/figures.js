@@ -170,11 +170,14 @@ class Painter {
     if (!plot.isConnected || plot.clientWidth === 0) return; // drawn when it is seen
     const Plotly = await drawing();
     const options = { displayModeBar: false, displayNotifier: false, responsive: false, doubleClick: "reset+autosize" };
-    const data = hasData(spec) ? dataOf(spec, isDark()) : [];
-    const first = !this.drawn;
-    this.drawn = spec;
-    await Plotly.react(plot, data, layoutOf(spec, isDark(), false), options);
+    const content = [hasData(spec) ? dataOf(spec, isDark()) : [], layoutOf(spec, isDark(), false)];
+    const [first, words, size] = [!this.drawn, JSON.stringify(content), `${plot.clientWidth} ${plot.clientHeight}`];
+    const same = this.words === words && this.sized === size; // to draw it again takes longer than all else
+    Object.assign(this, { drawn: spec, words, sized: size });
+    if (same) return;
+    await Plotly.react(plot, ...content, options);
     if (!first) return;
+    plot.on("plotly_restyle", () => (this.words = null)); // a curve was dragged
     plot.on("plotly_relayout", () => this.ticks(Plotly));
     plot.on("plotly_click", ({ points: [point] }) => {
       if (point.data.meta !== undefined) pick(point.data.meta === picked() ? null : point.data.meta);

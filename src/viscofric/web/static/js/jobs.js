@@ -9,9 +9,11 @@
 //   manual     it is computed by run() alone; start() has results that are known shown again
 //   interrupts cancel() asks for what was found so far
 //   remember   how many results are kept, for undo; none of a job that leaves a file for downloads
-//   follows    the result before is current as long as its study is the same and another one is on its way: that of a slider
+//   follows    a slider: the result before is current as long as its study is the same and another one is on its way
+//   drafts     it follows, too: at once a draft, of the newest inputs when the draft before has come, and a result of stage
+//              "sharp" when the slider rests
 // curve.start()              from now on it is computed whenever its inputs have changed
-// curve.run(asked)           now; curve.cancel(), curve.put(asked, result), curve.refuse(asked, error)
+// curve.run(asked)           now; curve.cancel() keeps what is there, curve.resume() computes the rest; curve.put(asked, result)
 // curve.result               the newest one, of whatever inputs; curve.current: that of the inputs as they are, or null
 // curve.error                why there is none of the inputs as they are; curve.progress {done, total, label}; curve.ended
 //
@@ -69,49 +71,48 @@ export function keyOf(name, { study, options = {} }) {
 const jobs = signal(new Map());
 const whole = computed(() => keyOf("the whole study", { study: state.study }));
 const origins = new WeakMap(); // result -> {job, key, about, study}
+const REST = 250; // ms without a change, after which a draft is refined
+const BEGUN = { done: 0, total: 0, label: "" };
 
 export class Job {
   #known = new Map(); // key -> result
-  #found = signal(null); // {key, result, complete}
+  #found = signal(null); // {key, about, result, complete}
   #failure = signal(null); // {key, error, whole}
   #ended = signal(null); // {key, seconds | cancelled}
-  #running = null; // {key, abort, number}
+  #running = null; // {key, asked, abort, number, draft}
+  #last = null; // what was asked last
   #timer = null;
   #started = false;
+  moving = signal(null); // {done, total, label} of what is on its way
 
   constructor(kind, { name = kind, inputs, ...about }) {
-    Object.assign(this, { wait: 150, when: () => true, part: (part) => part, remember: 0, follows: false }, about);
-    this.kind = kind;
-    this.name = name;
+    Object.assign(this, { wait: 150, when: () => true, part: (part) => part, remember: 0, drafts: false }, about);
+    Object.assign(this, { kind, name, follows: this.follows || this.drafts });
     this.inputs = computed(inputs);
     this.key = computed(() => this.inputs.value && keyOf(name, this.inputs.value));
     this.about = computed(() => this.inputs.value && keyOf(name, { study: this.inputs.value.study }));
-    this.moving = signal(null); // {done, total, label} of what is on its way
     jobs.value = new Map([...jobs.peek(), [name, this]]);
   }
 
-  #ofNow(of, part) {
-    return of.value && of.value.key === this.key.value ? of.value[part] : null;
+  #ofNow(of) {
+    return of.value?.key === this.key.value ? of.value : null;
   }
 
   get result() {
     return this.inputs.value ? (this.#found.value?.result ?? null) : null;
   }
   get current() {
-    return this.#ofNow(this.#found, "result");
+    return this.#ofNow(this.#found)?.result ?? null;
   }
   get complete() {
-    return Boolean(this.#ofNow(this.#found, "complete"));
+    return Boolean(this.#ofNow(this.#found)?.complete);
   }
   get error() {
-    return this.#failure.value?.whole === whole.value ? this.#ofNow(this.#failure, "error") : null;
-  }
-  /** Whether it failed with another study, although its inputs are the same: what was wrong may be mended. */
-  get mayWork() {
-    return this.#failure.value !== null && this.#failure.value.whole !== whole.value;
+    const { error = null, whole: of } = this.#ofNow(this.#failure) ?? {};
+    return of === whole.value ? error : null; // with another study, what was wrong may be mended
   }
   get ended() {
-    return this.#ended.value?.key === this.key.value ? this.#ended.value : null;
+    return this.#ofNow(this.#ended);
   }
   get progress() {
     return this.moving.value;
@@ -123,7 +124,7 @@ export class Job {
     effect(() => {
       const key = this.key.value;
       const seen = this.when();
-      void this.mayWork;
+      void this.error;
       untracked(() => this.#follow(key, seen));
     });
     return this;
@@ -131,13 +132,18 @@ export class Job {
 
   /** Take the result of the inputs if it is known; compute it otherwise, if somebody looks. */
   #follow(key, seen) {
-    if (this.#running?.key !== key && !this.manual) this.#leave();
+    if (this.#running?.key !== key && !this.manual && !this.#running?.draft) this.#leave();
     if (this.#known.has(key)) this.#find(key, this.#known.get(key), true);
     if (this.#running || this.manual) return;
     if (key === null || !seen || this.complete || this.error || this.ended?.cancelled) return;
-    this.moving.value = { done: 0, total: 0, label: "" };
-    const first = !this.#found.value && !this.#failure.value;
-    this.#timer = setTimeout(() => this.run(), first ? 0 : this.wait);
+    const found = this.#found.value;
+    const begins = !found && !this.#failure.value;
+    const slides = this.drafts && (state.slides || found?.about === this.about.value);
+    const refines = this.drafts && found?.key === key;
+    this.moving.value = { ...BEGUN, label: refines ? "sharp" : "" };
+    clearTimeout(this.#timer);
+    if (slides && !refines) this.run();
+    else this.#timer = setTimeout(() => this.run(), refines ? REST : begins ? 0 : this.wait);
   }
 
   /** Give up what is on its way. */
@@ -151,40 +157,45 @@ export class Job {
   async run(asked = this.inputs.peek()) {
     this.#leave();
     if (!asked) return;
-    const mine = { key: this.key.peek(), abort: new AbortController(), number: null };
-    const isMine = () => this.#running === mine;
+    const key = this.key.peek();
+    const stages = this.drafts && (this.#found.peek()?.key === key ? "sharp" : "coarse");
+    const mine = { key, abort: new AbortController(), number: null, draft: stages === "coarse" };
     const begun = performance.now();
     this.#running = mine;
+    this.#last = asked;
     batch(() => {
-      this.moving.value = { done: 0, total: 0, label: "" };
+      this.moving.value = { ...BEGUN, label: stages || "" };
       this.#failure.value = this.#ended.value = null;
     });
-    let before = null;
+    let [before, end] = [null, () => {}];
     try {
-      const result = await runJob(this.kind, asked, {
+      const options = stages ? { ...asked.options, stages } : asked.options;
+      const result = await runJob(this.kind, { ...asked, options }, {
         signal: mine.abort.signal,
+        brief: mine.draft,
         onStart: (number) => (mine.number = number),
-        onPart: (part) => isMine() && this.put(asked, (before = this.part(part, before)), false),
-        onProgress: (progress) => isMine() && (this.moving.value = progress),
+        onPart: (part) => this.#running === mine && this.put(asked, (before = this.part(part, before)), false),
+        onProgress: (progress) => this.#running === mine && (this.moving.value = progress),
       });
-      if (!isMine()) return;
-      this.#running = null;
-      batch(() => {
-        this.put(asked, result);
+      end = () => {
+        this.put(asked, result, !stages || result.stage === "sharp");
         this.#ended.value = { key: this.#found.value.key, seconds: (performance.now() - begun) / 1000 };
-        this.moving.value = null;
         this.done?.(result, asked);
-      });
+      };
     } catch (error) {
-      if (!isMine()) return;
-      this.#running = null;
-      batch(() => {
-        this.moving.value = null;
-        if (error.name === "AbortError") this.#ended.value = { key: mine.key, cancelled: true };
-        else this.#failure.value = { key: mine.key, error, whole: whole.peek() };
-      });
+      end = () => {
+        if (error.name === "AbortError") this.#ended.value = { key, cancelled: true };
+        else this.#failure.value = { key, error, whole: whole.peek() };
+      };
       if (!(error instanceof JobError) && error.name !== "AbortError") console.error(error);
     }
+    if (this.#running !== mine) return;
+    this.#running = null;
+    batch(() => {
+      this.moving.value = null;
+      end();
+    });
+    if (stages) this.#follow(this.key.peek(), this.when());
   }
 
   put(asked, result, complete = true) {
@@ -192,19 +203,19 @@ export class Job {
     const [key, about] = untracked(() => [keyOf(this.name, of), keyOf(this.name, { study: of.study })]);
     origins.set(result, { job: this, key, about, study: of.study });
     if (this.#failure.peek()?.key === key) this.#failure.value = null;
-    this.#find(key, result, complete);
+    this.#find(key, result, complete, about);
   }
 
-  #find(key, result, complete) {
-    this.#found.value = { key, result, complete };
+  #find(key, result, complete, about = origins.get(result).about) {
+    this.#found.value = { key, about, result, complete };
     if (!complete || !this.remember) return;
     this.#known.delete(key);
     this.#known.set(key, result);
     if (this.#known.size > this.remember) this.#known.delete(this.#known.keys().next().value);
   }
 
-  refuse(asked, error) {
-    this.#failure.value = { key: untracked(() => keyOf(this.name, asked)), error, whole: whole.peek() };
+  resume() {
+    return this.run(this.#last ?? undefined);
   }
 
   /** Stop on the user's wish; a job that `interrupt`s sends what it has found so far, if it has begun and answers. */

@@ -103,7 +103,7 @@ function takeFilesAnywhere() {
       input.dispatchEvent(new Event("change"));
       return true;
     };
-    if ([...files].some(({ name }) => name.toLowerCase().endsWith(".toml"))) goTo("export");
+    if ([...files].some(({ name }) => /\.(toml|zip)$/i.test(name))) goTo("export");
     else if (!place()) {
       state.setView("sweeps.source", "dma");
       goTo("sweeps");

@@ -1,32 +1,12 @@
 // The history of the study ([history] in the run file): set from this step, shown in it, edited or removed.
 
 import { runJob } from "./api.js";
-import { Amount, Form, within } from "./fields.js";
-import { announce, explain } from "./page.js";
+import { Form } from "./fields.js";
+import { announce, explain, page } from "./page.js";
 import { html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
-import * as units from "./units.js";
 import { Button, Folded, Notes } from "./views.js";
 
-const DWELLS = {
-  path: "history.dwell",
-  label: "Dwell, one or several",
-  placeholder: "0 s",
-  read: (text) => {
-    const found = text.split(/[,;]/).map((one) => units.typed(one, "time"));
-    return found.length > 1 ? found : found[0];
-  },
-  write: (value) => [value ?? []].flat().join(", "),
-};
-const FIELDS = within(
-  "history",
-  { path: "history.load_time", label: "Time to load", kind: "time", placeholder: "0 s" },
-  DWELLS,
-  { path: "history.slide", label: "Path of a stroke", kind: "length", placeholder: "no sliding" },
-  { as: Amount, path: "history.strokes", label: "Strokes", min: 1, step: 1, placeholder: "1" },
-  { path: "history.file", label: "Table instead", placeholder: "none" },
-  { as: Amount, path: "history.points", label: "Stored times", min: 2, step: 1, placeholder: "200" },
-);
 const error = signal(null);
 
 /** Part of the card; `rows()` returns the history of the step, `take(found)` shows another one in the step. */
@@ -57,6 +37,6 @@ export const StudyHistory = view(({ rows, take }) => {
       ${has && html`<${Button} kind="quiet small" onClick=${remove}>Remove from the study<//>`}
     </div>
     <${Notes} kind="error" list=${[error.value && explain(error.value, "motion")]} />
-    <${Form} of=${FIELDS} />
+    <${Form} of=${page.start.forms.history} />
   <//>`;
 });

@@ -2,11 +2,10 @@
 
 import { homeOf } from "./fields.js";
 import { html } from "./reactive.js";
-import { state } from "./state.js";
+import { page, state } from "./state.js";
 import { Button } from "./views.js";
 
-/** `start` is what the server says of a fresh page; `steps` are those of the rail, by their names. */
-export const page = { start: null, steps: new Map() };
+export { page };
 
 // Where the fields of a study's tables are, but for those of a rubber that other steps have.
 const PLACES = {

@@ -2,8 +2,8 @@
 // It is held in signals: an effect, a computed value or a view that reads some of it follows that part.
 //
 // state.study                       the document, frozen; never change it in place
-// state.get("conditions.load")      a value, or undefined; paths like "material.dma[1]" reach into lists
-//                                   and a key of a list of tables, such as several [[material]], is that of the first
+// state.get("conditions.load")      a value, or undefined; paths like "material.dma[1]" reach into lists, a key of a list of
+//                                   tables, such as several [[material]], is that of the first, and "@key" is a view's
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
 // state.change({path: value, …})    changes several keys as one step of undo
 // state.slide(path, value)          the same as set, for a slider: until state.settle() it is one step of undo
@@ -14,30 +14,26 @@
 // state.view(key, otherwise), state.setView(key, value)    what is chosen on the page but is no part of the study
 // state.edit(key, value)            the same as one step of undo
 // state.step                        the step that is looked at; state.lookAt(step)
+// shapeOf(study)                    what is in contact: "ball" … "cone", "made" or "scan"
 
-import { batch, computed, effect, signal } from "./reactive.js";
+import { batch, computed, lasting, signal } from "./reactive.js";
 
-const KEY = "viscofric.study";
-const VIEW = "viscofric.view";
 const MOST_UNDO = 100;
 
 /** Parts of a path: "material.dma[1]" -> ["material", "dma", 1]. */
-function partsOf(path) {
-  if (!path) return [];
-  return path
+const partsOf = (path) =>
+  path
     .split(/\.|\[|\]\.?/)
     .filter((part) => part !== "")
     .map((part) => (/^\d+$/.test(part) ? Number(part) : part));
-}
 
 const isTables = (value) => Array.isArray(value) && typeof value[0] === "object";
 
-export function valueAt(document, path) {
-  return partsOf(path).reduce((value, part) => {
-    const here = isTables(value) && typeof part === "string" ? value[0] : value;
-    return here === undefined || here === null ? undefined : here[part];
-  }, document);
-}
+export const valueAt = (document, path) =>
+  partsOf(path).reduce(
+    (value, part) => (isTables(value) && typeof part === "string" ? value[0] : value)?.[part],
+    document,
+  );
 
 function withValue(here, parts, value) {
   if (parts.length === 0) return value;
@@ -61,69 +57,40 @@ function frozen(value) {
   return value;
 }
 
-function stored(key) {
-  try {
-    return JSON.parse(sessionStorage.getItem(key));
-  } catch {
-    return null;
-  }
-}
-
-function store(key, value) {
-  try {
-    sessionStorage.setItem(key, JSON.stringify(value));
-  } catch {
-    // A full or forbidden storage costs the reload its memory, nothing else.
-  }
-}
-
-const before = stored(KEY);
-const kept = before?.study && Object.keys(before.study).length > 0 ? before : { study: {} };
-const study = signal(frozen(kept.study));
-const past = signal(kept.past ?? []); // [{study, edited: [key, value] of a view or null}]
-const future = signal(kept.future ?? []);
-const views = signal(stored(VIEW) ?? {});
+// past and future: [{study, edited: [key, value] of a view or null}]
+const all = lasting("sessionStorage", "viscofric.study", { study: {}, past: [], future: [] });
+const views = lasting("sessionStorage", "viscofric.view", {});
+const study = computed(() => frozen(all.value.study));
 const renewed = signal({}); // name of a file -> how often it got other contents
 const step = signal(null);
-const values = new Map(); // path -> its computed value
 let slid = null; // path of the value that a slider is changing
-const viewed = new Map(); // key of a view -> its computed value
 
-effect(() => store(KEY, { study: study.value, past: past.value, future: future.value }));
-effect(() => store(VIEW, views.value));
-
-/** What a signal holds in one place, of which others do not notice changes elsewhere. */
-function held(all, key, read) {
-  if (!all.has(key)) all.set(key, computed(read));
-  return all.get(key).value;
+const known = new Map(); // path -> its computed value, of which others do not notice changes elsewhere
+function held(path, read) {
+  if (!known.has(path)) known.set(path, computed(read));
+  return known.get(path).value;
 }
-
+const view = (key) => held(`@${key}`, () => views.value[key]);
 const setView = (key, value) => (views.value = { ...views.peek(), [key]: value });
 
-/** Put a document and a view in place; returns what was there, an entry of past or future. */
-function put(next, edited) {
+/** Put a document and a view in place; `steps` gets what was there, and returns the past and the future. */
+function put({ study: next, edited }, steps) {
   const was = { study: study.peek(), edited: edited && [edited[0], views.peek()[edited[0]]] };
-  study.value = frozen(next);
-  if (edited) setView(...edited);
-  return was;
+  batch(() => {
+    all.value = { ...all.peek(), study: next, ...steps(was) };
+    if (edited) setView(...edited);
+  });
 }
 
 function become(next, edited = null) {
   if (!edited && JSON.stringify(next) === JSON.stringify(study.peek())) return;
-  batch(() => {
-    past.value = [...past.peek().slice(1 - MOST_UNDO), put(next, edited)];
-    future.value = [];
-  });
+  put({ study: next, edited }, (was) => ({ past: [...all.peek().past.slice(1 - MOST_UNDO), was], future: [] }));
 }
 
 function move(from, to) {
-  const last = from.peek().at(-1);
-  if (!last) return false;
-  batch(() => {
-    from.value = from.peek().slice(0, -1);
-    to.value = [...to.peek(), put(last.study, last.edited)];
-  });
-  return true;
+  const last = all.peek()[from].at(-1);
+  if (last) put(last, (was) => ({ [from]: all.peek()[from].slice(0, -1), [to]: [...all.peek()[to], was] }));
+  return Boolean(last);
 }
 
 const changed = (values) =>
@@ -131,16 +98,17 @@ const changed = (values) =>
     (next, [path, value]) => withValue(next, partsOf(path), structuredClone(value)),
     study.peek(),
   );
+const ofViews = ([path]) => path.startsWith("@");
 
 export const state = {
   get study() {
     return study.value;
   },
   get canUndo() {
-    return past.value.length > 0;
+    return all.value.past.length > 0;
   },
   get canRedo() {
-    return future.value.length > 0;
+    return all.value.future.length > 0;
   },
   get step() {
     return step.value;
@@ -148,14 +116,18 @@ export const state = {
   lookAt: (id) => (step.value = id),
   /** Begin with the document of a fresh page, unless an earlier load of this tab left one. */
   begin(document) {
-    if (Object.keys(study.peek()).length === 0) study.value = frozen(structuredClone(document));
+    if (Object.keys(study.peek()).length === 0) all.value = { ...all.peek(), study: structuredClone(document) };
   },
-  get: (path) => held(values, path, () => valueAt(study.value, path)),
-  set: (path, value) => become(changed({ [path]: value })),
-  change: (values) => become(changed(values)),
+  get: (path) => (path[0] === "@" ? view(path.slice(1)) : held(path, () => valueAt(study.value, path))),
+  set: (path, value) => state.change({ [path]: value }),
+  change(values) {
+    const entries = Object.entries(values);
+    for (const [path, value] of entries.filter(ofViews)) setView(path.slice(1), value);
+    become(changed(Object.fromEntries(entries.filter((one) => !ofViews(one)))));
+  },
   slide(path, value) {
-    if (slid === path) study.value = frozen(changed({ [path]: value }));
-    else become(changed({ [path]: value }));
+    if (slid === path) all.value = { ...all.peek(), study: changed({ [path]: value }) };
+    else state.set(path, value);
     slid = path;
   },
   settle: () => (slid = null),
@@ -168,9 +140,17 @@ export const state = {
     renewed.value = { ...renewed.peek(), ...more };
   },
   renewals: (name) => renewed.value[name] ?? 0,
-  undo: () => move(past, future),
-  redo: () => move(future, past),
-  view: (key, otherwise) => held(viewed, key, () => views.value[key]) ?? otherwise,
+  undo: () => move("past", "future"),
+  redo: () => move("future", "past"),
+  view: (key, otherwise) => view(key) ?? otherwise,
   setView,
   edit: (key, value) => become(study.peek(), [key, value]),
 };
+
+/** `start` is what the server says of a fresh page; `steps` are those of the rail, by their names. */
+export const page = { start: null, steps: new Map() };
+
+export function shapeOf({ surface, indenter }) {
+  if (surface) return surface.file === undefined ? "made" : "scan";
+  return indenter?.shape ?? "ball";
+}

@@ -10,9 +10,8 @@
 // typed("20", "speed") -> "20 mm/s"          what people type, as run files write it
 // What is chosen is a signal: an effect or view that shows a unit follows it.
 
-import { signal } from "./reactive.js";
+import { lasting } from "./reactive.js";
 
-const KEY = "viscofric.units";
 const HZ = 2 * Math.PI;
 
 // kind: [title, {label: [factor to SI, offset, words in a run file]}, SI, imperial]; the first unit is that of engineering
@@ -39,17 +38,9 @@ const SYSTEMS = {
   SI: ofEach(([, , si]) => si),
   imperial: ofEach(([, , , imperial]) => imperial),
 };
-
-const chosen = signal({ ...SYSTEMS.engineering, ...remembered() });
-
-function remembered() {
-  try {
-    const found = JSON.parse(localStorage.getItem(KEY)) ?? {};
-    return Object.fromEntries(Object.entries(found).filter(([kind, unit]) => UNITS[kind]?.[unit]));
-  } catch {
-    return {};
-  }
-}
+const chosen = lasting("localStorage", "viscofric.units", SYSTEMS.engineering);
+const isKnown = ([kind, unit]) => UNITS[kind]?.[unit];
+chosen.value = { ...SYSTEMS.engineering, ...Object.fromEntries(Object.entries(chosen.value).filter(isKnown)) };
 
 /** Factor and offset of a kind in the unit that the user chose: SI = factor * number + offset. */
 function scale(kind) {
@@ -116,15 +107,13 @@ export const filled = (text) =>
     .replaceAll("{omega}", label("angular_frequency") === "Hz" ? "f" : "ω")
     .replaceAll("{v/a}", label("angular_frequency") === "Hz" ? "v/(2πa)" : "v/a");
 
+/** The user's unit as a run file writes it: "degC" for °C. */
+const unitWords = (kind) => UNITS[kind]?.[chosen.value[kind]]?.[2] ?? label(kind);
+
 /** A value as a run file writes it, in the user's unit. */
 export function words(value, kind, digits = 6) {
   const rounded = Number(number(value, kind).toPrecision(digits));
   return kind === "plain" ? rounded : `${rounded} ${unitWords(kind)}`;
-}
-
-/** The user's unit as a run file writes it: "degC" for °C. */
-export function unitWords(kind) {
-  return UNITS[kind]?.[chosen.value[kind]]?.[2] ?? label(kind);
 }
 
 /** The SI value of a quantity in a document's words; null where the words are others than the menu's. */
@@ -133,11 +122,8 @@ export function parse(text, kind) {
   const found = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i.exec(String(text ?? "").replace("−", "-"));
   if (!found) return null;
   const unit = found[2]
-    .replace(/^u(?=m|s)/, "µ")
-    .replace("μ", "µ")
-    .replace("degC", "°C")
-    .replace("degF", "°F")
-    .replace(/^deg$/, "°");
+    .replace(/^[uμ](?=m|s)/, "µ")
+    .replace(/^deg(?=C$|F$|$)/, "°");
   const [factor, offset = 0] = (kind === "plain" && !unit ? [1] : UNITS[kind]?.[unit]) ?? [null];
   return factor === null ? null : Number((factor * Number(found[1]) + offset).toPrecision(14));
 }
@@ -173,24 +159,15 @@ export function typed(text, kind) {
 }
 
 /** Kinds that the menu offers: [{kind, title, units, chosen}]. */
-export function choices() {
-  return Object.entries(UNITS).map(([kind, units]) => ({
-    kind,
-    title: KINDS[kind][0],
-    units: Object.keys(units),
-    chosen: chosen.value[kind],
-  }));
-}
+export const choices = () =>
+  Object.entries(KINDS).map(([kind, [title, units]]) => {
+    return { kind, title, units: Object.keys(units), chosen: chosen.value[kind] };
+  });
 
 /** Names of whole sets of units. */
 export const systems = Object.keys(SYSTEMS);
 
 /** Choose the unit of a kind, or a whole set: choose("speed", "m/s"), choose("SI"). */
 export function choose(kindOrSystem, unit) {
-  chosen.value = unit === undefined ? { ...SYSTEMS[kindOrSystem] } : { ...chosen.value, [kindOrSystem]: unit };
-  try {
-    localStorage.setItem(KEY, JSON.stringify(chosen.value));
-  } catch {
-    // Without storage the choice holds until the page is left.
-  }
+  chosen.value = unit === undefined ? SYSTEMS[kindOrSystem] : { ...chosen.value, [kindOrSystem]: unit };
 }

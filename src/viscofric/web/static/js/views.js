@@ -3,7 +3,7 @@
 
 import { inputsOf, isStale } from "./jobs.js";
 import { html, view } from "./reactive.js";
-import { state } from "./state.js";
+import { page, state } from "./state.js";
 import * as units from "./units.js";
 
 /** Properties of an element that shows a result: its classes and the key of the result's inputs. */
@@ -100,10 +100,19 @@ export function told({ label, value, kind, unit, digits, error, remark }) {
   };
 }
 
+/** The name of a number, which shows its definition when it is clicked. */
+export const Term = view(({ label }, self) => {
+  const definition = page.start.glossary[label];
+  if (!definition) return label;
+  const id = `term-${self.number}`;
+  return html`<button type="button" class="term" popovertarget=${id}>${label}</button>
+    <span class="menu definition" id=${id} popover="auto" role="note"><strong>${label}.${" "}</strong>${definition}</span>`;
+});
+
 /** The main numbers of a result. */
 export const Numbers = view(({ of, list = of?.key_numbers ?? [] }) => {
   const one = ({ label, value, remark }) =>
-    html`<div><dt>${label}</dt><dd class="value">${value}</dd>${remark && html`<dd class="remark">${remark}</dd>`}</div>`;
+    html`<div><dt><${Term} label=${label} /></dt><dd class="value">${value}</dd>${remark && html`<dd class="remark">${remark}</dd>`}</div>`;
   return list.length > 0 && html`<dl ...${shown(of, "key-numbers")}>${list.map(told).map(one)}</dl>`;
 });
 
@@ -135,6 +144,7 @@ export const Progress = view(({ job, label, cancels = true, ended = cancelledOnl
     ${job.progress && html`<progress max="1" ...${total > 0 ? { value: done / total } : {}} aria-label=${label} />`}
     <span class="progress-text">${text}</span>
     ${job.progress && cancels && html`<${Button} kind="quiet small" onClick=${() => job.cancel()}>Cancel<//>`}
+    ${!job.progress && job.ended?.cancelled && html`<${Button} kind="quiet small" onClick=${() => job.resume()}>Resume<//>`}
   </div>`;
 });
 

@@ -1,7 +1,7 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
 import { Figure } from "../figures.js";
-import { Choose, Quantity } from "../fields.js";
+import { Field } from "../fields.js";
 import { explain } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
@@ -80,11 +80,11 @@ const Settings = view(() => {
   const given = state.get("material.shift_factors");
   return html`<${Card} title="Shift">
     <div class="panel">
-      <${Quantity} path="material.reference_temperature" label="Reference temperature" kind="temperature"
+      <${Field} path="material.reference_temperature" label="Reference temperature" kind="temperature"
         help="The shift factor is 1 at this temperature." />
-      <${Choose} path="material.shift" label="α(T) used" options=${SHIFTS} otherwise="measured"
+      <${Field} as="choice" path="material.shift" label="α(T) used" options=${SHIFTS} otherwise="measured"
         help="Measured factors are valid between the isotherms only; a law extrapolates." />
-      <${Choose} path="material.vertical_shift" label="Vertical shift b(T)" options=${VERTICALS} otherwise="none" />
+      <${Field} as="choice" path="material.vertical_shift" label="Vertical shift b(T)" options=${VERTICALS} otherwise="none" />
       ${
         given &&
         html`<div class="row">

@@ -115,8 +115,12 @@ export const useExample = () =>
     choose("dma", "dma.csv", { origin: "synthetic" });
   });
 
-/** Have one file less. */
-export function remove(key, name) {
-  const left = filesOf(key).filter((other) => other !== name);
-  state.change({ [`material.${key}`]: left.length ? one(left) : undefined, "material.temperature": undefined });
-}
+/** Have these files alone; temperatures of files that do not state them were those of all. */
+export const use = (names, key = "dma") =>
+  state.change({ [`material.${key}`]: names.length ? one(names) : undefined, "material.temperature": undefined });
+
+export const remove = (key, name) =>
+  use(
+    filesOf(key).filter((other) => other !== name),
+    key,
+  );

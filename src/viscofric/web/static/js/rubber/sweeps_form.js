@@ -1,56 +1,58 @@
 // The form of the rubber's source: its kind, its files, and what these leave to the user.
 
 import { Columns } from "../columns_form.js";
-import { Amount, Choose, Quantity, Text } from "../fields.js";
+import { Form } from "../fields.js";
 import { page } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
-import * as units from "../units.js";
 import { Button, Card, Drop, Notes, Radios } from "../views.js";
-import { SOURCES, TESTS, sourceOf } from "./made.js";
+import { SOURCES, TESTS, named, sourceOf } from "./made.js";
 import * as source from "./source.js";
 
 const READY = ["catalogue", "file"]; // sources that leave nothing to say
-const DEFORMATIONS = [
-  [null, "– please select –"],
-  ["tension", "tension: E′, E″"],
-  ["compression", "compression: E′, E″"],
-  ["bending", "bending: E′, E″"],
-  ["shear", "shear: G′, G″"],
-];
-
-/** Temperatures of several files, as people type them. */
-function temperatures(text) {
-  const all = text.split(/\s*[;,]\s+/).map((part) => units.typed(part.trim(), "temperature"));
-  return all.length === 1 ? all[0] : all;
-}
-
-// What a file may leave to the user, by the key of [material].
-const QUESTIONS = {
-  deformation:
-    () => html`<${Choose} path="material.deformation" label="Measured in" otherwise=${null} options=${DEFORMATIONS}
-    help="Not stated in the file; the moduli differ by a factor of three." />`,
-  modulus_unit: () => html`<${Text} path="material.modulus_unit" label="Unit of the moduli" placeholder="MPa"
-    help="Not stated in the file." />`,
-  temperature: () => html`<${Text} path="material.temperature" label="Temperature of the sweep" read=${temperatures}
-    write=${(value) => [value ?? []].flat().join(", ")}
-    help="Not stated in the file; of several files one temperature each, in their order: 145 °C, 160 °C." />`,
-  assumed_shift: () => html`<${Text} path="material.assumed_shift" label="Assumed shift law" placeholder="250 kJ/mol"
-    help="One frequency determines no shift factor. An activation energy (250 kJ/mol), WLF 17.44, 51.6 K, -30 degC (C₁, C₂, their reference), or universal." />`,
-  sheet: () =>
-    html`<${Text} path="material.sheet" label="Sheet" help="Name of the only sheet of the workbook to read." />`,
-};
-
 /** What the files leave to the user; one question at a time after an error. */
 const Questions = view(({ result, error }) => {
-  const wanted = error?.field?.replace("material.", "");
-  const given = (key) => state.get(`material.${key}`) !== undefined;
-  const open = Object.keys(QUESTIONS).filter((key) => key === wanted || given(key) || result?.left_open?.includes(key));
+  const { questions } = page.start.forms;
+  const key = (path) => path.replace("material.", "");
+  const open = questions.filter(
+    ({ path }) => path === error?.field || state.get(path) !== undefined || result?.left_open?.includes(key(path)),
+  );
+  const sheets = error?.values?.sheets; // of several specimens, or copies
+  const choice = { as: "choice", otherwise: null, options: [[null, "– please select –"], ...(sheets ?? [])] };
+  const asking = (one) => (sheets && one.path === "material.sheet" ? { ...one, ...choice } : one);
+  const asked = questions.some(({ path }) => path === error?.field);
   return html`
-    ${open.length > 0 && html`<div class="panel questions">${open.map((key) => html`<div key=${key}>${QUESTIONS[key]()}</div>`)}</div>`}
-    <${Columns} values=${QUESTIONS[wanted] ? null : error?.values} chosen=${state.get("material.columns")}
+    ${open.length > 0 && html`<div class="panel questions"><${Form} of=${open.map(asking)} /></div>`}
+    <${Columns} values=${asked ? null : error?.values} chosen=${state.get("material.columns")}
       choose=${(columns) => state.set("material.columns", columns)} />
   `;
+});
+
+/** Files that differ where they should agree, perhaps specimens of one material: which are used, or all of them averaged. */
+const Specimens = view(({ of }) => {
+  const { files, difference, temperature } = of?.specimens ?? { files: [] };
+  if (files.length === 0 || state.view("sweeps.averaged") === String(files)) return null;
+  const use = (event) => {
+    event.preventDefault();
+    const ticked = new FormData(event.target).getAll("specimen");
+    if (ticked.length) source.use(source.filesOf("dma").filter((one) => ticked.includes(one) || !files.includes(one)));
+  };
+  return html`<form class="panel questions" onSubmit=${use} role="group" aria-labelledby="specimens-label">
+    <span class="field-label" id="specimens-label">Which files are of the specimen?</span>
+    <p class="help">
+      At ${named(temperature)} the moduli of these files differ by up to ${(100 * difference).toPrecision(2)}\u00a0%, as those of
+      different specimens do. Until you choose, they are averaged.
+    </p>
+    ${files.map(
+      (name, at) => html`<label class="row" key=${name}>
+        <input type="checkbox" name="specimen" value=${name} defaultChecked=${at === 0} />${name}
+      </label>`,
+    )}
+    <div class="row">
+      <button class="button main">Use the ticked files</button>
+      <${Button} kind="small" onClick=${() => state.edit("sweeps.averaged", String(files))}>Average all<//>
+    </div>
+  </form>`;
 });
 
 /** The files of some keys of [material], each of which can be removed. */
@@ -111,13 +113,6 @@ const PANELS = {
   catalogue: Catalogue,
 };
 
-const Making = () => html`<div class="form">
-  <${Text} path="material.name" label="Name" />
-  <${Quantity} path="material.reference_temperature" label="Reference temperature" kind="temperature"
-    help="The shift factor is 1 at this temperature." />
-  <${Amount} path="material.poisson_ratio" label="Poisson’s ratio" min=${0} max=${0.5} step=${0.01} placeholder="0.5" />
-</div>`;
-
 /** The form; `result` and `error` are those of reading what the material has. */
 export const Source = view(({ result, error }) => {
   const rubbers = [state.get("material") ?? {}].flat();
@@ -133,8 +128,8 @@ export const Source = view(({ result, error }) => {
       onChange=${(key) => state.setView("sweeps.source", key)}>
       <span class="field-label" id="material-source-label">Source of the material</span>
     <//>
-    ${asks && html`<${Questions} result=${result} error=${error} />`}
+    ${asks && html`<${Questions} result=${result} error=${error} /><${Specimens} of=${result} />`}
     <${PANELS[shown] ?? Tests} key=${PANELS[shown] ? shown : "tests"} />
-    ${asks && html`<${Making} />`}
+    ${asks && html`<${Form} of=${page.start.forms.making} />`}
   <//>`;
 });

@@ -1,40 +1,29 @@
 // Step 4, with which the page opens: what slides, its friction curve, and one contact that follows two sliders.
 
-import { runJob } from "../api.js";
 import { ContactForm } from "../contact_form.js";
 import { Box } from "../fields.js";
 import { Figure } from "../figures.js";
 import { FrictionCard, combination, curve } from "../friction_curve.js";
 import { Job } from "../jobs.js";
-import { follow } from "../live.js";
 import { goTo, page, waits } from "../page.js";
-import { effect, html, untracked, view } from "../reactive.js";
+import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Notes, Numbers, shown, told } from "../views.js";
+import { Button, Card, Notes, Numbers, Term, shown, told } from "../views.js";
 
 const STEPS = 400; // of the speed's slider
 const DECADE = 1; // beyond the speeds of the study, on either side
 const BEYOND = 15; // K beyond its temperatures
-const REST = 200; // ms after a change of the form
 
 const position = () => state.view("contact.position", {});
 const moveTo = (where, keep = state.edit) => keep("contact.position", { ...position(), ...where });
 const contact = new Job("contact", {
-  follows: true,
+  drafts: true,
   inputs: () => {
     const { speed, temperature } = position();
     return speed ? { study: state.study, options: { speed, temperature, combination: combination.value } } : null;
   },
 });
-const live = follow({
-  request: ({ study, options }, stages, signal) =>
-    runJob("contact", { study, options: { ...options, stages } }, { signal }),
-  show: (found, asked) => contact.put(asked, found),
-  fail: (error, asked) => contact.refuse(asked, error),
-  busy: (stage) => (contact.moving.value = stage && { done: 0, total: 0, label: stage }),
-});
-
 const speeds = () => {
   const ends = units.ends(state.get("conditions.speed"), "speed") ?? [1e-3, 1];
   return [Math.log10(ends[0]) - DECADE, Math.log10(ends[1]) + DECADE];
@@ -100,7 +89,7 @@ const Failed = view(() => {
 const Pictures = view(({ of }) => {
   const shared = { of, empty: "Computing the contact." };
   const row = ({ label, value, remark }) =>
-    html`<tr><th scope="row">${label}</th><td>${value}</td><td>${remark}</td></tr>`;
+    html`<tr><th scope="row"><${Term} label=${label} /></th><td>${value}</td><td>${remark}</td></tr>`;
   return html`<div class="grid contact-figures ${of && !of.map ? "without-map" : ""}">
     ${of?.map !== null && html`<${Figure} id="pressure-map" title="Contact pressure" ...${shared} />`}
     <${Figure} id="pressure-profile" title="Pressure along the motion" ...${shared} />
@@ -156,21 +145,7 @@ if (!position().speed || !position().temperature) {
   const middle = { speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) };
   moveTo(middle, state.setView);
 }
-curve.start();
-
-// A slider is followed at once, a form when it rests.
-let timer = null;
-let about = null;
-effect(() => {
-  clearTimeout(timer);
-  void contact.mayWork;
-  if (!contact.key.value) return;
-  const rests = about !== null && about !== contact.about.value && !state.slides;
-  about = contact.about.value;
-  const want = () => live.want(contact.inputs.peek());
-  if (rests) timer = setTimeout(want, REST);
-  else untracked(want);
-});
+for (const job of [curve, contact]) job.start();
 
 export default () => html`
   <${Welcome} />

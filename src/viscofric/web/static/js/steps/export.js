@@ -1,7 +1,7 @@
 // The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
 import { downloadUrl, runJob, uploadFiles } from "../api.js";
-import { Amount, Choose, Form, Text } from "../fields.js";
+import { Field, Form } from "../fields.js";
 import { Job, newest } from "../jobs.js";
 import { announce, explain, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
@@ -30,15 +30,17 @@ async function pack() {
   return "The zip file is ready.";
 }
 
-/** Take in data files, and show the study of a run file among them. */
+/** Take in data files, and show the study of a run file among them, or of a zip file with both. */
 async function openFiles(files) {
-  const isRunFile = (file) => file.name.toLowerCase().endsWith(".toml");
-  await uploadFiles(files.filter((file) => !isRunFile(file)));
-  const given = files.find(isRunFile);
-  if (!given) throw new Error("No run file was given; its name ends with .toml.");
-  const { study, missing } = await runJob("open-run-file", { options: { text: await given.text() } });
+  const given = files.find((file) => /\.toml$/i.test(file.name));
+  const names = await uploadFiles(files.filter((file) => file !== given));
+  const archive = names.find((name) => /\.zip$/i.test(name));
+  if (!given && !archive) throw new Error("No run file was given; its name ends with .toml, or .zip with its data.");
+  const options = given ? { text: await given.text() } : { archive };
+  const { study, missing, files: unpacked } = await runJob("open-run-file", { options });
+  state.renew(unpacked);
   state.replace(study);
-  return `${given.name} is opened.${missing.length ? ` Missing data files: ${missing.join(", ")}.` : ""}`;
+  return `${given?.name ?? archive} is opened.${missing.length ? ` Missing data files: ${missing.join(", ")}.` : ""}`;
 }
 
 function startOver() {
@@ -65,7 +67,7 @@ function runFile() {
     const about = `It has ${cases} case${cases === 1 ? "" : "s"}.${files.length ? ` It reads ${reads}.` : ""}`;
     const wrong = problems.map(({ field, message }) => (field ? `${field}: ${message}` : message));
     return html`<${Card} title="Run file">
-      <${Text} path="title" label="Title of the study and report" />
+      <${Field} path="title" label="Title of the study and report" />
       <div class="row">
         <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(() => pack())}>
           Run file and data (zip)
@@ -77,7 +79,7 @@ function runFile() {
       <${Notes} kind="error" list=${[...wrong, failed.value]} />
       <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
       <p class="help">Run in its folder: <code>viscofric run study.toml</code></p>
-      <${Drop} label="Open a run file" help="Drop it here with its data files, or choose them."
+      <${Drop} label="Open a run file" help="Drop the zip file here, or the run file with its data files, or choose them."
         onFiles=${(files) => attempt(() => openFiles(files))} />
     <//>`;
   });
@@ -92,22 +94,6 @@ const study = new Job("export-study", {
 const inWords = (seconds) => (seconds < 90 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`);
 const endOf = ({ cancelled, seconds }) =>
   cancelled ? "Cancelled; solved contacts are kept for the next run." : `Done in ${inWords(seconds)}.`;
-
-const SOLVING = [
-  { as: Amount, path: "solver.accuracy", label: "Accuracy of friction", min: 1e-4, max: 0.1, placeholder: "0.001" },
-  { as: Amount, path: "uncertainty.draws", label: "Bootstrap samples", min: 0, step: 1, placeholder: "200" },
-  {
-    as: Choose,
-    path: "outputs.fields",
-    label: "Stored pressure maps",
-    otherwise: "few",
-    options: [
-      ["few", "of a few cases"],
-      ["all", "of all cases"],
-      ["none", "none"],
-    ],
-  },
-];
 
 function wholeStudy() {
   let workers = 1;
@@ -131,7 +117,7 @@ function wholeStudy() {
         Solves every case to the requested accuracy, with the material's uncertainty, and writes a report, tables and
         figures.
       </p>
-      <${Form} of=${SOLVING}>
+      <${Form} of=${page.start.forms.solving}>
         <div class="field">
           <label class="field-label" for="export-workers">Processes</label>
           <input type="number" min="1" max=${navigator.hardwareConcurrency || 1} defaultValue="1" id="export-workers"

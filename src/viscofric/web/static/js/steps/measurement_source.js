@@ -2,75 +2,15 @@
 
 import { downloadUrl, uploadFiles, useExample } from "../api.js";
 import { Columns } from "../columns_form.js";
-import { Amount, Choose, Form, Quantity } from "../fields.js";
-import { announce } from "../page.js";
+import { Form } from "../fields.js";
+import { announce, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Folded, Notes, shown } from "../views.js";
 import { Checks, Facts, Run, measured, shownMeasured } from "./measurement_parts.js";
 
-/** Whole numbers that people typed, parted by commas. */
-function wholeNumbers(text) {
-  const found = text.split(/[\s,;]+/).filter(Boolean);
-  return found.every((one) => /^\d+$/.test(one)) ? found.map(Number) : text.trim();
-}
-
-/** A difference of temperatures as a run file writes it; a bare number counts as kelvins. */
-const difference = (text) => (/^\s*[\d.]+\s*(K|°C)?\s*$/.test(text) ? `${parseFloat(text)} delta_degC` : text.trim());
-
 const KINDS =
   "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.";
-const SEPARATION = [
-  {
-    path: "measurement.zero",
-    label: "Zero of the force cell",
-    kind: "load",
-    placeholder: "fitted, or as recorded",
-    help: "Reading without traction, if known.",
-  },
-  { path: "measurement.zero_error", label: "Standard error of the zero", kind: "load" },
-  {
-    as: Quantity,
-    path: "measurement.coulomb",
-    label: "Assumed Coulomb friction",
-    placeholder: "0.05, or constant",
-    help: "If the slip has one direction only: a coefficient, or “constant” over the speed.",
-  },
-  { as: Amount, path: "measurement.coulomb_error", label: "Standard error of Coulomb friction", min: 0 },
-  {
-    path: "measurement.except_steps",
-    label: "Steps to leave out",
-    placeholder: "1, 3",
-    read: wholeNumbers,
-    write: (value) => [value ?? []].flat().join(", "),
-    help: "For example unsteady steps.",
-  },
-  { path: "measurement.sheet", label: "Sheet", help: "Name of the sheet of a workbook to read." },
-  {
-    as: Choose,
-    path: "measurement.outliers",
-    label: "Outliers",
-    otherwise: "keep",
-    options: ["keep", "leave out"],
-  },
-  {
-    as: Amount,
-    path: "measurement.speed_tolerance",
-    label: "Gap between speeds",
-    placeholder: "0.05",
-    min: 0,
-    max: 1,
-    help: "Relative; a smaller gap is scatter about the same nominal speed.",
-  },
-  {
-    path: "measurement.temperature_tolerance",
-    label: "Gap between temperatures",
-    placeholder: "1 K",
-    read: difference,
-    write: (value) => String(value ?? "").replace("delta_degC", "K"),
-  },
-];
-
 let dropped = null; // names of the files that were brought last
 const unread = signal(null); // why files could not be brought
 
@@ -126,7 +66,7 @@ export function source() {
       <${Folded} title="Steps of the test" hidden=${steps.length === 0}>
         <ul ...${shown(of, "help steps-of-test")}>${steps.map(({ text }) => html`<li>${text}</li>`)}</ul>
       <//>
-      <${Folded} title=${about} open=${of?.refusal ? true : undefined} hidden=${of ? !of.runs : !table?.mtm}><${Form} of=${SEPARATION} /><//>
+      <${Folded} title=${about} open=${of?.refusal ? true : undefined} hidden=${of ? !of.runs : !table?.mtm}><${Form} of=${page.start.forms.separation} /><//>
     <//>`;
   });
 }

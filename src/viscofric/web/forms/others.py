@@ -1,0 +1,193 @@
+"""Forms of the material, the measurement, the history, and the solution of a study."""
+
+from __future__ import annotations
+
+from viscofric.web.forms.fields import choice, field, left, number, when
+
+#: What a file of tests may leave to the user.
+QUESTIONS = [
+    choice(
+        "material.deformation",
+        "Measured in",
+        [
+            [None, "– please select –"],
+            ["tension", "tension: E′, E″"],
+            ["compression", "compression: E′, E″"],
+            ["bending", "bending: E′, E″"],
+            ["shear", "shear: G′, G″"],
+        ],
+        help="Not stated in the file; the moduli differ by a factor of three.",
+    ),
+    field("material.modulus_unit", "Unit of the moduli", placeholder="MPa", help="Not stated in the file."),
+    field(
+        "material.temperature",
+        "Temperature of the sweep",
+        "temperature",
+        list=True,
+        help="Not stated in the file; of several files one temperature each, in their order: 145 °C, 160 °C.",
+    ),
+    field(
+        "material.assumed_shift",
+        "Assumed shift law",
+        placeholder="250 kJ/mol",
+        help="One frequency determines no shift factor. An activation energy (250 kJ/mol), "
+        "WLF 17.44, 51.6 K, -30 degC (C₁, C₂, their reference), or universal.",
+    ),
+    field("material.sheet", "Sheet", help="Name of the only sheet of the workbook to read."),
+]
+MAKING = [
+    field("material.name", "Name"),
+    field(
+        "material.reference_temperature",
+        "Reference temperature",
+        "temperature",
+        help="The shift factor is 1 at this temperature.",
+    ),
+    number("material.poisson_ratio", "Poisson’s ratio", min=0, max=0.5, step=0.01, placeholder="0.5"),
+]
+SPECTRUM = [
+    choice(
+        "material.spectrum",
+        "Fit method",
+        [
+            ["non-negative", "non-negative: smallest misfit"],
+            ["regularised", "regularised: smooth"],
+            ["sparse", "sparse: few modes"],
+        ],
+        "non-negative",
+        sets={
+            "non-negative": {"material.spectrum": None, "material.modes": None},
+            "regularised": {"material.modes": None},
+            "sparse": {"material.tau_ratio": None},
+        },
+        help="Non-negative modes have the smallest misfit; regularised ones make a smooth spectrum; "
+        "sparse ones are few, for finite elements.",
+    ),
+    number(
+        "material.modes",
+        "Largest number of modes",
+        min=1,
+        max=200,
+        step=1,
+        slider=[1, 60],
+        placeholder="automatic",
+        when=[{"material.spectrum": ["sparse"]}],
+    ),
+    left(
+        {"material.spectrum": [None, "non-negative", "regularised"]},
+        number("material.tau_ratio", "Ratio of neighbouring times", min=1.1, max=100, placeholder="e = 2.718"),
+    ),
+    number(
+        "uncertainty.draws",
+        "Bootstrap samples for the 95 % band",
+        min=0,
+        max=10000,
+        step=1,
+        placeholder="200",
+        help="Refits to resampled data; 0 for no band.",
+    ),
+]
+SEPARATION = [
+    field(
+        "measurement.zero",
+        "Zero of the force cell",
+        "load",
+        placeholder="fitted, or as recorded",
+        help="Reading without traction, if known.",
+    ),
+    field("measurement.zero_error", "Standard error of the zero", "load"),
+    field(
+        "measurement.coulomb",
+        "Assumed Coulomb friction",
+        "plain",
+        placeholder="0.05, or constant",
+        help="If the slip has one direction only: a coefficient, or “constant” over the speed.",
+    ),
+    number("measurement.coulomb_error", "Standard error of Coulomb friction", min=0),
+    field(
+        "measurement.except_steps",
+        "Steps to leave out",
+        "plain",
+        list=True,
+        placeholder="1, 3",
+        help="For example unsteady steps.",
+    ),
+    field("measurement.sheet", "Sheet", help="Name of the sheet of a workbook to read."),
+    choice("measurement.outliers", "Outliers", ["keep", "leave out"], "keep"),
+    number(
+        "measurement.speed_tolerance",
+        "Gap between speeds",
+        placeholder="0.05",
+        min=0,
+        max=1,
+        help="Relative; a smaller gap is scatter about the same nominal speed.",
+    ),
+    field("measurement.temperature_tolerance", "Gap between temperatures", unit="delta_degC", placeholder="1 K"),
+]
+HISTORY = when(
+    {"history": True},
+    field("history.load_time", "Time to load", "time", placeholder="0 s"),
+    field("history.dwell", "Dwell, one or several", "time", list=True, placeholder="0 s"),
+    field("history.slide", "Path of a stroke", "length", placeholder="no sliding"),
+    number("history.strokes", "Strokes", min=1, step=1, placeholder="1"),
+    field("history.file", "Table instead", placeholder="none"),
+    number("history.points", "Stored times", min=2, step=1, placeholder="200"),
+)
+SOLVING = [
+    number("solver.accuracy", "Accuracy of friction", min=1e-4, max=0.1, placeholder="0.001"),
+    number("uncertainty.draws", "Bootstrap samples", min=0, step=1, placeholder="200"),
+    choice(
+        "outputs.fields",
+        "Stored pressure maps",
+        [["few", "of a few cases"], ["all", "of all cases"], ["none", "none"]],
+        "few",
+    ),
+]
+_UNITS, _PROGRAMS = ["abaqus", "ansys", "ls-dyna"], ["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches"]
+#: Options of the job export-card, which are no part of the study.
+CARD = [
+    choice(
+        "@card.format",
+        "Program",
+        [
+            ["abaqus", "Abaqus"],
+            ["ansys", "ANSYS"],
+            ["ls-dyna", "LS-DYNA"],
+            ["comsol", "COMSOL, parameters"],
+            ["comsol-branches", "COMSOL, table of branches"],
+            ["json", "viscofric (JSON)"],
+            ["csv", "table (CSV)"],
+        ],
+        "abaqus",
+    ),
+    *when(
+        {"@card.format": _UNITS},
+        choice("@card.unit_system", "Units of the model", [["Pa", "Pa, m, s, kg"], ["MPa", "MPa, mm, s, t"]], "Pa"),
+    ),
+    *when(
+        {"@card.format": _PROGRAMS},
+        choice("@card.temperature_unit", "Temperatures of the model", [["K", "kelvin"], ["degC", "°C"]], "K"),
+    ),
+    *when(
+        {"@card.format": ["abaqus"]},
+        choice("@card.domain", "Analysis", [["time", "time (Prony series)"], ["frequency", "frequency"]], "time"),
+    ),
+    *when(
+        {"@card.format": _PROGRAMS},
+        choice(
+            "@card.law",
+            "Shift law",
+            [[None, "that of the material"], ["best", "the best law"], ["wlf", "WLF"], ["arrhenius", "Arrhenius"]],
+            help="fits a law, since the programs accept no table of factors",
+        ),
+        number(
+            "@card.poisson_ratio",
+            "Poisson's ratio",
+            min=0,
+            max=0.5,
+            placeholder="that of the material",
+            help="ANSYS and LS-DYNA do not accept 0.5",
+        ),
+        field("@card.density", "Density", placeholder="none", help="e.g. 1800 kg/m^3; required for LS-DYNA"),
+    ),
+]

@@ -1,0 +1,94 @@
+"""The forms of the page agree with the tables of the run file: keys, limits, words, units and defaults."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from viscofric.web.forms import FORMS
+from viscofric.web.forms.contact import SHAPES
+from viscofric.web.jobs import export_card
+from viscofric.web.study_text import study_of
+from web.run_file_schema import found
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+_FIELDS = [
+    pytest.param(field, id=f"{form}:{field['path']}")
+    for form, fields in FORMS.items()
+    for field in fields
+    if not field["path"].startswith("@")  # of the page alone
+]
+#: Unit of the examples of a quantity -> its kind on the page.
+_KINDS = {
+    "mm": {"length"},
+    "N": {"load"},
+    "N/mm": {"line_load"},
+    "mm/s": {"speed"},
+    "deg": {"angle"},
+    "GPa": {"modulus"},
+    "kPa": {"pressure"},
+    "degC": {"temperature"},
+    "s": {"time"},
+}
+
+
+@pytest.mark.parametrize("field", _FIELDS)
+def test_field_agrees_with_the_run_file(field: dict[str, Any]) -> None:
+    schema = found(field["path"])
+    assert schema, "no such key"
+    for name, limits in (("min", ("minimum", "exclusiveMinimum")), ("max", ("maximum",))):
+        least = [node[one] for node in schema for one in limits if one in node]
+        if name in field and least:  # the page may ask for more than the file must have: a grid of few points
+            assert field[name] >= min(least) if name == "min" else field[name] <= max(least)
+    units = {example.partition(" ")[2] for node in schema for example in node.get("examples", ())}
+    kinds = set().union(*(_KINDS.get(unit, set()) for unit in units))
+    if field.get("kind", "plain") != "plain":
+        assert field["kind"] in kinds
+    words = {word for node in schema for word in node.get("enum", ())}
+    if field.get("as") == "choice" and words:
+        assert {one[0] if isinstance(one, list) else one for one in field["options"]} - {None} <= words | set(SHAPES)
+    defaults = [node["default"] for node in schema if "default" in node]
+    if field.get("otherwise") is not None and field["as"] == "choice" and defaults:
+        assert field["otherwise"] == defaults[0]
+    if field.get("placeholder", "").replace(".", "").isdigit() and defaults:
+        assert float(field["placeholder"]) == pytest.approx(defaults[0] if defaults[0] != [0.0] else 0.0)
+
+
+@pytest.mark.parametrize("field", _FIELDS)
+def test_a_condition_is_about_keys_of_the_run_file(field: dict[str, Any]) -> None:
+    conditions = [path for one in field.get("when", ()) for path in one]
+    keys = [
+        *conditions,
+        *field.get("keys", ()),
+        *(path for changes in field.get("sets", {}).values() for path in changes),
+    ]
+    assert [path for path in keys if path != "shape" and not found(path)] == []
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_what_a_shape_begins_with_is_a_study(shape: str, tmp_path: Path) -> None:
+    begun = dict(SHAPES[shape])
+    loads = {key: begun.pop(key) for key in ("load", "pressure") if key in begun}
+    if shape == "scan":
+        begun["surface"] = {**begun["surface"], "file": "heights.txt"}
+    study = {
+        "material": {"catalogue": "synthetic fluoroelastomer"},
+        "conditions": {**loads, "speed": "20 mm/s", "temperature": "60 degC"},
+        **begun,
+    }
+    _, checked = study_of(study, tmp_path)
+    assert (checked.surface if "surface" in begun else checked.indenter) is not None
+    assert shape in ("made", "scan", getattr(checked.indenter, "shape", None))
+
+
+def test_options_of_a_card_are_those_of_its_job() -> None:
+    options = {field["path"].removeprefix("@card."): field for field in FORMS["card"]}
+    assert set(options) == set(export_card.Options.model_fields)
+    begun = {name: field["otherwise"] for name, field in options.items() if "otherwise" in field}
+    assert export_card.Options(**begun) == export_card.Options()
+    for name, field in options.items():
+        for value, _ in field.get("options", ()):
+            export_card.Options(**{name: value})  # refuses what it does not know

@@ -1,0 +1,90 @@
+"""How soon the page shows something: its first figure, the whole curve, and the draft of a contact behind a slider.
+
+The limits are those of an idle machine with two cores; elsewhere they are longer, as the time of busy processes is.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+
+from web.browser_tab import tab as opened_tab
+from web.served_page import started
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+    from web.served_page import Server
+
+pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+_FIRST_FIGURE, _WHOLE_CURVE, _DRAFT = 2.5, 8.0, 0.15  # s
+_LARGEST_PAGE = 700_000  # bytes over the wire
+
+
+_BUSY = """
+import os, time
+os.nice(5)  # as the page's processes that compute
+wall, own = time.perf_counter(), time.process_time()
+while time.process_time() - own < 0.5:
+    pass
+print((time.perf_counter() - wall) / 0.5)
+"""
+
+
+def contention() -> float:
+    """Return how many times longer than their own work two busy processes take: 1 on two cores without other work."""
+    both = [subprocess.Popen([sys.executable, "-c", _BUSY], stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    return max(1.0, *(float(one.communicate()[0]) for one in both))
+
+
+def test_first_figure_and_whole_curve_come_soon_and_the_page_is_light(browser: Browser, tmp_path: Path) -> None:
+    seen = "[...document.querySelectorAll('.figure .plot')].some((one) => one.data?.some(({ x }) => x?.length > 1))"
+    before = contention()
+    with started(tmp_path / "server") as server, opened_tab(browser, server) as tab:
+        tab.until(seen, 60.0)
+        first = tab.value("performance.now() / 1000")  # since the tab was opened
+        tab.until("page.jobs.result('curve') !== null && page.figures.areDrawn()", 90.0)
+        whole = tab.value("performance.now() / 1000")
+        fetched = [(path, size) for path, size in tab.requested if not path.startswith("/api/jobs/")]
+    slow = max(before, contention())
+    assert sum(size for _, size in fetched) <= _LARGEST_PAGE, fetched
+    assert first <= _FIRST_FIGURE * slow, (first, slow)
+    assert whole <= _WHOLE_CURVE * slow, (whole, slow)
+
+
+#: Seconds from each move of the speed's slider to the drawn draft.
+_MOVES = """await (async (places) => {
+  const { jobs, figures } = page;
+  const soon = () => new Promise((done) => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = done;
+    port2.postMessage(null);
+  });
+  const slider = document.getElementById("live-speed");
+  const taken = [];
+  for (const place of places) {
+    const [before, begun] = [jobs.newest("contact"), performance.now()];
+    slider.value = String(place);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    while (jobs.newest("contact") === before) await soon();
+    await new Promise(requestAnimationFrame);
+    while (!figures.areDrawn()) await soon();
+    taken.push((performance.now() - begun) / 1000);
+  }
+  return taken;
+})(given)"""
+
+
+def test_a_slider_is_followed_by_its_draft_at_once(browser: Browser, server: Server) -> None:
+    before = contention()
+    with opened_tab(browser, server) as tab:
+        tab.until("page.jobs.result('curve') !== null && page.jobs.result('contact') !== null", 90.0)
+        taken = tab.value(_MOVES, *range(120, 288, 7))
+    slow = max(before, contention())
+    assert statistics.median(taken) <= _DRAFT * slow, (statistics.median(taken), slow)
