@@ -109,7 +109,9 @@ def _look_and_move(tab: Tab) -> None:
     tab.until(f"{CONTACT}?.temperature === 318.15")
     assert tab.page.get_attribute("#live-temperature", "aria-valuetext") == "45\u00a0°C"
     # A point of the curve is clicked.
-    box = tab.page.locator(f"{CURVE} .scatterlayer .trace").first.locator(".point").nth(12).bounding_box()
+    point = tab.page.locator(f"{CURVE} .scatterlayer .trace").first.locator(".point").nth(12)
+    point.scroll_into_view_if_needed()
+    box = point.bounding_box()
     assert box is not None
     tab.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     tab.until(f"{CONTACT}?.temperature === 303.15 && Math.abs({CONTACT}?.speed - 0.1) < 1e-6")

@@ -2,8 +2,8 @@
 
 import { uploadFiles } from "./api.js";
 import { Form } from "./fields.js";
-import { announce, page } from "./page.js";
-import { computed, html, signal, view } from "./reactive.js";
+import { attempts, page } from "./page.js";
+import { computed, html, view } from "./reactive.js";
 import { shapeOf, state } from "./state.js";
 import { Card, Drop, Notes } from "./views.js";
 
@@ -28,18 +28,13 @@ function become(next) {
   state.change({ indenter: begun.indenter, surface: begun.surface, conditions: kept });
 }
 
-const failed = signal(null); // why a height map could not be brought
-
-async function bring(files) {
-  try {
+const [attempt, failed] = attempts();
+const bring = (files) =>
+  attempt(async () => {
     const [name] = await uploadFiles(files.slice(0, 1));
     state.set("surface.file", name);
-    announce(`${name} was uploaded.`);
-    failed.value = null;
-  } catch (error) {
-    failed.value = error.message;
-  }
-}
+    return `${name} was uploaded.`;
+  });
 
 export const ContactForm = view(() => {
   const { shape: shapes, scan, load, conditions, interface: dry, heating } = page.start.forms;
@@ -51,7 +46,7 @@ export const ContactForm = view(() => {
         shape.value === "scan" &&
         html`<${Drop} label="Drop a height map" help="text matrix, x y z points, or a microscope file" multiple=${false}
             onFiles=${bring} />
-          <${Notes} kind="error" list=${[failed.value]} />`
+          <${Notes} kind="error" list=${[failed.value?.message]} />`
       }
       <${Form} of=${scan} />
       <${Form} of=${load} />

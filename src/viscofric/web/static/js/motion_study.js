@@ -2,28 +2,22 @@
 
 import { runJob } from "./api.js";
 import { Form } from "./fields.js";
-import { announce, explain, page } from "./page.js";
-import { html, signal, view } from "./reactive.js";
+import { attempts, explain, page } from "./page.js";
+import { html, view } from "./reactive.js";
 import { state } from "./state.js";
 import { Button, Folded, Notes } from "./views.js";
 
-const error = signal(null);
+const [attempt, failed] = attempts();
 
 /** Part of the card; `rows()` returns the history of the step, `take(found)` shows another one in the step. */
 export const StudyHistory = view(({ rows, take }) => {
   const has = state.get("history") !== undefined;
-  const ask = async (options, then) => {
-    error.value = null;
-    try {
-      then(await runJob("history", { study: state.study, options }));
-    } catch (found) {
-      error.value = found;
-    }
-  };
+  const ask = (options, then) =>
+    attempt(async () => then(await runJob("history", { study: state.study, options })));
   const put = ({ history }) => {
     if (history.file) state.renew([history.file]);
     state.set("history", history);
-    announce("The study has this history.");
+    return "The study has this history.";
   };
   const words = has
     ? "Export and viscofric run also solve the study over time; stages use its loads and speeds."
@@ -36,7 +30,7 @@ export const StudyHistory = view(({ rows, take }) => {
       ${has && html`<${Button} kind="small" onClick=${() => ask({}, take)}>Show the study’s<//>`}
       ${has && html`<${Button} kind="quiet small" onClick=${remove}>Remove from the study<//>`}
     </div>
-    <${Notes} kind="error" list=${[error.value && explain(error.value, "motion")]} />
+    <${Notes} kind="error" list=${[failed.value && explain(failed.value, "motion")]} />
     <${Form} of=${page.start.forms.history} />
   <//>`;
 });

@@ -1,7 +1,7 @@
 // What all steps share of the page: what it began with, its steps, and sentences for those who look and those who listen.
 
 import { homeOf } from "./fields.js";
-import { html } from "./reactive.js";
+import { html, signal } from "./reactive.js";
 import { page, state } from "./state.js";
 import { Button } from "./views.js";
 
@@ -26,6 +26,22 @@ export function announce(text) {
   const place = document.getElementById("announcements");
   place.textContent = "";
   setTimeout(() => (place.textContent = text), 50);
+}
+
+/** [attempt, failed]: attempt(work) announces what the user's work with files returns; `failed` holds its error. */
+export function attempts() {
+  const failed = signal(null);
+  const attempt = async (work) => {
+    failed.value = null;
+    try {
+      const words = await work();
+      if (typeof words === "string") announce(words);
+    } catch (error) {
+      failed.value = error;
+      announce(`Error: ${error.message}`);
+    }
+  };
+  return [attempt, failed];
 }
 
 /** The step that has the field of a path of the study. */

@@ -116,16 +116,16 @@ export function words(value, kind, digits = 6) {
   return kind === "plain" ? rounded : `${rounded} ${unitWords(kind)}`;
 }
 
+const PLAIN_NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+const QUANTITY = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
+
 /** The SI value of a quantity in a document's words; null where the words are others than the menu's. */
 export function parse(text, kind) {
   if (typeof text === "number") return kind === "plain" ? text : null;
-  const found = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i.exec(String(text ?? "").replace("−", "-"));
-  if (!found) return null;
-  const unit = found[2]
-    .replace(/^[uμ](?=m|s)/, "µ")
-    .replace(/^deg(?=C$|F$|$)/, "°");
-  const [factor, offset = 0] = (kind === "plain" && !unit ? [1] : UNITS[kind]?.[unit]) ?? [null];
-  return factor === null ? null : Number((factor * Number(found[1]) + offset).toPrecision(14));
+  const [, amount, words] = QUANTITY.exec(String(text ?? "").replace("−", "-")) ?? [];
+  const unit = words?.replace(/^[uμ](?=m|s)/, "µ").replace(/^deg(?=C$|F$|$)/, "°");
+  const [factor, offset = 0] = (kind === "plain" && unit === "" ? [1] : UNITS[kind]?.[unit]) ?? [null];
+  return factor === null ? null : Number((factor * Number(amount) + offset).toPrecision(14));
 }
 
 /** The SI value of a number in the user's unit, or of a quantity with its own; null where it is neither. */
@@ -142,8 +142,6 @@ export function ends(given, kind) {
     .filter((one) => one !== null);
   return all.length ? [Math.min(...all), Math.max(...all)] : null;
 }
-
-const PLAIN_NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 
 /** What people type, as a run file writes it: a bare number gets the user's unit; a plain number is no text. */
 export function typed(text, kind) {

@@ -1,8 +1,7 @@
 // What becomes of [material] when files are brought, chosen or removed.
 
 import * as api from "../api.js";
-import { page } from "../page.js";
-import { signal } from "../reactive.js";
+import { attempts, page } from "../page.js";
 import { state } from "../state.js";
 import { FIRST_REFERENCE, SOURCES, TESTS, sourceOf } from "./made.js";
 
@@ -40,17 +39,8 @@ const named = (value) => {
 /** The source that is looked at: the one chosen last, or that of the material. */
 export const shownSource = () => state.view("sweeps.source", sourceOf(state.get("material")) ?? "dma");
 
-/** What went wrong with files that were brought. */
-export const failed = signal(null);
-
-async function attempt(work) {
-  failed.value = null;
-  try {
-    await work();
-  } catch (error) {
-    failed.value = error;
-  }
-}
+const [attempt, failed] = attempts();
+export { failed };
 
 /** Have another source; with it `beside`, other keys. */
 export function choose(source, value, { origin, ...beside } = {}) {

@@ -3,24 +3,13 @@
 import { downloadUrl, runJob, uploadFiles } from "../api.js";
 import { Field, Form } from "../fields.js";
 import { Job, newest } from "../jobs.js";
-import { announce, explain, page } from "../page.js";
-import { html, signal, view } from "../reactive.js";
+import { announce, attempts, explain, page } from "../page.js";
+import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Notes, Numbers, Progress, shown } from "../views.js";
 import { Copy, FileLine, MaterialCard } from "./export_card.js";
 
-const failed = signal(null); // what went wrong with files or the archive
-
-/** Do something with files; what goes wrong is shown and said. */
-async function attempt(work) {
-  failed.value = null;
-  try {
-    announce(await work());
-  } catch (error) {
-    failed.value = error.message;
-    announce(`Error: ${error.message}`);
-  }
-}
+const [attempt, failed] = attempts();
 
 /** Download the run file with its data. */
 async function pack() {
@@ -69,14 +58,14 @@ function runFile() {
     return html`<${Card} title="Run file">
       <${Field} path="title" label="Title of the study and report" />
       <div class="row">
-        <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(() => pack())}>
+        <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(pack)}>
           Run file and data (zip)
         <//>
         <${Copy} text=${() => text} />
         <${Button} kind="small" onClick=${() => startOver()}>Start over<//>
       </div>
       ${cases && html`<p class="help">${about}</p>`}
-      <${Notes} kind="error" list=${[...wrong, failed.value]} />
+      <${Notes} kind="error" list=${[...wrong, failed.value?.message]} />
       <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
       <p class="help">Run in its folder: <code>viscofric run study.toml</code></p>
       <${Drop} label="Open a run file" help="Drop the zip file here, or the run file with its data files, or choose them."

@@ -3,8 +3,8 @@
 import { downloadUrl, uploadFiles, useExample } from "../api.js";
 import { Columns } from "../columns_form.js";
 import { Form } from "../fields.js";
-import { announce, page } from "../page.js";
-import { html, signal, view } from "../reactive.js";
+import { announce, attempts, page } from "../page.js";
+import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Folded, Notes, shown } from "../views.js";
 import { Checks, Facts, Run, measured, shownMeasured } from "./measurement_parts.js";
@@ -12,18 +12,14 @@ import { Checks, Facts, Run, measured, shownMeasured } from "./measurement_parts
 const KINDS =
   "Exports of an MTM or ETM, tables of readings, or a table of friction curves; together they make one test.";
 let dropped = null; // names of the files that were brought last
-const unread = signal(null); // why files could not be brought
+const [attempt, unread] = attempts();
 
 /** Read files that are brought. */
-async function take(bring) {
-  unread.value = null;
-  try {
+const take = (bring) =>
+  attempt(async () => {
     dropped = await bring();
     await measured.run({ study: state.study, options: { files: dropped } });
-  } catch (error) {
-    unread.value = error.message;
-  }
-}
+  });
 
 function takeColumns(named) {
   const { curves, ...before } = state.get("measurement") ?? {};
@@ -56,7 +52,7 @@ export function source() {
         ${table && html`<${Button} kind="quiet small" symbol="close" onClick=${() => state.set("measurement", undefined)}>Remove the measurement<//>`}
       </div>
       <${Run} job=${measured} label="Reading and separating" />
-      <${Notes} kind="error" list=${[unread.value]} />
+      <${Notes} kind="error" list=${[unread.value?.message]} />
       <${Columns} values=${measured.error?.values} chosen=${state.get("measurement.columns")} choose=${takeColumns} />
       <${Notes} of=${of} kind="error" list=${[refusalOf(of)]} />
       ${of?.synthetic && html`<span class="badge">synthetic data</span>`}
