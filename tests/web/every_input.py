@@ -156,9 +156,9 @@ OTHERS: dict[str, Any] = {
     "cluster.cores": 2,
 }
 STEPS = ("sweeps", "shift", "spectrum", "contact", "motion", "measurement")
-#: Of each figure on the page, seen or not: its key, and whether it is grey.
-SHOWN = """[...document.querySelectorAll('.figure[data-inputs]')].map((one) =>
-  [one.id, one.dataset.inputs, one.classList.contains('stale')])"""
+#: Of each figure, number, table and note on the page, seen or not: its name, its key, and whether it is grey.
+SHOWN = """[...document.querySelectorAll('[data-inputs]')].map((one) =>
+  [one.id || one.className, one.dataset.inputs, one.closest('.stale') !== null])"""
 #: Of each figure that is seen: whether it is grey, the inputs that it is of, and what is drawn.
 SEEN = """Object.fromEntries([...document.querySelectorAll('.step:not([hidden]) .figure')]
   .filter((one) => one.offsetParent)
@@ -179,11 +179,12 @@ FOLLOWING = ("pressure-map", "pressure-profile", "surface-profile", "modulus", "
 
 
 def wrong_figures(tab: Tab) -> list[Any]:
-    """Return figures of other inputs than those of now that are not grey, and figures that are grey for nothing."""
+    """Return what is of other inputs than those of now and not grey, and what is grey for nothing."""
     return tab.value(
-        f"""(({{ keys, following }}) => {SHOWN}.filter(([id, key, grey]) => grey === keys.includes(key)
-          && !(page.jobs.busy() && !grey && following.includes(id))))(
-            {{ keys: Object.values(page.jobs.keys()), following: given[0].map((one) => `figure-${{one}}`) }})""",
+        f"""(({{ keys, following }}) => {SHOWN}.filter(([, key, grey]) => grey === keys.includes(key)
+          && !(page.jobs.busy() && !grey && following.includes(key))))({{
+            keys: Object.values(page.jobs.keys()),
+            following: given[0].map((one) => document.getElementById(`figure-${{one}}`)?.dataset.inputs) }})""",
         FOLLOWING,
     )
 
