@@ -8,10 +8,7 @@ import { shapeOf, state } from "./state.js";
 import { Card, Drop, Notes } from "./views.js";
 
 const POINTS = ["ball", "ellipsoid", "cone"]; // whose loads are forces
-const ROUGH = ["made", "scan"];
 
-/** The name of what is in contact, in a sentence. */
-export const nounOf = (study) => (ROUGH.includes(shapeOf(study)) ? "rough surface" : shapeOf(study));
 
 const shape = computed(() => shapeOf(state.study));
 const left = new Map(); // what the study had of other shapes, as long as the page is open
