@@ -1,6 +1,6 @@
 """How soon the page shows something: its first figure, the whole curve, and the draft of a contact behind a slider.
 
-The limits are those of an idle machine with two cores; elsewhere they are longer, as the time of busy processes is.
+The limits are those of two cores that have nothing else to do: they are not judged where others compute.
 """
 
 from __future__ import annotations
@@ -36,10 +36,16 @@ print((time.perf_counter() - wall) / 0.5)
 """
 
 
+_MOST = 1.3  # a little noise
+
+
 def contention() -> float:
-    """Return how many times longer than their own work two busy processes take: 1 on two cores without other work."""
+    """Return how many times longer than their own work two busy processes take; skip the test where others compute."""
     both = [subprocess.Popen([sys.executable, "-c", _BUSY], stdout=subprocess.PIPE, text=True) for _ in range(2)]
-    return max(1.0, *(float(one.communicate()[0]) for one in both))
+    found = max(float(one.communicate()[0]) for one in both)
+    if found > _MOST:
+        pytest.skip(f"others compute here: two busy processes take {found:.1f} times their own time")
+    return max(1.0, found)
 
 
 def test_first_figure_and_whole_curve_come_soon(browser: Browser, tmp_path: Path) -> None:
