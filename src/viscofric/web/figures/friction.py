@@ -177,11 +177,11 @@ def _factors(found: dict[str, Any], **more: Any) -> Spec:
 
 def identified_view(found: dict[str, Any], curves: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     """Return ``figures``, ``tables`` and ``anchored_at`` of a result of the job ``identify``."""
-    lines = [
-        line(one["speed"], one["fitted"], f"{quantity(one['temperature'], 'temperature')}, fitted", **look)
-        for one in found["fit"]
-        if (look := {"band": (one["lower"], one["upper"]), "legend": False, "temperature": one["temperature"]})
-    ]
+    lines = []
+    for one in found["fit"]:
+        look: Spec = {"temperature": one["temperature"], "legend": False}
+        name = f"{quantity(one['temperature'], 'temperature')}, fitted"
+        lines.append(line(one["speed"], one["fitted"], name, band=(one["lower"], one["upper"]), **look))
     measured = [{**trace, "size": 5} for one in curves for trace in _measured(one, "viscoelastic")]
     title, sentence = "Friction of the identified material", found["sentences"][0]
     head = ["level", f"|E| at {quantity(found['middle'], 'angular_frequency')}", "rms of friction", "χ² above the best"]

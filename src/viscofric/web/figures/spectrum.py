@@ -80,11 +80,11 @@ def spectrum_figures(found: dict[str, Any]) -> dict[str, Spec]:
     fitted = bool((spectrum["fit"] or {}).get("frequency_range"))
     figures = moduli_figures(found, spectrum["reference"], fitted=fitted, path="spectrum.", moved=points_of)
     if spectrum["residual"]:
-        residuals = [
-            points("spectrum.measured.angular_frequency", f"spectrum.residual.{key}", name, **look)
-            for key, name, symbol, colour in _MODULI
-            if (look := {"symbol": symbol, "colour": colour, "open": True, "size": 5})
-        ]
+        residuals = []
+        for key, name, symbol, colour in _MODULI:
+            look: Spec = {"symbol": symbol, "colour": colour, "open": True, "size": 5}
+            where = ("spectrum.measured.angular_frequency", f"spectrum.residual.{key}")
+            residuals.append(points(*where, name, **look))
         figures["spectrum-residuals"] = figure(
             "Measured over fitted modulus",
             REDUCED_FREQUENCY,

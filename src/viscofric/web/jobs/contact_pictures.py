@@ -220,7 +220,8 @@ def pictures(
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
     found: dict[str, Any] = drawn(requested, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
-    return (whole := shared | found) | contact_view(whole, case)
+    found |= shared
+    return found | contact_view(found, case)
 
 
 def _doubts(requested: RequestedContact, within: bool | None) -> list[str]:
