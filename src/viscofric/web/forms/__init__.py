@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 FORMS: dict[str, list[Field]] = {
     "questions": others.QUESTIONS,
     "making": others.MAKING,
+    "shift": others.SHIFT,
+    "amplitude": others.AMPLITUDE,
     "spectrum": others.SPECTRUM,
     "shape": contact.SHAPE,
     "scan": contact.SCAN,
@@ -26,6 +28,8 @@ FORMS: dict[str, list[Field]] = {
     "heating": contact.HEATING,
     "history": others.HISTORY,
     "separation": others.SEPARATION,
+    "master": others.MASTER,
+    "identify": others.IDENTIFY,
     "solving": others.SOLVING,
     "card": others.CARD,
 }

@@ -35,15 +35,51 @@ QUESTIONS = [
     ),
     field("material.sheet", "Sheet", help="Name of the only sheet of the workbook to read."),
 ]
+_REFERENCE = field(
+    "material.reference_temperature",
+    "Reference temperature",
+    "temperature",
+    help="The shift factor is 1 at this temperature.",
+)
 MAKING = [
     field("material.name", "Name"),
-    field(
-        "material.reference_temperature",
-        "Reference temperature",
-        "temperature",
-        help="The shift factor is 1 at this temperature.",
-    ),
+    _REFERENCE,
     number("material.poisson_ratio", "Poisson’s ratio", min=0, max=0.5, step=0.01, placeholder="0.5"),
+]
+_LAWS = [
+    ["best", "the best law"],
+    ["wlf", "WLF"],
+    ["arrhenius", "Arrhenius"],
+    ["vft", "VFT"],
+    ["wlf+arrhenius", "WLF, Arrhenius below Tg"],
+    ["polynomial", "polynomial in 1/T"],
+]
+SHIFT = [
+    _REFERENCE,
+    choice(
+        "material.shift",
+        "α(T) used",
+        [["measured", "as measured"], *_LAWS],
+        "measured",
+        help="Measured factors are valid between the isotherms only; a law extrapolates.",
+    ),
+    choice(
+        "material.vertical_shift",
+        "Vertical shift b(T)",
+        [["none", "none"], ["free", "fitted"], ["density", "density times temperature"]],
+        "none",
+    ),
+]
+AMPLITUDE = [
+    number(
+        "material.strain",
+        "Scale the moduli to this tensile strain",
+        min=0,
+        max=10,
+        placeholder="not scaled",
+        help="A fraction: 0.05 is 5 %. An approximation by Kraus’s law, without 95 % bands.",
+    ),
+    number("material.measured_at", "Tensile strain of the frequency sweeps", min=0, max=10, placeholder="small"),
 ]
 SPECTRUM = [
     choice(
@@ -123,6 +159,68 @@ SEPARATION = [
         help="Relative; a smaller gap is scatter about the same nominal speed.",
     ),
     field("measurement.temperature_tolerance", "Gap between temperatures", unit="delta_degC", placeholder="1 K"),
+]
+#: Options of the job master, which are no part of the study, and which of its curves is shown.
+MASTER = [
+    choice(
+        "@friction.beside",
+        "Compare with",
+        [["rubber", "the page's material"], ["nothing", "nothing (friction alone)"]],
+        "rubber",
+    ),
+    choice(
+        "@friction.shifted",
+        "Shifted by",
+        [["rubber", "the material's shift factors"], ["found", "shift factors from friction"]],
+        "rubber",
+    ),
+    choice("@friction.law", "Law fitted to the shift factors from friction", [*_LAWS, ["none", "none"]], "best"),
+]
+_CONTACTS = ["indentation", "contact_area", "half_width"]
+#: Options of the job identify, which are no part of the study.
+IDENTIFY = [
+    choice(
+        "@identify.shift",
+        "Shift factors",
+        [["friction", "found from friction"], ["rubber", "of the page's material"]],
+    ),
+    choice(
+        "@identify.anchor",
+        "Anchor (fixes the magnitude of the modulus)",
+        [
+            ["rubber", "|E| of the page's material at one frequency"],
+            ["modulus", "a known modulus"],
+            ["indentation", "indentation of the ball"],
+            ["contact_area", "contact area"],
+            ["half_width", "contact half-width"],
+            ["nothing", "none: magnitude not identified"],
+        ],
+        "rubber",
+        help="Friction determines the shape of E(ω) but hardly its magnitude.",
+    ),
+    *when(
+        {"@identify.anchor": ["modulus"]},
+        field("@identify.modulus", "Modulus |E|", "modulus", placeholder="8 MPa"),
+        field("@identify.frequency", "Frequency of the modulus", "frequency", placeholder="1 Hz"),
+    ),
+    *when(
+        {"@identify.anchor": ["rubber"]},
+        field("@identify.frequency", "Anchor frequency", "frequency", placeholder="1 Hz", otherwise="1 Hz"),
+    ),
+    *when(
+        {"@identify.anchor": _CONTACTS},
+        field("@identify.size", "Measured size", placeholder="0.8 mm, or 12 mm^2"),
+        field("@identify.speed", "Anchor speed", "speed", placeholder="100 mm/s"),
+        field("@identify.load", "Anchor load", "load", placeholder="25 N"),
+    ),
+    *when(
+        {"@identify.anchor": ["rubber", "modulus", *_CONTACTS]},
+        field("@identify.temperature", "Anchor temperature", "temperature"),
+    ),
+    *when(
+        {"@identify.anchor": ["modulus", *_CONTACTS]},
+        number("@identify.error", "Relative standard error", min=0, max=1, placeholder="0.01"),
+    ),
 ]
 HISTORY = when(
     {"history": True},

@@ -9,7 +9,6 @@ import { Card, Drop, Notes } from "./views.js";
 
 const POINTS = ["ball", "ellipsoid", "cone"]; // whose loads are forces
 
-
 const shape = computed(() => shapeOf(state.study));
 const left = new Map(); // what the study had of other shapes, as long as the page is open
 

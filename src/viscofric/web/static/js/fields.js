@@ -178,10 +178,20 @@ const valueOf = (path) => (path === "shape" ? shapeOf(state.study) : (state.get(
 const holds = ([path, wanted]) =>
   Array.isArray(wanted) ? wanted.includes(valueOf(path) ?? null) : (state.get(path) !== undefined) === wanted;
 
+const isSeen = ({ when }) => !when || when.some((one) => Object.entries(one).every(holds));
+const declare = ({ path, as, otherwise }) => declared.set(path, as === "choice" ? otherwise : undefined);
+
+/** What the fields of a form that are shown have, by the last parts of their paths; without a value, what they have `otherwise`. */
+export function given(fields) {
+  fields.forEach(declare);
+  const values = fields.filter(isSeen).map(({ path, otherwise }) => [path, state.get(path) ?? otherwise ?? undefined]);
+  return Object.fromEntries(values.map(([path, value]) => [path.split(".").at(-1), value]));
+}
+
 export const Field = view((about, self) => {
-  const { path, label, as = "text", help, when, id = `field-${self.number}` } = about;
-  declared.set(path, as === "choice" ? about.otherwise : undefined);
-  const seen = !when || when.some((one) => Object.entries(one).every(holds));
+  const { path, label, as = "text", help, id = `field-${self.number}` } = about;
+  declare(about);
+  const seen = isSeen(about);
   // errors about a key that has its own field while it is there are not at its switch
   const isHome = seen && !(as === "switch" && typeof state.get(path) === "string");
   settle(self, isHome ? path : null);

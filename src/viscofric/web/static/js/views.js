@@ -3,7 +3,7 @@
 
 import { inputsOf, isStale } from "./jobs.js";
 import { html, view } from "./reactive.js";
-import { page, state } from "./state.js";
+import { page } from "./state.js";
 import * as units from "./units.js";
 
 /** Properties of an element that shows a result: its classes and the key of the result's inputs. */
@@ -146,39 +146,4 @@ export const Progress = view(({ job, label, cancels = true, ended = cancelledOnl
     ${job.progress && cancels && html`<${Button} kind="quiet small" onClick=${() => job.cancel()}>Cancel<//>`}
     ${!job.progress && job.ended?.cancelled && html`<${Button} kind="quiet small" onClick=${() => job.resume()}>Resume<//>`}
   </div>`;
-});
-
-const idOf = (name) => `option-${name.replace(".", "-")}`;
-const Labelled = ({ name, label, help, hidden, children }) =>
-  html`<div class="field" hidden=${hidden}>
-    <label for=${idOf(name)} class="field-label">${label}</label>
-    ${children}
-    ${help && html`<p class="help" id="${idOf(name)}-help">${help}</p>`}
-  </div>`;
-
-/** A text box for a choice that is no part of the study; it is kept over reloads. */
-export const Box = view(({ name, placeholder, ...about }) => {
-  const { activeElement: active } = document;
-  const kept = state.view(name, "");
-  return html`<${Labelled} name=${name} ...${about}>
-    <input type="text" id=${idOf(name)} placeholder=${placeholder} autocomplete="off" spellcheck=${false}
-      value=${active?.id === idOf(name) ? active.value : kept}
-      onChange=${(event) => state.setView(name, event.target.value.trim())} />
-  <//>`;
-});
-
-/** A choice that is no part of the study, kept over reloads; `otherwise` is that until the user chooses. */
-export function choice(name, options, otherwise = () => null) {
-  const known = options.map(([value]) => value);
-  return { name, options, value: () => [state.view(name), otherwise()].find((one) => known.includes(one)) ?? known[0] };
-}
-
-export const Choice = view(({ of: { name, options, value }, ...about }) => {
-  const take = (event) => state.setView(name, event.target.value);
-  const now = value();
-  return html`<${Labelled} name=${name} ...${about}>
-    <select id=${idOf(name)} value=${now} onChange=${take}>
-      ${options.map(([one, text]) => html`<option value=${one} selected=${one === now}>${text}</option>`)}
-    </select>
-  <//>`;
 });

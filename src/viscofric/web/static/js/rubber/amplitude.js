@@ -1,9 +1,9 @@
 // The amplitude sweep of the material: Kraus's law, the linear range, and the strain that the moduli are scaled to.
 
+import { Form } from "../fields.js";
 import { Figure } from "../figures.js";
-import { Field } from "../fields.js";
 import { Job } from "../jobs.js";
-import { explain } from "../page.js";
+import { explain, page } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
@@ -46,9 +46,7 @@ export const Amplitude = view(() => {
     <${Notes} kind="error" list=${[error && explain(error, "amplitude")]} />
     <${Notes} of=${of} list=${of ? [of.words, ...of.linear, ...of.notes] : []} />
     <${Figure} id="amplitude-sweep" title="Amplitude sweep" of=${of} />
-    <${Field} as="number" path="material.strain" label="Scale the moduli to this tensile strain" min=${0} max=${10} placeholder="not scaled"
-      help="A fraction: 0.05 is 5 %. An approximation by Kraus’s law, without 95 % bands." />
-    <${Field} as="number" path="material.measured_at" label="Tensile strain of the frequency sweeps" min=${0} max=${10} placeholder="small" />
+    <${Form} of=${page.start.forms.amplitude} />
     <p class="help" aria-live="polite">${atContact.progress ? "Solving the contact" : found ? ofContact(found) : ""}</p>
     <div class="row">
       <${Button} onClick=${() => atContact.run()}>Use the strain of the contact<//>

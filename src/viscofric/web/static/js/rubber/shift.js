@@ -1,8 +1,8 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
 import { Figure } from "../figures.js";
-import { Field } from "../fields.js";
-import { explain } from "../page.js";
+import { Form } from "../fields.js";
+import { explain, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
@@ -11,20 +11,6 @@ import { TESTS, isMade, rubber, shownRubber } from "./made.js";
 import { Shifted, startShifted } from "./shifted.js";
 import { failed, takeFactors } from "./source.js";
 
-const SHIFTS = [
-  ["measured", "as measured"],
-  ["best", "the best law"],
-  ["wlf", "WLF"],
-  ["arrhenius", "Arrhenius"],
-  ["vft", "VFT"],
-  ["wlf+arrhenius", "WLF, Arrhenius below Tg"],
-  ["polynomial", "polynomial in 1/T"],
-];
-const VERTICALS = [
-  ["none", "none"],
-  ["free", "fitted"],
-  ["density", "density times temperature"],
-];
 const diagram = signal("van_gurp_palmen");
 
 /** The laws that were compared, each with a button where shift factors are those of the sweeps. */
@@ -80,11 +66,7 @@ const Settings = view(() => {
   const given = state.get("material.shift_factors");
   return html`<${Card} title="Shift">
     <div class="panel">
-      <${Field} path="material.reference_temperature" label="Reference temperature" kind="temperature"
-        help="The shift factor is 1 at this temperature." />
-      <${Field} as="choice" path="material.shift" label="α(T) used" options=${SHIFTS} otherwise="measured"
-        help="Measured factors are valid between the isotherms only; a law extrapolates." />
-      <${Field} as="choice" path="material.vertical_shift" label="Vertical shift b(T)" options=${VERTICALS} otherwise="none" />
+      <${Form} of=${page.start.forms.shift} />
       ${
         given &&
         html`<div class="row">

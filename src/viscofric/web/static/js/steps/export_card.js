@@ -1,7 +1,7 @@
 // The rubber as a card for finite-element programs; and how texts are copied and files are fetched.
 
 import { downloadUrl } from "../api.js";
-import { Form } from "../fields.js";
+import { Form, given } from "../fields.js";
 import { Job } from "../jobs.js";
 import { announce } from "../page.js";
 import { html, view } from "../reactive.js";
@@ -33,11 +33,9 @@ export const FileLine = ({ name, title, size: bytes }) =>
   html`<li><${Download} name=${name} /><span class="help">${title}, ${size(bytes)}</span></li>`;
 
 const fields = page.start.forms.card;
-const given = () =>
-  fields.map(({ path, otherwise }) => [path.replace("@card.", ""), state.get(path) ?? otherwise ?? undefined]);
 const cardJob = new Job("export-card", {
   manual: true,
-  inputs: () => ({ study: state.study, options: Object.fromEntries(given()) }),
+  inputs: () => ({ study: state.study, options: given(fields) }),
 });
 
 /** Form and text of a card. */

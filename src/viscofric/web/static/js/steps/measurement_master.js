@@ -1,32 +1,16 @@
 // Friction of all temperatures on one curve, by the rubber's shift factors and by those found from friction itself.
 
-import { Figure } from "../figures.js";
 import { downloadUrl } from "../api.js";
+import { Form, given } from "../fields.js";
+import { Figure } from "../figures.js";
+import { page } from "../page.js";
 import { html, view } from "../reactive.js";
-import { Card, Choice, Notes, choice } from "../views.js";
+import { Card, Notes } from "../views.js";
 import { agreement } from "./measurement_comparison.js";
 import { Facts, Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
 
-const LAWS = [
-  ["best", "the best law"],
-  ["wlf", "WLF"],
-  ["arrhenius", "Arrhenius"],
-  ["vft", "VFT"],
-  ["wlf+arrhenius", "WLF and Arrhenius"],
-  ["polynomial", "polynomial"],
-  ["none", "none"],
-];
-
-const beside = choice("friction.beside", [
-  ["rubber", "the page's material"],
-  ["nothing", "nothing (friction alone)"],
-]);
-const shiftedBy = choice("friction.shifted", [
-  ["rubber", "the material's shift factors"],
-  ["found", "shift factors from friction"],
-]);
-const law = choice("friction.law", LAWS);
-export const master = ofMeasured("master", () => ({ beside: !alone(), law: law.value() }));
+const fields = page.start.forms.master;
+export const master = ofMeasured("master", () => ({ beside: !alone(), law: given(fields).law }));
 
 /** The figure of a master curve; by the material's shift factors with the prediction, which is made with them, if it is known. */
 function specOf(of, name) {
@@ -41,14 +25,11 @@ function specOf(of, name) {
 export const MasterCurve = view(() => {
   const of = master.error ? null : master.result;
   const { found, by_rubber: byRubber, refusal, notes = [] } = of ?? {};
-  const drawn = found && (!byRubber || shiftedBy.value() === "found") ? "found" : "by_rubber";
+  const drawn = found && (!byRubber || given(fields).shifted === "found") ? "found" : "by_rubber";
+  const offered = { "@friction.beside": true, "@friction.shifted": found && byRubber, "@friction.law": found };
   const refused = refusal && `Shift factors cannot be determined from friction alone: ${refusal}`;
   return html`<${Card} title="Friction master curve" hidden=${!shownMeasured()?.curves}>
-    <div class="form">
-      <${Choice} of=${beside} label="Compare with" />
-      <${Choice} of=${shiftedBy} label="Shifted by" hidden=${!(found && byRubber)} />
-      <${Choice} of=${law} label="Law fitted to the shift factors from friction" hidden=${!found} />
-    </div>
+    <${Form} of=${fields.filter(({ path }) => offered[path])} />
     <${Run} job=${master} label="Shifting" />
     <div class="grid">
       <${Figure} id="friction-master-curve" title="Friction at one temperature" height=${340} of=${of}
