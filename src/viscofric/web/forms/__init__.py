@@ -26,6 +26,7 @@ FORMS: dict[str, list[Field]] = {
     "conditions": contact.CONDITIONS,
     "interface": contact.INTERFACE,
     "heating": contact.HEATING,
+    "motion": others.MOTION,
     "history": others.HISTORY,
     "separation": others.SEPARATION,
     "master": others.MASTER,

@@ -222,6 +222,36 @@ IDENTIFY = [
         number("@identify.error", "Relative standard error", min=0, max=1, placeholder="0.01"),
     ),
 ]
+_IMPACT = {"@motion.preset": ["impact"]}
+_ROWS = {"@motion.preset": ["hold", "start", "stop", "back"]}
+#: What the job motion solves, which is no part of the study; the page knows what its contact lets prescribe.
+MOTION = [
+    choice(
+        "@motion.preset",
+        "Example",
+        [
+            ["hold", "Press and hold"],
+            ["start", "Start from rest"],
+            ["stop", "Start and stop"],
+            ["back", "Back and forth"],
+            ["impact", "Impact of a mass"],
+        ],
+    ),
+    *when(
+        _ROWS,
+        choice("@motion.control", "Prescribed", []),
+        choice("@motion.path", "Motion given as", [["speed", "Speed"], ["position", "Position"]]),
+        choice("@motion.before", "Before the first time", ["untouched", "at rest", "sliding"]),
+    ),
+    *when(
+        _IMPACT,
+        number("@motion.impact.mass", "Mass (kg)", min=0, otherwise=0.033),
+        number("@motion.impact.speed", "Speed (m/s)", min=0, otherwise=1),
+        number("@motion.impact.gravity", "Gravity (m/s²)", otherwise=0),
+        number("@motion.impact.rebounds", "Contacts to follow", min=1, step=1, otherwise=1),
+    ),
+    field("@motion.temperature", "Temperature", "temperature"),
+]
 HISTORY = when(
     {"history": True},
     field("history.load_time", "Time to load", "time", placeholder="0 s"),

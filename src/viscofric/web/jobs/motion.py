@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from viscofric.datasets import plain, record
 from viscofric.friction.cases.case import moved
@@ -14,6 +14,7 @@ from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import surface_of
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import prefixed
+from viscofric.study.run_file.tables import kelvin
 from viscofric.web.figures.motion import motion_view
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.context import JobError
@@ -97,6 +98,11 @@ class Rows(BaseModel):
         return History(time=[row.time for row in self.rows], **values, **path, before=self.before, **more)
 
 
+def _temperature(value: object) -> object:
+    """Return a temperature in K, of text with a unit too."""
+    return kelvin(value) if isinstance(value, str) else value
+
+
 class Options(Rows):
     """What the study's first indenter or surface does.
 
@@ -104,12 +110,12 @@ class Options(Rows):
     ----------
     impact : Impact, optional
         Instead of a history.
-    temperature : float, optional
-        K, instead of the study's first one.
+    temperature : float or str, optional
+        K, or text with its unit; instead of the study's first one.
     """
 
     impact: Impact | None = None
-    temperature: float | None = Field(None, gt=0.0, lt=1e5)
+    temperature: Annotated[float | None, BeforeValidator(_temperature)] = Field(None, gt=0.0, lt=1e5)
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:

@@ -13,7 +13,7 @@
 //   keys       {path: value, …}: what a switch turns on
 //   spacing    of a range: ["log", "linear"]
 //   when       [{path: true | false | [value, …]}, …]: it is shown if all of one entry hold; "shape" is that of the contact
-//   shown(), onChange(value)      instead of what a choice has at its path
+//   shown()                       instead of what a choice has at its path; onChange(value) instead of a change there
 
 import * as jobs from "./jobs.js";
 import { computed, html, signal, view } from "./reactive.js";
@@ -55,7 +55,7 @@ export const Select = view(({ options, value, onChange, ...rest }, self) => {
 });
 
 /** What a box needs for the value at a path: text of a field's kind turned into it, and the reverse. */
-function at(path, { as, kind, unit, list }) {
+function at(path, { as, kind, unit, list, onChange = (value) => state.set(path, value) }) {
   const one = (text) => {
     if (as === "number") return Number.isNaN(Number(text)) ? text : Number(text);
     if (unit) return Number.isNaN(Number(text)) ? text.trim() : `${text.trim()} ${unit}`;
@@ -70,7 +70,7 @@ function at(path, { as, kind, unit, list }) {
   };
   return {
     value: () => listed(state.get(path)).map(kind || unit ? readable : String).join(", "),
-    take: (text) => state.set(path, text === undefined ? undefined : (list ? several : one)(text)),
+    take: (text) => onChange(text === undefined ? undefined : (list ? several : one)(text)),
   };
 }
 

@@ -12,13 +12,6 @@ export const CONTROLS = {
   rough: { pressure: ["Mean pressure", "pressure"], gap: ["Mean gap", "length"] },
 };
 export const PATHS = { speed: ["Speed", "speed"], position: ["Position", "length"] };
-export const PRESETS = {
-  hold: "Press and hold",
-  start: "Start from rest",
-  stop: "Start and stop",
-  back: "Back and forth",
-  impact: "Impact of a mass",
-};
 const BASES = { point: 10, line: 2000, rough: 5e5, indentation: 1e-4, gap: 1e-5 };
 const [WIDE, LANE, GAP, EDGE] = [640, 110, 34, 10];
 

@@ -3,7 +3,7 @@
 //
 // state.study                       the document, frozen; never change it in place
 // state.get("conditions.load")      a value, or undefined; paths like "material.dma[1]" reach into lists, a key of a list of
-//                                   tables, such as several [[material]], is that of the first, and "@key" is a view's
+//                                   tables, such as several [[material]], is that of the first, and "@key" or "@key.part" is a view's
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
 // state.change({path: value, …})    changes several keys as one step of undo
 // state.slide(path, value)          the same as set, for a slider: until state.settle() it is one step of undo
@@ -70,7 +70,7 @@ function held(path, read) {
   if (!known.has(path)) known.set(path, computed(read));
   return known.get(path).value;
 }
-const view = (key) => held(`@${key}`, () => views.value[key]);
+const view = (key) => held(`@${key}`, () => views.value[key] ?? valueAt(views.value, key));
 const setView = (key, value) => (views.value = { ...views.peek(), [key]: value });
 
 /** Put a document and a view in place; `steps` gets what was there, and returns the past and the future. */

@@ -1,22 +1,21 @@
 // Motion over time: a history edited as a table or a sketch, or an impact, and the solved contact.
 
-import { Box, Select } from "../fields.js";
+import { Form } from "../fields.js";
 import { Figure, save } from "../figures.js";
 import { Job } from "../jobs.js";
-import { CONTROLS, PATHS, PRESETS, PointTable, Sketch, contactOf, converted, presetRows } from "../motion_history.js";
+import { CONTROLS, PATHS, PointTable, Sketch, contactOf, converted, presetRows } from "../motion_history.js";
 import { StudyHistory } from "../motion_study.js";
-import { announce, explain } from "../page.js";
+import { announce, explain, page } from "../page.js";
 import { html, signal, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Numbers, Progress } from "../views.js";
 
-const IMPACT = {
-  mass: ["Mass (kg)", 0.033],
-  speed: ["Speed (m/s)", 1],
-  gravity: ["Gravity (m/s²)", 0],
-  rebounds: ["Contacts to follow", 1],
-};
+const form = page.start.forms.motion;
+const PART = "@motion.impact.";
+const IMPACT = form
+  .filter(({ path }) => path.startsWith(PART))
+  .map(({ path, otherwise }) => [path.slice(PART.length), otherwise]);
 const UNITS = { load: "N", line_load: "N/m", length: "m", pressure: "Pa", speed: "m/s" };
 
 const history = () => state.view("motion");
@@ -34,21 +33,20 @@ const motion = new Job("motion", {
     return { study: state.study, options: { temperature: asked.temperature, ...given } };
   },
 });
-const refused = signal(null); // what cannot be read: {sentence, text} with the place, {row, at} or {field}
+const refused = signal(null); // what cannot be read in the table: {sentence, text, row, at}
 
 /** Change the history, as a step of undo unless it follows from the study. */
 function change(values, keep = state.edit) {
   refused.value = null;
-  keep("motion", { temperature: null, ...history(), ...values });
+  keep("motion", { ...history(), ...values });
 }
 
 /** Begin with an example of the study's contact. */
 function begin(preset, keep) {
   const contact = contactOf(state.study);
   const [control] = Object.keys(CONTROLS[contact]);
-  const values = Object.fromEntries(Object.entries(IMPACT).map(([key, [, value]]) => [key, value]));
   const rows = presetRows(preset, state.study);
-  const impact = history()?.impact ?? values;
+  const impact = history()?.impact ?? Object.fromEntries(IMPACT);
   change({ preset, contact, control, path: "speed", before: "untouched", rows, impact }, keep);
 }
 
@@ -61,65 +59,42 @@ function csv() {
   return [head, ...rows].map((row) => row.join(",")).join("\n") + "\n";
 }
 
-const labelsOf = (entries) => Object.entries(entries).map(([value, text]) => [value, [text].flat()[0]]);
-
-const Line = ({ id, label, children }) =>
-  html`<div class="field"><label for="motion-${id}" class="field-label">${label}</label>${children}</div>`;
-
-/** A choice of the history. */
-const Pick = ({ id, label, ...rest }) =>
-  html`<${Line} id=${id} label=${label}><${Select} id="motion-${id}" ...${rest} /><//>`;
-
-/** One number of the history; other input is refused. */
-const Entry = view(({ id, label, kind, value, placeholder, empty = false, onRead }) => {
-  const { field, text } = refused.value ?? {};
-  const take = (typed) => {
-    const found = typed ? units.read(typed, kind) : null;
-    if (typed ? Number.isFinite(found) : empty) onRead(found);
-    else refused.value = { field: id, text: typed ?? "", sentence: `${label}: enter a number.` };
-  };
-  const shown = () => (field === id ? text : value === null ? "" : kind === "plain" ? value : units.show(value, kind));
-  return html`<${Line} id=${id} label=${label}>
-    <${Box} id="motion-${id}" value=${shown} take=${take} placeholder=${placeholder}
-      aria-invalid=${field === id ? "true" : undefined} />
-  <//>`;
-});
-
 const firstTemperature = () => {
   const given = state.get("conditions.temperature");
   return String([given?.from ?? given ?? ""].flat()[0]).replace("degC", "°C");
 };
 
+/** The fields, each with what it changes. */
+function fields({ preset, contact, rows, impact }) {
+  const control = (one) => change({ control: one, path: "speed", rows: presetRows(preset, state.study, one) });
+  const own = {
+    "@motion.preset": { onChange: (one) => begin(one) },
+    "@motion.control": {
+      options: Object.entries(CONTROLS[contact]).map(([one, [label]]) => [one, label]),
+      onChange: control,
+    },
+    "@motion.path": { onChange: (path) => change({ path, rows: converted(rows, path) }) },
+    "@motion.temperature": { placeholder: firstTemperature() },
+  };
+  return form.map((one) => {
+    const [, name, part] = one.path.split(".");
+    const keep = (value = one.otherwise) => change({ [name]: part ? { ...impact, [part]: value } : value });
+    return { onChange: keep, ...one, ...own[one.path] };
+  });
+}
+
 const History = view(() => {
   const now = history();
-  const { preset, contact, control, path, rows } = now;
-  const hits = preset === "impact";
-  const prescribe = (one) => change({ control: one, path: "speed", rows: presetRows(preset, state.study, one) });
-  const hit = (name) => (value) => change({ impact: { ...now.impact, [name]: value } });
+  const hits = now.preset === "impact";
   return html`<${Card} title="History">
-    <${Pick} id="preset" label="Example" options=${labelsOf(PRESETS)} value=${preset} onChange=${(one) => begin(one)} />
+    <${Form} of=${fields(now)} />
     ${
-      hits
-        ? html`<div class="form">
-            ${Object.entries(IMPACT).map(
-              ([name, [label]]) =>
-                html`<${Entry} key=${name} id=${name} label=${label} kind="plain" value=${now.impact[name]} onRead=${hit(name)} />`,
-            )}
-          </div>`
-        : html`<div class="stack">
-            <${Pick} id="control" label="Prescribed" options=${labelsOf(CONTROLS[contact])} value=${control} onChange=${prescribe} />
-            <${Pick} id="path" label="Motion given as" options=${labelsOf(PATHS)} value=${path}
-              onChange=${(one) => change({ path: one, rows: converted(rows, one) })} />
-            <${Pick} id="before" label="Before the first time" options=${["untouched", "at rest", "sliding"]} value=${now.before}
-              onChange=${(one) => change({ before: one })} />
-            <div class="scroll">
-              <${PointTable} rows=${rows} columns=${columnsOf(now)} wrong=${motion.error?.values?.index} refused=${refused.value}
-                onChange=${(changed) => change({ rows: changed })} onRefuse=${(one) => (refused.value = one)} />
-            </div>
-          </div>`
+      !hits &&
+      html`<div class="scroll">
+        <${PointTable} rows=${now.rows} columns=${columnsOf(now)} wrong=${motion.error?.values?.index} refused=${refused.value}
+          onChange=${(rows) => change({ rows })} onRefuse=${(one) => (refused.value = one)} />
+      </div>`
     }
-    <${Entry} id="temperature" label="Temperature" kind="temperature" value=${now.temperature} placeholder=${firstTemperature()}
-      empty onRead=${(kelvin) => change({ temperature: kelvin })} />
     <p class="help">Material, indenter, layer and accuracy are the first values given in the study.</p>
     <${Button} kind="main" onClick=${() => motion.run()}>Solve<//>
     ${
