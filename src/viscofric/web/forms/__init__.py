@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 #: By their names on the page.
 FORMS: dict[str, list[Field]] = {
+    "source": others.SOURCE,
     "questions": others.QUESTIONS,
     "making": others.MAKING,
     "shift": others.SHIFT,

@@ -4,6 +4,22 @@ from __future__ import annotations
 
 from viscofric.web.forms.fields import choice, field, left, number, when
 
+#: Keys of [material] that say where it comes from; the one that is looked at is no part of the study.
+SOURCE = [
+    choice(
+        "@sweeps.source",
+        "Source of the material",
+        [
+            ["dma", "Sweeps of a DMA or rheometer"],
+            ["creep", "Creep tests"],
+            ["relaxation", "Relaxation tests"],
+            ["ramps", "Temperature ramps"],
+            ["master_curve", "A master curve"],
+            ["file", "A material file or a card"],
+            ["catalogue", "The catalogue"],
+        ],
+    )
+]
 #: What a file of tests may leave to the user.
 QUESTIONS = [
     choice(

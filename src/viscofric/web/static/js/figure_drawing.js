@@ -75,24 +75,14 @@ export function layoutOf(spec, dark, forFile) {
   const look = colours(dark);
   const named = spec.traces.filter((trace) => trace.name && trace.legend !== false);
   const { shapes, annotations } = marks(spec, look);
-  const place = { showarrow: false, xref: "paper", yref: "paper" };
-  const said = {
-    ...place,
-    x: 1,
-    y: 1,
-    xanchor: "right",
-    yanchor: "bottom",
-    font: { size: 11, color: hue("vermilion", false) },
-  };
-  const foot = {
-    ...place,
-    x: 0,
-    y: 0,
-    yshift: -62,
-    xanchor: "left",
-    yanchor: "top",
-    font: { size: 10, color: look.quiet },
-  };
+  const note = (text, size, color, place) =>
+    text && { showarrow: false, xref: "paper", yref: "paper", text, font: { size, color }, ...place };
+  const said = { x: 1, y: 1, xanchor: "right", yanchor: "bottom" };
+  const foot = { x: 0, y: 0, yshift: -62, xanchor: "left", yanchor: "top" };
+  const ofFile = [
+    note(spec.synthetic && "synthetic data", 11, hue("vermilion", false), said),
+    note(spec.origin, 10, look.quiet, foot),
+  ];
   const title = { text: `<b>${spec.title}</b>`, font: { size: 16 }, x: 0.02, xanchor: "left", y: 0.97, yanchor: "top" };
   return {
     ...{ paper_bgcolor: look.paper, plot_bgcolor: look.paper, autosize: !forFile },
@@ -119,11 +109,7 @@ export function layoutOf(spec, dark, forFile) {
     xaxis: plotlyAxis(spec, "x", look),
     yaxis: plotlyAxis(spec, "y", look),
     shapes,
-    annotations: [
-      ...annotations,
-      ...(forFile && spec.synthetic ? [{ ...said, text: "synthetic data" }] : []),
-      ...(forFile && spec.origin ? [{ ...foot, text: spec.origin }] : []),
-    ],
+    annotations: [...annotations, ...(forFile ? ofFile.filter(Boolean) : [])],
     uirevision: spec.id,
     separators: ".\u2009",
   };

@@ -1,5 +1,6 @@
 // Tools in the page's header: undo and redo, the menu of units, light and dark.
 
+import { Select } from "./fields.js";
 import { chooseTheme, isDark } from "./figures.js";
 import { announce } from "./page.js";
 import { html, view } from "./reactive.js";
@@ -10,9 +11,7 @@ import { Button, Icon } from "./views.js";
 const Units = view(() => {
   const row = ({ kind, title, units: all, chosen }) => html`
     <label for="unit-${kind}">${title}</label>
-    <select id="unit-${kind}" value=${chosen} onChange=${({ target }) => units.choose(kind, target.value)}>
-      ${all.map((one) => html`<option value=${one} selected=${one === chosen}>${one}</option>`)}
-    </select>
+    <${Select} id="unit-${kind}" options=${all} value=${chosen} onChange=${(one) => units.choose(kind, one)} />
   `;
   const set = (name) => html`<${Button} kind="small" onClick=${() => units.choose(name)}>${name}<//>`;
   return html`

@@ -96,13 +96,18 @@ export function goTo(id, { focus = true } = {}) {
   });
 }
 
-const SOURCES = ["dma", "creep", "relaxation", "ramps", "master_curve", "file", "catalogue"];
+/** Keys of [material] that say where it comes from, each with its words. */
+export const sources = () => page.start.forms.source[0].options;
+
+/** Where the rubber of [material] comes from: a key; null without. */
+export const sourceKey = (material) =>
+  sources().find(([key]) => [material].flat()[0]?.[key] !== undefined)?.[0] ?? null;
 
 /** What the material of a study is made of, in a few words. */
 export function sourceOf({ material = {} }) {
   const rubbers = [material].flat();
   if (rubbers.length > 1) return `${rubbers.length} materials`;
-  const [value = "no material yet"] = SOURCES.map((key) => rubbers[0][key]).filter((one) => one !== undefined);
+  const value = rubbers[0][sourceKey(material)] ?? "no material yet";
   return Array.isArray(value) && value.length > 1 ? `${value.length} files` : String(value);
 }
 

@@ -2,18 +2,9 @@
 // And what else the steps about the rubber share.
 
 import { Job } from "../jobs.js";
+import { sourceKey } from "../page.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-
-export const SOURCES = [
-  ["dma", "Sweeps of a DMA or rheometer"],
-  ["creep", "Creep tests"],
-  ["relaxation", "Relaxation tests"],
-  ["ramps", "Temperature ramps"],
-  ["master_curve", "A master curve"],
-  ["file", "A material file or a card"],
-  ["catalogue", "The catalogue"],
-];
 
 /** Sources that are tests; files of them are sorted by what they hold, and sweeps and step tests go together. */
 export const TESTS = ["dma", "creep", "relaxation", "ramps"];
@@ -21,19 +12,15 @@ export const TESTS = ["dma", "creep", "relaxation", "ramps"];
 /** The reference of sweeps until the user, or the sweeps themselves, say another. */
 export const FIRST_REFERENCE = "30 degC";
 
-/** Where the rubber of [material] comes from. */
-export const sourceOf = (material) =>
-  SOURCES.map(([key]) => key).find((key) => [material].flat()[0]?.[key] !== undefined) ?? null;
-
 /** Whether the rubber is made of measurements; a predefined one has its own shift factors and spectrum. */
-export const isMade = () => ![null, "catalogue", "file"].includes(sourceOf(state.get("material")));
+export const isMade = () => ![null, "catalogue", "file"].includes(sourceKey(state.get("material")));
 
 /** The job that makes the material; its part is the material without its bands. */
 export const rubber = new Job("rubber", {
   remember: 6,
   inputs: () => {
     const { material, uncertainty, data_origin } = state.study;
-    return sourceOf(material) ? { study: { material, uncertainty, data_origin } } : null;
+    return sourceKey(material) ? { study: { material, uncertainty, data_origin } } : null;
   },
 });
 

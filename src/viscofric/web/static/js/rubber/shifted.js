@@ -1,5 +1,6 @@
 // The isotherms on one another, and one of them corrected by hand: dragged, or moved by a slider or a number.
 
+import { Select } from "../fields.js";
 import { Figure, pick, picked } from "../figures.js";
 import { Job, inputsOf } from "../jobs.js";
 import { announce } from "../page.js";
@@ -124,9 +125,8 @@ const Correction = view(({ of, move }, self) => {
     <div class="panel" hidden=${!movable()}>
       <div class="field">
         <label class="field-label" for="dragged-isotherm">Isotherm</label>
-        <select id="dragged-isotherm" value=${String(one.temperature)} onChange=${({ target }) => pick(Number(target.value))}>
-          ${all.map((each) => html`<option value=${String(each.temperature)}>${named(each.temperature)}${mark(each)}</option>`)}
-        </select>
+        <${Select} id="dragged-isotherm" value=${one.temperature} onChange=${pick}
+          options=${all.map((each) => [each.temperature, `${named(each.temperature)}${mark(each)}`])} />
       </div>
       <div class="field">
         <label class="field-label" for="dragged-by">Shift by (decades)</label>

@@ -1,9 +1,9 @@
 // What becomes of [material] when files are brought, chosen or removed.
 
 import * as api from "../api.js";
-import { attempts, page } from "../page.js";
+import { attempts, page, sourceKey, sources } from "../page.js";
 import { state } from "../state.js";
-import { FIRST_REFERENCE, SOURCES, TESTS, sourceOf } from "./made.js";
+import { FIRST_REFERENCE, TESTS } from "./made.js";
 
 const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "assumed_shift"];
 const OF_SHIFTS = ["fixed_shift_factors", "shift_factors", "shift_factor_columns", "shift_factor_sheet"];
@@ -11,7 +11,7 @@ const OF_SHIFTS = ["fixed_shift_factors", "shift_factors", "shift_factor_columns
 /** [material] of other files: what says how a rubber is made stays, what belonged to the old files goes. */
 function materialOf(source, value, before = {}) {
   const kept = Object.entries(before).filter(
-    ([key]) => !SOURCES.some(([source_]) => source_ === key) && ![...OF_FILES, ...OF_SHIFTS].includes(key),
+    ([key]) => !sources().some(([source_]) => source_ === key) && ![...OF_FILES, ...OF_SHIFTS].includes(key),
   );
   if (source === "catalogue" || source === "file") {
     const stays = ["name", "amplitude_sweep", "strain", "measured_at"];
@@ -37,7 +37,7 @@ const named = (value) => {
 };
 
 /** The source that is looked at: the one chosen last, or that of the material. */
-export const shownSource = () => state.view("sweeps.source", sourceOf(state.get("material")) ?? "dma");
+export const shownSource = () => state.view("sweeps.source", sourceKey(state.get("material")) ?? "dma");
 
 const [attempt, failed] = attempts();
 export { failed };

@@ -1,13 +1,13 @@
 // Step 3: the spectrum, E'(ω) and E''(ω) at any temperature with their bands, and what the fit leaves unexplained.
 
+import { Form } from "../fields.js";
 import { Figure } from "../figures.js";
 import { Job } from "../jobs.js";
-import { explain } from "../page.js";
+import { explain, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Numbers, Pick, Progress, Table } from "../views.js";
-import { rubber, shownRubber, worded } from "./made.js";
-import { Settings } from "./spectrum_form.js";
+import { isMade, rubber, shownRubber, worded } from "./made.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
 const moduli = new Job("moduli", {
@@ -72,6 +72,21 @@ const Temperature = view(({ of: { shift, spectrum } }) => {
     </div>
     <p class=${moduli.error ? "help field-error" : "help"} aria-live="polite">${moduli.error?.message ?? doubt}</p>
   </div>`;
+});
+
+/** The misfit beside the number of modes. */
+function misfit() {
+  const { rms_storage: storage, rms_loss: loss } = shownRubber()?.spectrum.fit ?? {};
+  return storage ? `Misfit of E′, E″: ${storage.toFixed(3)}, ${loss.toFixed(3)} decades (rms).` : "";
+}
+
+const Settings = view(() => {
+  const fields = page.start.forms.spectrum.map((one) =>
+    one.path === "material.modes" ? { ...one, help: misfit() } : one,
+  );
+  if (!isMade())
+    return html`<${Card} title="Spectrum"><p class="help">A predefined material has its own spectrum.</p><//>`;
+  return html`<${Card} title="Spectrum"><${Form} of=${fields} /><//>`;
 });
 
 for (const job of [rubber, moduli]) job.start();

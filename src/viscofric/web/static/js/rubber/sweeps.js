@@ -2,13 +2,13 @@
 
 import { Figure } from "../figures.js";
 import { Job } from "../jobs.js";
-import { announce, explain, goTo, page } from "../page.js";
+import { announce, explain, goTo, page, sourceKey } from "../page.js";
 import { effect, html, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Folded, Notes, Numbers, Progress, Table } from "../views.js";
 import { Amplitude, amplitude } from "./amplitude.js";
-import { FIRST_REFERENCE, rubber, shownRubber, sourceOf, worded } from "./made.js";
+import { FIRST_REFERENCE, rubber, shownRubber, worded } from "./made.js";
 import { failed } from "./source.js";
 import { Source } from "./sweeps_form.js";
 
@@ -20,10 +20,10 @@ const sweeps = new Job("sweeps", {
   remember: 6,
   inputs: () => {
     const { material, data_origin } = state.study;
-    return sourceOf(material) ? { study: { material, data_origin } } : null;
+    return sourceKey(material) ? { study: { material, data_origin } } : null;
   },
 });
-const isMeasured = () => MEASURED.includes(sweeps.result?.source ?? sourceOf(state.get("material")));
+const isMeasured = () => MEASURED.includes(sweeps.result?.source ?? sourceKey(state.get("material")));
 
 /** Each file as it was read. */
 const Files = view(({ of }) => {
@@ -79,7 +79,7 @@ sweeps.done = (result) => {
 };
 for (const job of [sweeps, amplitude]) job.start();
 watch(
-  () => sourceOf(state.get("material")),
+  () => sourceKey(state.get("material")),
   (source) => source && state.setView("sweeps.source", source),
 );
 // a rubber without sweeps has its moduli at the reference to show

@@ -2,11 +2,11 @@
 
 import { Columns } from "../columns_form.js";
 import { Form } from "../fields.js";
-import { page } from "../page.js";
+import { page, sourceKey, sources } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Notes, Radios } from "../views.js";
-import { SOURCES, TESTS, named, sourceOf } from "./made.js";
+import { TESTS, named } from "./made.js";
 import * as source from "./source.js";
 
 const READY = ["catalogue", "file"]; // sources that leave nothing to say
@@ -121,10 +121,10 @@ export const Source = view(({ result, error }) => {
     rubbers.length > 1 &&
     `This study has ${rubbers.length} materials. Steps 1 to 3 show the first${name}; friction is predicted for all.`;
   const shown = source.shownSource();
-  const asks = !READY.includes(shown) && sourceOf(state.get("material")) === shown;
+  const asks = !READY.includes(shown) && sourceKey(state.get("material")) === shown;
   return html`<${Card} title="Material">
     ${several && html`<${Notes} list=${[several]} />`}
-    <${Radios} name="material-source" aria-labelledby="material-source-label" value=${shown} options=${SOURCES}
+    <${Radios} name="material-source" aria-labelledby="material-source-label" value=${shown} options=${sources()}
       onChange=${(key) => state.setView("sweeps.source", key)}>
       <span class="field-label" id="material-source-label">Source of the material</span>
     <//>

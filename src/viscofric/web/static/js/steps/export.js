@@ -47,32 +47,30 @@ function coloured(text) {
   });
 }
 
-function runFile() {
-  return view(() => {
-    const of = newest("export-run-file");
-    const { text = "", cases, problems = [] } = of ?? {};
-    const files = of?.files ?? [];
-    const reads = files.length === 1 ? files[0] : `${files.length} data files, which the zip contains`;
-    const about = `It has ${cases} case${cases === 1 ? "" : "s"}.${files.length ? ` It reads ${reads}.` : ""}`;
-    const wrong = problems.map(({ field, message }) => (field ? `${field}: ${message}` : message));
-    return html`<${Card} title="Run file">
-      <${Field} path="title" label="Title of the study and report" />
-      <div class="row">
-        <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(pack)}>
-          Run file and data (zip)
-        <//>
-        <${Copy} text=${() => text} />
-        <${Button} kind="small" onClick=${() => startOver()}>Start over<//>
-      </div>
-      ${cases && html`<p class="help">${about}</p>`}
-      <${Notes} kind="error" list=${[...wrong, failed.value?.message]} />
-      <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
-      <p class="help">Run in its folder: <code>viscofric run study.toml</code></p>
-      <${Drop} label="Open a run file" help="Drop the zip file here, or the run file with its data files, or choose them."
-        onFiles=${(files) => attempt(() => openFiles(files))} />
-    <//>`;
-  });
-}
+const RunFile = view(() => {
+  const of = newest("export-run-file");
+  const { text = "", cases, problems = [] } = of ?? {};
+  const files = of?.files ?? [];
+  const reads = files.length === 1 ? files[0] : `${files.length} data files, which the zip contains`;
+  const about = `It has ${cases} case${cases === 1 ? "" : "s"}.${files.length ? ` It reads ${reads}.` : ""}`;
+  const wrong = problems.map(({ field, message }) => (field ? `${field}: ${message}` : message));
+  return html`<${Card} title="Run file">
+    <${Field} path="title" label="Title of the study and report" />
+    <div class="row">
+      <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(pack)}>
+        Run file and data (zip)
+      <//>
+      <${Copy} text=${() => text} />
+      <${Button} kind="small" onClick=${() => startOver()}>Start over<//>
+    </div>
+    ${cases && html`<p class="help">${about}</p>`}
+    <${Notes} kind="error" list=${[...wrong, failed.value?.message]} />
+    <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
+    <p class="help">Run in its folder: <code>viscofric run study.toml</code></p>
+    <${Drop} label="Open a run file" help="Drop the zip file here, or the run file with its data files, or choose them."
+      onFiles=${(files) => attempt(() => openFiles(files))} />
+  <//>`;
+});
 
 // How many processes it takes is no input.
 const study = new Job("export-study", {
@@ -84,50 +82,48 @@ const inWords = (seconds) => (seconds < 90 ? `${Math.round(seconds)} s` : `${Mat
 const endOf = ({ cancelled, seconds }) =>
   cancelled ? "Cancelled; solved contacts are kept for the next run." : `Done in ${inWords(seconds)}.`;
 
-function wholeStudy() {
-  let workers = 1;
-  study.done = ({ cases, failed: missing, downloads }) =>
-    announce(`The study is finished: ${cases} cases, ${missing} failed. ${downloads.length} files can be downloaded.`);
-  const run = async () => {
-    await study.run({ study: state.study, options: { workers } });
-    if (study.ended?.cancelled) announce("The study is cancelled.");
-    else if (study.error) announce(`Error: ${study.error.message}`);
-  };
-  return view(() => {
-    const of = study.current; // files of another study are none of this one
-    const changed = study.result && !of && !study.progress && "The study has changed; run it again.";
-    const { cases, failed: missing, warnings = [], downloads = [], failures = [], notes = [] } = of ?? {};
-    const numbers = [
-      { label: "cases", value: String(cases), remark: missing ? `${missing} failed` : "all solved" },
-      { label: "warnings", value: String(warnings.length), remark: warnings.length ? "listed below" : "" },
-    ];
-    return html`<${Card} title="Results and report">
-      <p class="help">
-        Solves every case to the requested accuracy, with the material's uncertainty, and writes a report, tables and
-        figures.
-      </p>
-      <${Form} of=${page.start.forms.solving}>
-        <div class="field">
-          <label class="field-label" for="export-workers">Processes</label>
-          <input type="number" min="1" max=${navigator.hardwareConcurrency || 1} defaultValue="1" id="export-workers"
-            onChange=${({ target }) => (workers = Number(target.value) || 1)} />
-        </div>
-      <//>
-      <div class="row">
-        <${Button} kind="main" disabled=${Boolean(study.progress)} onClick=${run}>Run the whole study<//>
-        <${Progress} job=${study} label="Running the study" ended=${endOf} />
-      </div>
-      <${Notes} list=${[changed]} />
-      <${Notes} kind="error" list=${study.error ? [explain(study.error, "export")] : failures} />
-      <${Numbers} of=${of} list=${of ? numbers : []} />
-      ${of && html`<ul class="downloads" aria-label="Results">${downloads.map((one) => html`<${FileLine} ...${one} />`)}</ul>`}
-      <${Notes} of=${of} kind="warning" list=${warnings} />
-      <${Notes} of=${of} list=${notes} />
-    <//>`;
-  });
-}
+let workers = 1;
+study.done = ({ cases, failed: missing, downloads }) =>
+  announce(`The study is finished: ${cases} cases, ${missing} failed. ${downloads.length} files can be downloaded.`);
+const run = async () => {
+  await study.run({ study: state.study, options: { workers } });
+  if (study.ended?.cancelled) announce("The study is cancelled.");
+  else if (study.error) announce(`Error: ${study.error.message}`);
+};
 
-const [RunFile, Study] = [runFile(), wholeStudy()];
+const Study = view(() => {
+  const of = study.current; // files of another study are none of this one
+  const changed = study.result && !of && !study.progress && "The study has changed; run it again.";
+  const { cases, failed: missing, warnings = [], downloads = [], failures = [], notes = [] } = of ?? {};
+  const numbers = [
+    { label: "cases", value: String(cases), remark: missing ? `${missing} failed` : "all solved" },
+    { label: "warnings", value: String(warnings.length), remark: warnings.length ? "listed below" : "" },
+  ];
+  return html`<${Card} title="Results and report">
+    <p class="help">
+      Solves every case to the requested accuracy, with the material's uncertainty, and writes a report, tables and
+      figures.
+    </p>
+    <${Form} of=${page.start.forms.solving}>
+      <div class="field">
+        <label class="field-label" for="export-workers">Processes</label>
+        <input type="number" min="1" max=${navigator.hardwareConcurrency || 1} defaultValue="1" id="export-workers"
+          onChange=${({ target }) => (workers = Number(target.value) || 1)} />
+      </div>
+    <//>
+    <div class="row">
+      <${Button} kind="main" disabled=${Boolean(study.progress)} onClick=${run}>Run the whole study<//>
+      <${Progress} job=${study} label="Running the study" ended=${endOf} />
+    </div>
+    <${Notes} list=${[changed]} />
+    <${Notes} kind="error" list=${study.error ? [explain(study.error, "export")] : failures} />
+    <${Numbers} of=${of} list=${of ? numbers : []} />
+    ${of && html`<ul class="downloads" aria-label="Results">${downloads.map((one) => html`<${FileLine} ...${one} />`)}</ul>`}
+    <${Notes} of=${of} kind="warning" list=${warnings} />
+    <${Notes} of=${of} list=${notes} />
+  <//>`;
+});
+
 export default () => html`
   <p>One run file reproduces everything on this page. Download it to repeat the study anywhere, or run it here.</p>
   <div class="grid"><${RunFile} /><div class="stack"><${Study} /><${MaterialCard} /></div></div>

@@ -6,9 +6,8 @@ import { Comparison, Others, agreement } from "./measurement_comparison.js";
 import { Identification } from "./measurement_identify.js";
 import { MasterCurve, master } from "./measurement_master.js";
 import { measured } from "./measurement_parts.js";
-import { source } from "./measurement_source.js";
+import { Source } from "./measurement_source.js";
 
-const Source = source();
 agreement.done = ({ sentences }) => sentences.length && announce(sentences[0]);
 for (const job of [measured, agreement, master]) job.start();
 

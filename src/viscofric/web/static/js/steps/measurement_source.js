@@ -27,42 +27,41 @@ function takeColumns(named) {
   state.set("measurement", { ...before, mtm: files ?? before.mtm, columns: named });
 }
 
+const example = () => take(() => useExample().then(() => ["mtm.csv"]));
+const refusalOf = (result) => result?.refusal && `The friction cannot be separated: ${result.refusal}`;
+measured.done = (result) => {
+  dropped = null;
+  const origin = result.synthetic ? { data_origin: "synthetic" } : {};
+  state.change({ measurement: result.table, ...origin });
+  const said = result.curves && `${result.points} points of friction at ${result.curves.length} temperatures.`;
+  announce(said ?? refusalOf(result));
+};
+
 /** The view of the measurement's files, with its fields. */
-export function source() {
-  const example = () => take(() => useExample().then(() => ["mtm.csv"]));
-  const refusalOf = (result) => result?.refusal && `The friction cannot be separated: ${result.refusal}`;
-  measured.done = (result) => {
-    dropped = null;
-    const origin = result.synthetic ? { data_origin: "synthetic" } : {};
-    state.change({ measurement: result.table, ...origin });
-    const said = result.curves && `${result.points} points of friction at ${result.curves.length} temperatures.`;
-    announce(said ?? refusalOf(result));
-  };
-  return view(() => {
-    const of = shownMeasured();
-    const table = state.get("measurement");
-    const { notes = [], steps = [], download } = of ?? {};
-    const about = "More: zero, Coulomb friction, steps, outliers";
-    return html`<${Card} title="Measured friction">
-      <${Drop} label="Drop the files of a traction test" accept=".txt,.csv,.tsv,.dat,.xlsx,.xls,.mtmd,.etmd" help=${KINDS}
-        onFiles=${(files) => take(() => uploadFiles(files))} />
-      <div class="row">
-        <${Button} kind="small" onClick=${example}>Use the synthetic example<//>
-        ${download && html`<a class="button small" download="friction_curves.csv" href=${downloadUrl(download)}>Friction curves (CSV)</a>`}
-        ${table && html`<${Button} kind="quiet small" symbol="close" onClick=${() => state.set("measurement", undefined)}>Remove the measurement<//>`}
-      </div>
-      <${Run} job=${measured} label="Reading and separating" />
-      <${Notes} kind="error" list=${[unread.value?.message]} />
-      <${Columns} values=${measured.error?.values} chosen=${state.get("measurement.columns")} choose=${takeColumns} />
-      <${Notes} of=${of} kind="error" list=${[refusalOf(of)]} />
-      ${of?.synthetic && html`<span class="badge">synthetic data</span>`}
-      <${Facts} of=${of} list=${of ? [...of.recognised, ...(of.lines ?? [])] : []} />
-      <${Checks} of=${of} list=${of?.checks} />
-      <${Folded} title="Notes on the data (${notes.length})" hidden=${notes.length === 0}><${Notes} of=${of} list=${notes} /><//>
-      <${Folded} title="Steps of the test" hidden=${steps.length === 0}>
-        <ul ...${shown(of, "help steps-of-test")}>${steps.map(({ text }) => html`<li>${text}</li>`)}</ul>
-      <//>
-      <${Folded} title=${about} open=${of?.refusal ? true : undefined} hidden=${of ? !of.runs : !table?.mtm}><${Form} of=${page.start.forms.separation} /><//>
-    <//>`;
-  });
-}
+export const Source = view(() => {
+  const of = shownMeasured();
+  const table = state.get("measurement");
+  const { notes = [], steps = [], download } = of ?? {};
+  const about = "More: zero, Coulomb friction, steps, outliers";
+  return html`<${Card} title="Measured friction">
+    <${Drop} label="Drop the files of a traction test" accept=".txt,.csv,.tsv,.dat,.xlsx,.xls,.mtmd,.etmd" help=${KINDS}
+      onFiles=${(files) => take(() => uploadFiles(files))} />
+    <div class="row">
+      <${Button} kind="small" onClick=${example}>Use the synthetic example<//>
+      ${download && html`<a class="button small" download="friction_curves.csv" href=${downloadUrl(download)}>Friction curves (CSV)</a>`}
+      ${table && html`<${Button} kind="quiet small" symbol="close" onClick=${() => state.set("measurement", undefined)}>Remove the measurement<//>`}
+    </div>
+    <${Run} job=${measured} label="Reading and separating" />
+    <${Notes} kind="error" list=${[unread.value?.message]} />
+    <${Columns} values=${measured.error?.values} chosen=${state.get("measurement.columns")} choose=${takeColumns} />
+    <${Notes} of=${of} kind="error" list=${[refusalOf(of)]} />
+    ${of?.synthetic && html`<span class="badge">synthetic data</span>`}
+    <${Facts} of=${of} list=${of ? [...of.recognised, ...(of.lines ?? [])] : []} />
+    <${Checks} of=${of} list=${of?.checks} />
+    <${Folded} title="Notes on the data (${notes.length})" hidden=${notes.length === 0}><${Notes} of=${of} list=${notes} /><//>
+    <${Folded} title="Steps of the test" hidden=${steps.length === 0}>
+      <ul ...${shown(of, "help steps-of-test")}>${steps.map(({ text }) => html`<li>${text}</li>`)}</ul>
+    <//>
+    <${Folded} title=${about} open=${of?.refusal ? true : undefined} hidden=${of ? !of.runs : !table?.mtm}><${Form} of=${page.start.forms.separation} /><//>
+  <//>`;
+});
