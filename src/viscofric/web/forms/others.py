@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 from viscofric.web.forms.fields import choice, field, left, number, when
 
 #: Keys of [material] that say where it comes from; the one that is looked at is no part of the study.
@@ -286,6 +288,7 @@ SOLVING = [
         [["few", "of a few cases"], ["all", "of all cases"], ["none", "none"]],
         "few",
     ),
+    number("@export.workers", "Processes", min=1, max=os.cpu_count() or 1, step=1, placeholder="1"),
 ]
 _UNITS, _PROGRAMS = ["abaqus", "ansys", "ls-dyna"], ["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches"]
 #: Options of the job export-card, which are no part of the study.

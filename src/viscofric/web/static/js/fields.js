@@ -216,8 +216,8 @@ export const Field = view((about, self) => {
   </div>`;
 });
 
-export const Form = ({ of, children }) =>
-  html`<div class="form">${of.map((one) => html`<${Field} key=${`${one.path} ${one.label}`} ...${one} />`)}${children}</div>`;
+export const Form = ({ of }) =>
+  html`<div class="form">${of.map((one) => html`<${Field} key=${`${one.path} ${one.label}`} ...${one} />`)}</div>`;
 
 // What is wrong with the study, each sentence beside the field that it is about.
 

@@ -82,11 +82,10 @@ const inWords = (seconds) => (seconds < 90 ? `${Math.round(seconds)} s` : `${Mat
 const endOf = ({ cancelled, seconds }) =>
   cancelled ? "Cancelled; solved contacts are kept for the next run." : `Done in ${inWords(seconds)}.`;
 
-let workers = 1;
 study.done = ({ cases, failed: missing, downloads }) =>
   announce(`The study is finished: ${cases} cases, ${missing} failed. ${downloads.length} files can be downloaded.`);
 const run = async () => {
-  await study.run({ study: state.study, options: { workers } });
+  await study.run({ study: state.study, options: { workers: state.get("@export.workers") ?? 1 } });
   if (study.ended?.cancelled) announce("The study is cancelled.");
   else if (study.error) announce(`Error: ${study.error.message}`);
 };
@@ -104,13 +103,7 @@ const Study = view(() => {
       Solves every case to the requested accuracy, with the material's uncertainty, and writes a report, tables and
       figures.
     </p>
-    <${Form} of=${page.start.forms.solving}>
-      <div class="field">
-        <label class="field-label" for="export-workers">Processes</label>
-        <input type="number" min="1" max=${navigator.hardwareConcurrency || 1} defaultValue="1" id="export-workers"
-          onChange=${({ target }) => (workers = Number(target.value) || 1)} />
-      </div>
-    <//>
+    <${Form} of=${page.start.forms.solving} />
     <div class="row">
       <${Button} kind="main" disabled=${Boolean(study.progress)} onClick=${run}>Run the whole study<//>
       <${Progress} job=${study} label="Running the study" ended=${endOf} />

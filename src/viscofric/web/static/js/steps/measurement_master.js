@@ -6,8 +6,7 @@ import { Figure } from "../figures.js";
 import { page } from "../page.js";
 import { html, view } from "../reactive.js";
 import { Card, Notes } from "../views.js";
-import { agreement } from "./measurement_comparison.js";
-import { Facts, Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
+import { Facts, Run, agreement, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
 
 const fields = page.start.forms.master;
 export const master = ofMeasured("master", () => ({ beside: !alone(), law: given(fields).law }));

@@ -31,6 +31,9 @@ export const ofMeasured = (kind, options, about) =>
     ...about,
   });
 
+/** The prediction for what was measured. */
+export const agreement = ofMeasured("agreement", () => (alone() ? null : {}), { remember: 4 });
+
 /** Progress and errors of a job. */
 export const Run = view(({ job, label }) => {
   const { error } = job;

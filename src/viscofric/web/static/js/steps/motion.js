@@ -1,15 +1,15 @@
 // Motion over time: a history edited as a table or a sketch, or an impact, and the solved contact.
 
+import { runJob } from "../api.js";
 import { Form } from "../fields.js";
 import { Figure, save } from "../figures.js";
 import { Job } from "../jobs.js";
 import { CONTROLS, PATHS, PointTable, Sketch, contactOf, converted, presetRows } from "../motion_history.js";
-import { StudyHistory } from "../motion_study.js";
-import { announce, explain, page } from "../page.js";
+import { announce, attempts, explain, page } from "../page.js";
 import { html, signal, view, watch } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Notes, Numbers, Progress } from "../views.js";
+import { Button, Card, Folded, Notes, Numbers, Progress } from "../views.js";
 
 const form = page.start.forms.motion;
 const PART = "@motion.impact.";
@@ -64,6 +64,34 @@ const firstTemperature = () => {
   return String([given?.from ?? given ?? ""].flat()[0]).replace("degC", "°C");
 };
 
+const [attempt, failed] = attempts();
+
+/** The history of the study ([history] in the run file): set from this step, shown in it, edited or removed. */
+const StudyHistory = view(() => {
+  const has = state.get("history") !== undefined;
+  const ask = (options, then) =>
+    attempt(async () => then(await runJob("history", { study: state.study, options })));
+  const put = ({ history: table }) => {
+    if (table.file) state.renew([table.file]);
+    state.set("history", table);
+    return "The study has this history.";
+  };
+  const words = has
+    ? "Export and viscofric run also solve the study over time; stages use its loads and speeds."
+    : "“Use in the study” adds this history to the run file; Export and viscofric run then also solve over time.";
+  const remove = () => state.set("history", undefined);
+  return html`<${Folded} title="History of the study">
+    <p class="help">${words}</p>
+    <div class="row">
+      <${Button} kind="small" onClick=${() => ask(optionsOf(history()), put)}>Use in the study<//>
+      ${has && html`<${Button} kind="small" onClick=${() => ask({}, change)}>Show the study’s<//>`}
+      ${has && html`<${Button} kind="quiet small" onClick=${remove}>Remove from the study<//>`}
+    </div>
+    <${Notes} kind="error" list=${[failed.value && explain(failed.value, "motion")]} />
+    <${Form} of=${page.start.forms.history} />
+  <//>`;
+});
+
 /** The fields, each with what it changes. */
 function fields({ preset, contact, rows, impact }) {
   const control = (one) => change({ control: one, path: "speed", rows: presetRows(preset, state.study, one) });
@@ -101,7 +129,7 @@ const History = view(() => {
       !hits &&
       html`<div class="stack">
         <${Button} kind="small" symbol="down" onClick=${() => save("history.csv", csv(), "text/csv")}>Save the history<//>
-        <${StudyHistory} rows=${() => optionsOf(history())} take=${change} />
+        <${StudyHistory} />
       </div>`
     }
   <//>`;
