@@ -35,6 +35,15 @@ _ABOUT = 80.0
 _NEAR = 5.0
 
 
+def _not_correctable(rubber: Rubber) -> str:
+    """Return why no single factor can be corrected, or an empty text."""
+    if rubber.shift_origin == "given":
+        return "The shift factors are from a file; fit them to the sweeps to correct one."
+    if rubber.joint is not None:
+        return "The shift factors are those of sweeps and step tests together; correct one with the sweeps alone."
+    return ""
+
+
 def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any] | None:
     """Return α(T) of a rubber: what was found, the laws, and the isotherms shifted.
 
@@ -70,6 +79,7 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
         "vertical": _vertical(rubber.material.vertical_shift, measured),
         "isotherms": [] if fit is None else _shifted(fit, held),
         "joint": rubber.joint is not None,
+        "not_correctable": _not_correctable(rubber),
         "steps": _steps(rubber),
         "misfit": None if quality is None else plain({"joint": quality.joint, "points": quality.points}),
     }

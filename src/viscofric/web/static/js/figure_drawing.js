@@ -228,11 +228,7 @@ const OUT_OF_NOTHING = [[0, "rgba(68,1,84,0)"], ...VIRIDIS.map((colour, at) => [
 
 function heatOf({ x, y, z, map }) {
   const [across, up] = [units.number(map.x, x.kind), units.number(map.y, y.kind)];
-  const words = [
-    [x, "x"],
-    [y, "y"],
-    [z, "z"],
-  ].map(([axis, key]) => `${axis.label} %{${key}:.4g} ${unitOf(axis)}`);
+  const words = Object.entries({ x, y, z }).map(([key, axis]) => `${axis.label} %{${key}:.4g} ${unitOf(axis)}`);
   return {
     type: "heatmap",
     ...{ x: across, y: up, z: map.z.map((row) => units.number(row, z.kind)) },

@@ -65,6 +65,7 @@ export function numbers({ x, y, z, map, traces }) {
   const all = traces.filter((trace) => trace.x.length > 0 && !trace.decoration);
   const words = { y: "", lower: "lower ", upper: "upper ", error: "error of " };
   const parts = Object.keys(words).filter((part) => all.some((trace) => trace[part]));
+  const across = (trace) => units.number(trace?.x ?? [], x?.kind);
   const column = (trace, part) => units.number(trace[part] ?? [], y?.kind);
   const label = (part) => `${words[part]}${titled(y)}`;
   if (all.every((trace) => JSON.stringify(trace.x) === JSON.stringify(all[0].x))) {
@@ -73,16 +74,12 @@ export function numbers({ x, y, z, map, traces }) {
         .filter((part) => trace[part])
         .map((part) => [`${label(part)}${trace.name ? `, ${trace.name}` : ""}`, column(trace, part)]),
     );
-    const rows = units
-      .number(all[0]?.x ?? [], x?.kind)
-      .map((one, at) => [one, ...columns.map(([, values]) => values[at])]);
+    const rows = across(all[0]).map((one, at) => [one, ...columns.map(([, values]) => values[at])]);
     return { head: [titled(x), ...columns.map(([head]) => head)], rows };
   }
   const rows = all.flatMap((trace) => {
     const columns = parts.map((part) => column(trace, part));
-    return units
-      .number(trace.x, x?.kind)
-      .map((one, at) => [trace.name ?? "", one, ...columns.map((values) => values[at] ?? null)]);
+    return across(trace).map((one, at) => [trace.name ?? "", one, ...columns.map((values) => values[at] ?? null)]);
   });
   return { head: ["curve", titled(x), ...parts.map(label)], rows };
 }

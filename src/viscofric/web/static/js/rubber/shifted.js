@@ -24,10 +24,7 @@ const quantity = signal("storage_modulus");
 const moved = signal(0); // decades, while the slider or the mouse moves it
 const isotherms = () => shownRubber()?.shift?.isotherms ?? [];
 /** Whether isotherms can be moved: neither factors of a file nor those of several kinds of tests are. */
-const movable = () => {
-  const { origin, joint } = shownRubber()?.shift ?? {};
-  return origin !== "given" && !joint;
-};
+const movable = () => !shownRubber()?.shift?.not_correctable;
 /** The isotherm that can be moved: the one nearest to the chosen one, or else the first that is not the reference. */
 const chosen = computed(() => {
   const all = isotherms();
@@ -99,18 +96,13 @@ function figureOf(of) {
   return { ...spec, traces: spec.traces.map((one, index) => (index === at ? { ...one, size: 9, width: 3 } : one)) };
 }
 
-const WHY = {
-  given: "The shift factors are from a file; fit them to the sweeps to correct one.",
-  joint: "The shift factors are those of sweeps and step tests together; correct one with the sweeps alone.",
-};
 const mark = ({ is_reference: reference, held: fixed }) => (reference ? " (reference)" : fixed ? " (fixed)" : "");
 const holdMoved = (by) => by && hold(chosen.value.temperature, chosen.value.log10_shift + by);
 
 /** The fields of the isotherm that can be moved; `move(by)` shows it elsewhere. */
 const Correction = view(({ of, move }, self) => {
-  const { origin, joint, isotherms: all } = of.shift;
+  const { not_correctable: why, isotherms: all } = of.shift;
   const one = chosen.value;
-  const why = WHY[origin] ?? (joint ? WHY.joint : "");
   const settle = ({ target }) => {
     clearTimeout(self.timer);
     self.timer = setTimeout(() => holdMoved(Number(target.value)), SETTLE);

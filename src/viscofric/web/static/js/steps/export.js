@@ -1,15 +1,38 @@
 // The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
 import { downloadUrl, runJob, uploadFiles } from "../api.js";
-import { Field, Form } from "../fields.js";
+import { Field, Form, given } from "../fields.js";
 import { Job, newest } from "../jobs.js";
 import { announce, attempts, explain, page } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
-import { Button, Card, Drop, Notes, Numbers, Progress, shown } from "../views.js";
-import { Copy, FileLine, MaterialCard } from "./export_card.js";
+import { Button, Card, Drop, Icon, Notes, Numbers, Progress, shown } from "../views.js";
 
 const [attempt, failed] = attempts();
+
+const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
+
+/** Copies a text, and says so. */
+function Copy({ text }) {
+  const copy = async ({ currentTarget: { lastChild: words } }) => {
+    try {
+      await navigator.clipboard.writeText(text());
+      announce("Copied.");
+      words.textContent = "Copied";
+    } catch {
+      words.textContent = "Select and copy it";
+    }
+    setTimeout(() => (words.textContent = "Copy"), 2000);
+  };
+  return html`<${Button} kind="small" symbol="copy" onClick=${copy}>Copy<//>`;
+}
+
+const Download = ({ name }) =>
+  html`<a class="button small" href=${downloadUrl(name)} download=${name}><${Icon} name="down" />${name}</a>`;
+
+/** A download with what it is and how large. */
+const FileLine = ({ name, title, size: bytes }) =>
+  html`<li><${Download} name=${name} /><span class="help">${title}, ${size(bytes)}</span></li>`;
 
 /** Download the run file with its data. */
 async function pack() {
@@ -114,6 +137,28 @@ const Study = view(() => {
     ${of && html`<ul class="downloads" aria-label="Results">${downloads.map((one) => html`<${FileLine} ...${one} />`)}</ul>`}
     <${Notes} of=${of} kind="warning" list=${warnings} />
     <${Notes} of=${of} list=${notes} />
+  <//>`;
+});
+
+const cardFields = page.start.forms.card;
+const cardJob = new Job("export-card", {
+  manual: true,
+  inputs: () => ({ study: state.study, options: given(cardFields) }),
+});
+
+/** Form and text of a card. */
+const MaterialCard = view(() => {
+  const of = cardJob.current;
+  cardJob.done = ({ download }) => announce(`The card is written: ${download.name}.`);
+  return html`<${Card} title="Material card for finite elements">
+    <${Form} of=${cardFields} />
+    <div class="row">
+      <${Button} disabled=${Boolean(cardJob.progress)} onClick=${() => cardJob.run()}>Write the card<//>
+      ${of && html`<div class="row"><${Download} name=${of.download.name} /><${Copy} text=${() => of.text} /></div>`}
+    </div>
+    <${Notes} kind="error" aria-live="assertive" list=${[cardJob.error?.message]} />
+    <${Notes} of=${of} list=${of?.notes} />
+    ${of && html`<pre tabindex="0" role="group" aria-label="Card">${of.text}</pre>`}
   <//>`;
 });
 

@@ -16,11 +16,10 @@ const OTHERS = ["coulomb-friction", "four-runs", "force-cell-zero"];
 
 /** Measured friction beside the prediction. */
 const Comparison = view(() => {
-  const measured = shownMeasured();
   const of = agreement.error ? null : agreement.result;
   return html`<${Card} title="Measured against predicted">
     <${Run} job=${agreement} label="Predicting" />
-    <${Figure} id="measured-friction" title="Viscoelastic friction" of=${of ?? measured}
+    <${Figure} id="measured-friction" title="Viscoelastic friction" of=${of ?? shownMeasured()}
       empty="Drop the files of a traction test, or use the synthetic example." />
     <${Numbers} of=${of} />
     <${Notes} of=${of} list=${of ? [of.sentences[0], ...of.notes] : []} />
