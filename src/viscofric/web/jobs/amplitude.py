@@ -11,7 +11,7 @@ from viscofric.datasets import plain, record
 from viscofric.errors import InputError
 from viscofric.notes import listed
 from viscofric.study.at_strain import payne_of
-from viscofric.web.figures.spec import MODULUS, Spec, axis, figure, line, points
+from viscofric.web.figures.spec import MODULUS, Spec, axis, figure, line, points, quantity
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import (
     checked_tables,
@@ -105,7 +105,13 @@ def _contact(study: dict[str, Any], fit: PayneFit, measured_at: float | None, co
         layer=case.layer,
         accuracy=max(_ACCURACY, checked.solver.accuracy),
     )
+    words = (
+        f"At {quantity(case.speed, 'speed')}, {quantity(case.temperature, 'temperature')} the strain of the contact is "
+        f"{100.0 * found.strain:.2g} %: friction {found.scaled.friction_coefficient:.3g} instead of "
+        f"{found.linear.friction_coefficient:.3g} (small strain)."
+    )
     return {
+        "words": words,
         "strain": plain(found.strain),
         "friction": plain(found.scaled.friction_coefficient),
         "linear": plain(found.linear.friction_coefficient),

@@ -32,10 +32,6 @@ const atContact = new Job("amplitude", {
 const KEYS = ["amplitude_sweep", "strain", "measured_at"].map((key) => `material.${key}`);
 const remove = () => state.change(Object.fromEntries(KEYS.map((key) => [key, undefined])));
 
-const ofContact = ({ strain, friction, linear, speed, temperature }) =>
-  `At ${units.show(speed, "speed")}, ${units.show(temperature, "temperature")} the strain of the contact is ` +
-  `${(100 * strain).toPrecision(2)} %: friction ${friction.toPrecision(3)} instead of ${linear.toPrecision(3)} (small strain).`;
-
 /** The card; nothing without an amplitude sweep. */
 export const Amplitude = view(() => {
   if (state.get("material.amplitude_sweep") === undefined) return null;
@@ -47,7 +43,7 @@ export const Amplitude = view(() => {
     <${Notes} of=${of} list=${of ? [of.words, ...of.linear, ...of.notes] : []} />
     <${Figure} id="amplitude-sweep" title="Amplitude sweep" of=${of} />
     <${Form} of=${page.start.forms.amplitude} />
-    <p class="help" aria-live="polite">${atContact.progress ? "Solving the contact" : found ? ofContact(found) : ""}</p>
+    <p class="help" aria-live="polite">${atContact.progress ? "Solving the contact" : units.filled(found?.words)}</p>
     <div class="row">
       <${Button} onClick=${() => atContact.run()}>Use the strain of the contact<//>
       <${Button} kind="quiet small" onClick=${remove}>Remove the amplitude sweep<//>
