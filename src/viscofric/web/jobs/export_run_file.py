@@ -52,15 +52,17 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         if options.pack:
             raise DocumentError(problems)
         shown = list(map(beside_field, problems))
-        return {"text": text, "problems": shown, "cases": None, "files": None, "download": None}
+        return {"text": text, "problems": shown, "cases": None, "summary": "", "files": None, "download": None}
     download = None
     if options.pack:
         files = [(path.name, path) for path in checked.inputs]
         download = offered(archive(context.downloads / ARCHIVE, [(RUN_FILE, text), *files]), "run file and data")
+    cases = len(checked.sweep().cases)
     return {
         "text": text,
         "problems": [],
-        "cases": len(checked.sweep().cases),
+        "cases": cases,
+        "summary": f"run file: {cases} case{'' if cases == 1 else 's'}",
         "files": [path.name for path in checked.inputs],
         "download": download,
     }

@@ -76,9 +76,11 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     context.progress(0, 1, _STAGES["report"])
     figures, report = write_figures_and_report(results.tree, results.folder)
     downloads = _downloads(results, figures, report, context.downloads)
+    cases = int(results.dataset["friction_coefficient"].size)
     return {
         "downloads": downloads,
-        "cases": int(results.dataset["friction_coefficient"].size),
+        "cases": cases,
+        "summary": f"{cases} cases, results ready",
         "failed": int(results.dataset["failed"].sum()),
         "failures": grouped_failures(results.failures, _MOST_SHOWN),
         **listed("warnings", dict.fromkeys(results.warnings), "page"),

@@ -17,12 +17,7 @@ function said(name, part) {
 }
 const joined = (...parts) => parts.filter(Boolean).join(", ");
 
-function results() {
-  const done = result("export-study");
-  const cases = newest("export-run-file")?.cases;
-  if (done) return `${done.cases} cases, results ready`;
-  return cases ? `run file: ${cases} case${cases === 1 ? "" : "s"}` : "";
-}
+const results = () => (result("export-study") ?? newest("export-run-file"))?.summary;
 
 // The module of a step, whose default is its view, is fetched when somebody looks at it.
 const STEPS = [

@@ -94,12 +94,11 @@ const StudyHistory = view(() => {
 
 /** The fields, each with what it changes. */
 function fields({ preset, contact, rows, impact }) {
-  const control = (one) => change({ control: one, path: "speed", rows: presetRows(preset, state.study, one) });
   const own = {
     "@motion.preset": { onChange: (one) => begin(one) },
     "@motion.control": {
       options: Object.entries(CONTROLS[contact]).map(([one, [label]]) => [one, label]),
-      onChange: control,
+      onChange: (one) => change({ control: one, path: "speed", rows: presetRows(preset, state.study, one) }),
     },
     "@motion.path": { onChange: (path) => change({ path, rows: converted(rows, path) }) },
     "@motion.temperature": { placeholder: firstTemperature() },
