@@ -8,7 +8,7 @@ import pytest
 
 from viscofric.web.forms import FORMS
 from viscofric.web.forms.contact import SHAPES
-from viscofric.web.jobs import export_card
+from viscofric.web.jobs import export_card, export_study, identify, master, motion
 from viscofric.web.study_text import study_of
 from web.run_file_schema import found
 
@@ -92,3 +92,45 @@ def test_options_of_a_card_are_those_of_its_job() -> None:
     for name, field in options.items():
         for value, _ in field.get("options", ()):
             export_card.Options(**{name: value})  # refuses what it does not know
+
+
+def names_of(form: str, prefix: str) -> dict[str, list[Any]]:
+    """Return the options of a form's fields that are no part of the study: their names, and the words of a choice."""
+    own = [field for field in FORMS[form] if field["path"].startswith(prefix)]
+    words = [[one[0] if isinstance(one, list) else one for one in field.get("options", ())] for field in own]
+    return {field["path"].removeprefix(prefix): some for field, some in zip(own, words, strict=True)}
+
+
+def test_options_of_an_identification_are_those_of_its_job() -> None:
+    options = names_of("identify", "@identify.")
+    for shift in options.pop("shift"):
+        identify.Options(shift=shift)
+    for of in set(options.pop("anchor")) - {"nothing"}:
+        identify.AnchorOptions(of=of, temperature="30 degC")
+    assert set(options) == set(identify.AnchorOptions.model_fields) - {"of"}
+
+
+def test_options_of_a_master_curve_and_a_motion_are_those_of_their_jobs() -> None:
+    for law in names_of("master", "@friction.")["law"]:
+        master.Options(law=law)
+    options = names_of("motion", "@motion.")
+    for name in ("path", "before"):
+        for word in options[name]:
+            motion.Options(**{name: word})
+    begun = {field["path"].rpartition(".")[2]: field.get("otherwise") for field in FORMS["motion"]}
+    assert set(names_of("motion", "@motion.impact.")) == set(motion.Impact.model_fields)
+    motion.Impact(**{name: begun[name] for name in motion.Impact.model_fields})
+
+
+def test_a_temperature_of_a_motion_may_have_a_unit() -> None:
+    assert motion.Options(temperature="60 degC").temperature == pytest.approx(333.15)
+    assert motion.Options(temperature=333.15).temperature == 333.15
+    with pytest.raises(ValueError, match="temperature"):
+        motion.Options(temperature="-300 degC")
+
+
+def test_processes_of_a_study_are_an_option_of_its_job() -> None:
+    (field,) = (one for one in FORMS["solving"] if one["path"].startswith("@"))
+    assert field["path"] == "@export.workers"
+    for workers in (field["min"], field["max"]):
+        export_study.Options(workers=workers)

@@ -40,7 +40,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it has and
-        ``files`` that it names, None where there are problems; ``download``, if it was to be packed.
+        ``files`` that it names, None where there are problems; ``summary``;
+        ``download``, if it was to be packed.
 
     Raises
     ------

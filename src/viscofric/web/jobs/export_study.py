@@ -49,7 +49,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``downloads``, a list of ``name``, ``title`` and ``size``; ``cases`` and ``failed``, their numbers;
+        ``downloads``, a list of ``name``, ``title`` and ``size``; ``cases`` and ``failed``, their numbers; ``summary``;
         ``failures``, ``warnings`` and ``notes``, sentences; ``synthetic``.
 
     Raises
