@@ -11,7 +11,7 @@ from viscofric.web.figures.spec import Spec, axis, figure, line, number, points,
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.study.cases.case import Case
+    from viscofric.friction.cases.case import Case
 
 _EDGE, _MARK = "vermilion", "grey"
 _ASIDE: Spec = {"legend": False, "decoration": True}
