@@ -111,11 +111,14 @@ def test_thin_rubber_is_no_half_space(results: StudyResults) -> None:
 
 @pytest.mark.slow
 def test_coulomb_friction_on_thin_rubber_is_warned_of(results: StudyResults) -> None:
-    """With ν = ½ a half-space would not feel it; a layer of two contact radii does."""
+    """With ν = ½ a half-space would not feel it; a layer of two contact radii does.
+
+    Where friction is lowest, a contact solved with the shear of 0.6 has 1.29 times more of it.
+    """
     checked = results.tree["assumptions"].to_dataset()
     (row,) = np.flatnonzero(checked["assumption_name"].values == "uncoupled")
     assert checked["holds"].values[row] == 0
-    assert 0.02 < checked["value"].values[row] < 0.1
+    assert checked["value"].values[row] == pytest.approx(1.29, rel=0.25)  # an estimate
     assert checked["sentence"].values[row] in results.warnings
 
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 _FINISHED = {
     "downloads": [{"name": "report.html", "title": "report", "size": 911_137}],
     "cases": 75,
+    "summary": "75 cases, results ready",
     "failed": 1,
     "failures": ["30 °C, 1 mm/s: it did not converge."],
     "warnings": [],
