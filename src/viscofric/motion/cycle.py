@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 # Allowed distance from the periodic state, relative to the accuracy, in the norm of the stored energy.
 _CLOSE = 0.3
+# Accuracy of a period far from the periodic state: this part of the distance, and at most so many times the accuracy.
 _ROUGH, _ROUGHEST = 0.3, 10.0
 # Earlier iterations that the acceleration uses.
 _KEPT = 10

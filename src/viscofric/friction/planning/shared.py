@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from viscofric.friction.planning.plan import Plan
     from viscofric.rheology.material import Material
 
-# Settings of a contact that its place on a curve depends on.
+# What is not a setting of a contact, and the settings that its place on a curve depends on.
+_OF_CONTACT = {"material", "indenter", "speed", "load", "temperature", "accuracy"}
 _OF_CURVES = {"layer", "indenter_modulus", "indenter_poisson_ratio"}
 
 
@@ -43,15 +44,21 @@ def shared_records(
     InputError, ConvergenceError
         Of the first contact that cannot be solved, and cannot be interpolated either.
     """
-    own = {name: value for name, value in contacts[0].items() if name not in _OF_CONTACT}
-    settings = ContactSettings(accuracy=contacts[0]["accuracy"], **own)
-    usual = ContactSettings(accuracy=settings.accuracy)
-    others = own.keys() - _OF_CURVES
-    special = any(not _same(getattr(settings, name), getattr(usual, name)) for name in others)
+    accuracy = contacts[0]["accuracy"]
+    given = {name: value for name, value in contacts[0].items() if name not in _OF_CONTACT}
+    settings, usual = ContactSettings(accuracy=accuracy, **given), ContactSettings(accuracy=accuracy)
+    special = any(not _same(getattr(settings, name), getattr(usual, name)) for name in given.keys() - _OF_CURVES)
     if special or material.shift is None or not isinstance(material.spectrum, RetardationSpectrum):
         return None
-    cases = [_case(**{name: contact[name] for name in contact.keys() - others}) for contact in contacts]
-    plan = plan_cases(cases, [material], accuracy=contacts[0]["accuracy"], sensitive=sensitive)
+    modulus = settings.indenter_modulus
+    body: dict[str, Any] = {
+        "layer": settings.layer,
+        "modulus": None if modulus is None else positive(modulus, "Pa", "indenter_modulus"),
+        "poisson_ratio": settings.indenter_poisson_ratio,
+    }
+    of_case = ("indenter", "speed", "load", "temperature")
+    cases = [IndenterCase(0, **{name: contact[name] for name in of_case}, **body) for contact in contacts]
+    plan = plan_cases(cases, [material], accuracy=accuracy, sensitive=sensitive)
     if not plan.shares:
         return None
     errors: dict[str, ViscofricError] = {}
@@ -64,23 +71,8 @@ def shared_records(
     return found if complete else None
 
 
-_OF_CONTACT = ("material", "indenter", "speed", "load", "temperature", "accuracy")
-
-
 def _same(value: object, usual: object) -> bool:
     return value is usual or (isinstance(value, int | float | str | tuple) and value == usual)
-
-
-def _case(
-    material: Material,
-    accuracy: float,
-    indenter_modulus: Any = None,
-    indenter_poisson_ratio: float = 0.3,
-    **given: Any,
-) -> IndenterCase:
-    """Return a contact as a case; its plan has the material and the accuracy."""
-    modulus = None if indenter_modulus is None else positive(indenter_modulus, "Pa", "indenter_modulus")
-    return IndenterCase(material=0, modulus=modulus, poisson_ratio=indenter_poisson_ratio, **given)
 
 
 def _carried_out(
