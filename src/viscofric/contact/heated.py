@@ -35,8 +35,8 @@ LOOSE = 2e-2
 _DECADES, _KELVIN = 0.4, 10.0
 #: States are looked for up to this rise, K, and up to this multiple of the largest rise that a contact produced.
 _LEAST, _BEYOND = 30.0, 2.0
-#: Decades of α within which a contact of a curve keeps its resistances: a tenth of the distance of those found.
-_ALIKE = 0.03
+#: Decades of α within which a contact of a curve keeps its resistances: rises change by less than their residual.
+_ALIKE = 0.01
 
 
 @dataclass(frozen=True)
