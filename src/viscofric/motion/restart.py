@@ -144,8 +144,8 @@ class Restart:
 
         self._insist_on_times(times)
         spectrum, ratio, end = problem.schedule.spectrum, problem.material.poisson_ratio, float(self.reached.time)  # type: ignore[arg-type]
-        now = with_fewer_kinks(problem.schedule)
-        then = with_fewer_kinks(self.history.schedule(problem.material, problem.kind)).kinks
+        now = with_fewer_kinks(problem.schedule, problem.accuracy)
+        then = with_fewer_kinks(self.history.schedule(problem.material, problem.kind), problem.accuracy).kinks
         kinks = np.concatenate([then[then < end], now.kinks[now.kinks >= end]])
         problem = replace(problem, schedule=replace(now, kinks=kinks))
         every, indenter = Modes.of(spectrum), problem.indenter

@@ -40,8 +40,9 @@ _SLID = 1000.0
 _OF_LOAD, _OF_TIME = 48, 6
 # Shortest time that matters in an interval without motion, as a part of it.
 _OF_INTERVAL = 0.01
-# Change of a rate, as a part of the largest, at which steps end.
-_BEND = 0.25
+# Change of a rate, as a part of the largest, at which steps end: in the accuracy, and at most.  Friction bends there
+# too, which interpolation between steps would round off.
+_BEND, _MOST_BEND = 4.0, 0.25
 # Ticks in a step over which the speed changes by its largest value.
 _OF_SPEED = 5
 # Graded ticks of a rest, at cells of this length or longer, and the first of them, as a part of the rest.
@@ -339,12 +340,12 @@ def _places(schedule: Schedule) -> Array:
     return np.array([schedule.at(float(time)).position for time in times])
 
 
-def with_fewer_kinks(schedule: Schedule) -> Schedule:
+def with_fewer_kinks(schedule: Schedule, accuracy: float) -> Schedule:
     """Return a schedule without the kinks of a smooth curve given by many points: steps may cross them.
 
     Those at jumps, stops and turns remain, and those at which a rate changes by much.
     """
-    kinks = schedule.kinks
+    kinks, least = schedule.kinks, min(_BEND * accuracy, _MOST_BEND)
     kept = [float(kinks[0])]
     velocity = [[schedule.velocity(float(time), after=after) for after in (False, True)] for time in kinks]
     fastest = max(math.hypot(*one) for pair in velocity for one in pair)
@@ -353,8 +354,8 @@ def with_fewer_kinks(schedule: Schedule) -> Schedule:
     for place in range(1, len(kinks) - 1):
         (before, after), change = velocity[place], abs(rates[place] - rates[place - 1])
         turns = float(before @ after) <= 0.0 and (before.any() or after.any())
-        bent = math.hypot(*(after - before)) > _BEND * fastest
-        if schedule.jumps_at(float(kinks[place])) or turns or bent or change > _BEND * steepest:
+        bent = math.hypot(*(after - before)) > least * fastest
+        if schedule.jumps_at(float(kinks[place])) or turns or bent or change > least * steepest:
             kept.append(float(kinks[place]))
     return replace(schedule, kinks=np.array([*kept, float(kinks[-1])]))
 

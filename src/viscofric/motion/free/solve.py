@@ -133,7 +133,7 @@ def solve_free(
         The moments with all errors, notes on assumptions, and the last one or two grids.
     """
     if not begun:
-        problem = replace(problem, schedule=with_fewer_kinks(problem.schedule))
+        problem = replace(problem, schedule=with_fewer_kinks(problem.schedule, problem.accuracy))
     line = problem.indenter.geometry.dimension == 1  # type: ignore[union-attr]
     most = _MOST_LINE_CELLS if line else _MOST_POINT_CELLS
     told = None if progress is None else Progress(progress, problem.schedule.start, problem.schedule.end, *_PARTS)
