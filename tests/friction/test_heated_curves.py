@@ -81,6 +81,27 @@ def test_the_heat_of_an_interface_is_its_stress_on_the_contact(average: Literal[
             vf.predict_friction(WARM, CYLINDER, **one, heating=refused_one, interface=law)
 
 
+@pytest.mark.apart
+@pytest.mark.parametrize("average", ["contact", "loss"])
+def test_many_speeds_are_interpolated_as_accurately_as_asked(average: Literal["contact", "loss"]) -> None:
+    """Beside each contact solved by itself: within both stated errors, and 1 % of the rise, its residual."""
+    asked = {"speeds": np.geomspace(0.05, 5.0, 30), "temperatures": 300.0, "load": 400.0, "accuracy": 1e-2}
+    heating = replace(HEATING, average=average)
+    found, each = (
+        vf.predict_friction(WARM, CYLINDER, **asked, heating=heating, exact=exact) for exact in (False, True)
+    )
+    assert isinstance(found, vf.HeatedFrictionCurves)
+    assert isinstance(each, vf.HeatedFrictionCurves)
+    assert each.face_rise.max() > 1.0
+    assert not np.array_equal(found.viscoelastic, each.viscoelastic)
+    assert np.all(np.abs(found.viscoelastic - each.viscoelastic) <= found.viscoelastic_error + each.viscoelastic_error)
+    assert np.all(found.viscoelastic_error <= 1.01e-2 * found.viscoelastic)
+    assert found.isothermal == pytest.approx(each.isothermal, rel=2e-2)
+    assert found.temperature_rise == pytest.approx(each.temperature_rise, rel=1e-2)
+    assert found.mean_pressure == pytest.approx(each.mean_pressure, rel=1e-2)
+    assert found.temperature == pytest.approx(300.0)
+
+
 @pytest.mark.slow
 def test_an_interface_that_shears_harder_when_warm_has_a_hot_branch() -> None:
     """Far above the speed of its largest stress; a law that ends below the hot face leaves the cold state."""

@@ -16,6 +16,7 @@ from viscofric.errors import InputError
 from viscofric.heat.branches import LEFT, HeatCurve, outermost, settled
 from viscofric.heat.heating import Heating, ThermalResistances
 from viscofric.heat.interface import END, SlidingInterface, last_known
+from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,8 +36,6 @@ LOOSE = 2e-2
 _DECADES, _KELVIN = 0.4, 10.0
 #: States are looked for up to this rise, K, and up to this multiple of the largest rise that a contact produced.
 _LEAST, _BEYOND = 30.0, 2.0
-#: Decades of α within which a contact of a curve keeps its resistances: rises change by less than their residual.
-_ALIKE = 0.01
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class ThermalContact:
     """One contact at any rise of temperature; of its kinds there are free and periodic ones."""
 
     #: Of curves, decades of speed between contacts whose resistances are found from their fields.
-    knots_apart: ClassVar[float] = 0.2
+    knots_apart: ClassVar[float] = 0.25
     #: Whether heats are per nominal area, of which the contact is a part.
     of_nominal_area: ClassVar[bool] = False
 
@@ -121,13 +120,18 @@ class ThermalContact:
         coulomb: Any = found if np.ndim(rise) else float(found.item())
         return heat._replace(coulomb=coulomb)
 
+    @one_blas_thread
     def at(
         self, rise: float, accuracy: float, relative: ThermalResistances | None = None, *, hot: bool = False
     ) -> Warmed:
         """Solve the contact at a rise of temperature; `relative` as in `heat`, `hot` as in `State`."""
-        kelvin = self.kelvin + rise
-        solution = self.isothermal(self.speed, kelvin, accuracy)
-        heat = self.with_interface(self.heat(solution, kelvin, relative), rise, hot=hot)
+        return self.warmed(self.isothermal(self.speed, self.kelvin + rise, accuracy), rise, relative, hot=hot)
+
+    def warmed(
+        self, solution: Any, rise: float, relative: ThermalResistances | None = None, *, hot: bool = False
+    ) -> Warmed:
+        """Return the contact solved at a rise of temperature with its heat; other arguments as of `at`."""
+        heat = self.with_interface(self.heat(solution, self.kelvin + rise, relative), rise, hot=hot)
         friction = solution.friction_coefficient
         return Warmed(rise, friction, self.kept(solution), heat, self.heating.rise(heat.balance))
 
@@ -202,7 +206,7 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
     states = outermost(curve, _curve_of([contact.hottest(one) for one in scanned]))
     if not states:
         raise beyond(ended, contact.kelvin + scanned[-1].rise)
-    found, left_out = within_law(contact, [settle(contact, curve, one, accuracy) for one in states])
+    found, left_out = within_law(contact, [_settled(contact, curve, one, accuracy) for one in states])
     order = found if contact.heating.branch == "cold" else found[::-1]
     heating, notes = described(contact.heating, contact.speed, order, isothermal.friction)
     shear = coupling_notes([contact.sheared(order[0])])
@@ -228,29 +232,12 @@ def _curve_of(scanned: list[Warmed]) -> HeatCurve:
     return HeatCurve.of(*columns)
 
 
-def settle(
-    contact: ThermalContact,
-    curve: HeatCurve,
-    state: State,
-    accuracy: float,
-    relative: ThermalResistances | None = None,
-    *,
-    in_curve: bool = False,
-) -> Warmed:
-    """Return the contact solved at a state of its curve; `relative` as in `ThermalContact.heat`.
-
-    Contacts in a friction curve keep their resistances where α has hardly changed since they were found.
-    """
+def _settled(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: float) -> Warmed:
+    """Return the contact solved at a state of its curve."""
     last: list[Warmed] = []
-    found: list[tuple[float, ThermalResistances]] = []
 
     def produced(rise: float) -> float:
-        near, shift = relative, contact.log10_shift(contact.kelvin + rise)
-        if near is None and found and abs(shift - found[0][0]) <= _ALIKE:
-            near = found[0][1]
-        last[:] = [contact.at(rise, accuracy, near, hot=state.hot)]
-        if in_curve and near is None:
-            found[:] = [(shift, contact.relative(last[0].heat))]
+        last[:] = [contact.at(rise, accuracy, hot=state.hot)]
         return last[0].produced
 
     settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)

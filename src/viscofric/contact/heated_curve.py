@@ -3,27 +3,27 @@
 The isothermal curve is solved first.  A contact that is ΔT warmer lies on the same curve at the speed α(T) v:
 interpolation gives the rise that it produces at every ΔT, and with it all states of all speeds.  Each is then solved,
 mostly once, since its temperature is nearly known.  Resistances are found from the fields of the contacts at a few
-speeds, the knots, which are solved before the others.
+speeds, the knots, which are solved before the others; of these numbers are enough, which may be interpolated.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heated import LOOSE, enough, settle, sought, within_law
+from viscofric.contact.heated import LOOSE, enough, sought, within_law
 from viscofric.contact.heated_knots import Between, Knot, knots_of
 from viscofric.contact.heated_result import Heat, beyond, described
-from viscofric.heat.branches import HeatCurve, outermost
+from viscofric.heat.branches import HeatCurve, outermost, settling
 from viscofric.heat.result import OF_CONTACT
 from viscofric.processes import Workers, call_all
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Generator, Sequence
 
     from viscofric.arrays import Array
     from viscofric.contact.heated import ThermalContact
@@ -39,6 +39,10 @@ _FINE, _BELOW = 40.0, 2.5
 _PLACES = np.linspace(0.0, 1.0, 1 + int(_FINE * 10)) ** 2
 #: States are looked for up to this rise, K, at first; then up to this many times more.
 _FIRST, _FARTHER, _MOST = 30.0, 1.6, 1000.0
+#: Decades of α within which a contact keeps its resistances: rises change by less than their residual.
+_ALIKE = 0.01
+#: Of the knots, each so many-th has resistances without heating: they only tell near which rise its states are.
+_COLD_KNOTS = 2
 
 
 class States(NamedTuple):
@@ -58,35 +62,123 @@ def solve_states(
     accuracy: float,
     workers: int | Workers,
     report: Callable[[int], None],
+    shared: Callable[[Sequence[tuple[float, float]]], Sequence[Any]] | None = None,
 ) -> list[States]:
     """Return the states of contacts in the order of all curves, which each differ in speed only.
 
-    `report` gets the number of solved contacts, of twice as many as there are.
+    `report` gets the number of solved contacts, of twice as many as there are.  `shared` may give the numbers of
+    contacts at speeds and temperatures, which differ in nothing else.
     """
     if not isinstance(workers, Workers):
         with Workers(workers) as alone:
-            return solve_states(curves, accuracy, alone, report)
+            return solve_states(curves, accuracy, alone, report, shared)
     every = [_Curve(one, accuracy) for one in curves]
     count = sum(map(len, curves))
     for at_knots in (True, False):
-        jobs = [job for one in every for job in one.isothermal(at_knots)]
-        before = sum(len(one.cold) for one in every)
-        calls = [call for *_, call in jobs]
-        solved = call_all(_isothermal, calls, workers=workers, progress=partial(_add, report, before, count))
-        for (curve, row, _), one in zip(jobs, solved, strict=True):
+        rows = [(one, row) for one in every for row in one.rows(one.cold_knots, at_knots)]
+        solver = _Solver(accuracy, workers, shared, partial(_add, report, sum(len(one.cold) for one in every), count))
+        solved = solver.solve([one.isothermal(row) for one, row in rows])
+        for (curve, row), one in zip(rows, solved, strict=True):
             curve.cold[row] = one
     for at_knots in (True, False):
         starts = [start for one in every for start in one.starts(at_knots)]
         before = count + sum(len(one.settled) for one in every)
-        calls = [call for *_, call in starts]
-        solved = call_all(settle, calls, workers=workers, progress=partial(_add, report, before, 2 * count))
-        for (curve, row, _), one in zip(starts, solved, strict=True):
-            curve.settled.setdefault(row, []).append(one)
+        solver = _Solver(accuracy, workers, shared, partial(_add, report, before, 2 * count))
+        for start, one in zip(starts, solver.settle(starts), strict=True):
+            start.of.settled.setdefault(start.row, []).append(one)
     return [states for one in every for states in one.chosen()]
 
 
 def _add(report: Callable[[int], None], before: int, most: int, done: int) -> None:
     report(min(before + done, most))
+
+
+class _Call(NamedTuple):
+    """A contact to be solved at a rise of temperature; other arguments as of `ThermalContact.at`."""
+
+    contact: ThermalContact
+    rise: float = 0.0
+    relative: ThermalResistances | None = None
+    hot: bool = False
+
+
+class _Start(NamedTuple):
+    """A state of a contact of a curve, near which it is to be found."""
+
+    of: _Curve
+    row: int
+    curve: HeatCurve
+    state: State
+    near: Knot | None
+
+    def settling(self, accuracy: float) -> Generator[_Call, Warmed, None]:
+        """Yield the contact at rises until the one that it produces agrees, and take what it has produced.
+
+        It keeps its resistances where α has hardly changed since they were found.
+        """
+        contact = self.of.contacts[self.row]
+        relative = None if self.near is None else self.near.relative
+        steps = settling(self.state, lambda rise: self.curve.tolerance(rise, accuracy), self.curve.limits)
+        rise, found = next(steps), None
+        while True:
+            shift = contact.log10_shift(contact.kelvin + rise)
+            kept = found[1] if found is not None and abs(shift - found[0]) <= _ALIKE else relative
+            one = yield _Call(contact, rise, kept, self.state.hot)
+            if kept is None:
+                found = shift, contact.relative(one.heat)
+            try:
+                rise = steps.send(one.produced)
+            except StopIteration:
+                return
+
+
+class _Solver(NamedTuple):
+    """Solves many contacts; see `solve_states`."""
+
+    accuracy: float
+    workers: Workers
+    shared: Callable[[Sequence[tuple[float, float]]], Sequence[Any]] | None
+    report: Callable[[int], None]
+
+    def solve(self, calls: Sequence[_Call], before: int = 0) -> list[Warmed]:
+        """Return the solved contacts; numbers of those with known resistances are interpolated if they can be.
+
+        So many have been found before, which the report includes.
+        """
+        found: dict[int, Warmed] = {}
+        known = [row for row, one in enumerate(calls) if self.shared is not None and one.relative is not None]
+        if known:
+            assert self.shared is not None
+            places = [(one.contact.speed, one.contact.kelvin + one.rise) for one in (calls[row] for row in known)]
+            for row, numbers in zip(known, self.shared(places), strict=True):
+                one = calls[row]
+                found[row] = one.contact.warmed(numbers, one.rise, one.relative, hot=one.hot)
+            self.report(before + len(found))
+        alone = [row for row in range(len(calls)) if row not in found]
+        solved = call_all(
+            _at,
+            [{**calls[row]._asdict(), "accuracy": self.accuracy} for row in alone],
+            workers=self.workers,
+            progress=lambda done: self.report(before + len(known) + done),
+        )
+        found |= dict(zip(alone, solved, strict=True))
+        return [found[row] for row in range(len(calls))]
+
+    def settle(self, starts: Sequence[_Start]) -> list[Warmed]:
+        """Return the contacts at the rises that they produce, solved together, in waves."""
+        found: dict[int, Warmed] = {}
+        searches = {row: start.settling(self.accuracy) for row, start in enumerate(starts)}
+        calls = {row: next(one) for row, one in searches.items()}
+        while calls:
+            more: dict[int, _Call] = {}
+            for row, one in zip(calls, self.solve(list(calls.values()), len(starts) - len(calls)), strict=True):
+                found[row] = one
+                try:
+                    more[row] = searches[row].send(one)
+                except StopIteration:
+                    continue
+            calls = more
+        return [found[row] for row in range(len(starts))]
 
 
 def heat_columns(states: Sequence[States]) -> dict[str, Array]:
@@ -101,13 +193,8 @@ def heat_columns(states: Sequence[States]) -> dict[str, Array]:
     return {name: np.array(column) for name, column in values.items()}
 
 
-def _isothermal(contact: ThermalContact, accuracy: float, relative: ThermalResistances | None = None) -> Warmed:
-    return contact.at(0.0, accuracy, relative)
-
-
-def _relative(knot: Knot | None) -> dict[str, ThermalResistances]:
-    """Return the argument of a contact whose resistances are known from others."""
-    return {} if knot is None else {"relative": knot.relative}
+def _at(contact: ThermalContact, **given: Any) -> Warmed:
+    return contact.at(**given)
 
 
 def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed], said: tuple[Note, ...]) -> States:
@@ -125,38 +212,42 @@ class _Curve:
         self.contacts, self.contact = contacts, contacts[0]
         self.wanted, self.accuracy = accuracy, max(LOOSE, accuracy)
         self.knots = knots_of(contacts)
+        self.cold_knots = sorted({*self.knots[::_COLD_KNOTS], *self.knots[-1:]})
         self.cold: dict[int, Warmed] = {}
         self.settled: dict[int, list[Warmed]] = {}  # the coldest and the hottest state, if there are two
 
-    def _rows(self, at_knots: bool) -> list[int]:
-        return self.knots if at_knots else sorted({*range(len(self.contacts))} - {*self.knots})
+    def rows(self, knots: Sequence[int], at_knots: bool) -> list[int]:
+        """Return the rows of contacts at knots, or those of all others."""
+        return list(knots) if at_knots else sorted({*range(len(self.contacts))} - {*knots})
 
-    def _between(self, knots: Sequence[Knot | None]) -> Between:
-        return Between([abs(self.contacts[row].speed) for row in self.knots], knots)
+    def _speeds(self, rows: Sequence[int]) -> list[float]:
+        return [abs(self.contacts[row].speed) for row in rows]
 
-    def isothermal(self, at_knots: bool) -> list[tuple[_Curve, int, dict[str, Any]]]:
-        """Return the calls that solve contacts without heating, with their rows; those at knots come first."""
-        rows, between = self._rows(at_knots), None
-        if not at_knots and rows:
-            between = self._between([Knot.of(self.contacts[row], self.cold[row].heat) for row in self.knots])
-        return [(self, row, {**self._call(row), **_relative(self._near(row, between))}) for row in rows]
+    def isothermal(self, row: int) -> _Call:
+        """Return a contact without heating, to be solved; those at knots come first."""
+        near = None if row in self.cold_knots else self._cold_between(abs(self.contacts[row].speed))
+        return _Call(self.contacts[row], relative=None if near is None else near.relative)
 
-    def starts(self, at_knots: bool) -> list[tuple[_Curve, int, dict[str, Any]]]:
-        """Return the calls that settle the states of contacts, with their rows; those at knots come first."""
-        rows = self._rows(at_knots)
+    @cached_property
+    def _cold_between(self) -> Between:
+        knots = [Knot.of(self.contacts[row], self.cold[row].heat) for row in self.cold_knots]
+        return Between(self._speeds(self.cold_knots), knots)
+
+    def starts(self, at_knots: bool) -> list[_Start]:
+        """Return where the states of contacts are searched for; those at knots come first."""
         if at_knots:
             columns = [(abs(self.contacts[row].speed), one) for row, one in sorted(self.cold.items())]
             self.friction = {speed: abs(one.friction) for speed, one in columns}
             self.area = {speed: one.heat.area for speed, one in columns}
             self.found = [self.states(one, self.cold[row]) for row, one in enumerate(self.contacts)]
         found = []
-        for row in rows:
+        for row in self.rows(self.knots, at_knots):
             curve, states, _ = self.found[row]
             for branch, state in enumerate(states):
-                near = None if at_knots else self._near(row, self._branch(len(states), branch))
+                between = None if at_knots else self._branch(len(states), branch)
+                near = None if between is None else between(abs(self.contacts[row].speed))
                 rise = state.rise if near is None else min(state.rise * math.exp(near.rise), curve.limits[1])
-                start = {"curve": curve, "state": state._replace(rise=rise), "in_curve": True, **_relative(near)}
-                found.append((self, row, {**self._call(row), **start}))
+                found.append(_Start(self, row, curve, state._replace(rise=rise), near))
         return found
 
     def chosen(self) -> list[States]:
@@ -164,12 +255,6 @@ class _Curve:
         return [
             _chosen(one, self.cold[row], self.settled[row], self.found[row][2]) for row, one in enumerate(self.contacts)
         ]
-
-    def _call(self, row: int) -> dict[str, Any]:
-        return {"contact": self.contacts[row], "accuracy": self.wanted}
-
-    def _near(self, row: int, between: Between | None) -> Knot | None:
-        return None if between is None else between(abs(self.contacts[row].speed))
 
     @cache  # noqa: B019 (a curve lives as long as its solve)
     def _branch(self, count: int, branch: int) -> Between:
@@ -184,7 +269,7 @@ class _Curve:
             off = math.log(one.produced / expected) if min(one.produced, expected) > 0.0 else 0.0
             drop = float(self.log10_drop(np.asarray(one.rise)))
             knots.append(Knot.of(self.contacts[row], one.heat, drop, off))
-        return self._between(knots)
+        return Between(self._speeds(self.knots), knots)
 
     def log10_drop(self, rise: Array) -> Array:
         """Return by how many decades the curve is passed at rises of temperature."""

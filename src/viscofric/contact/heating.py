@@ -63,8 +63,11 @@ class LoadedContact(Protocol):
 class FreeThermalContact(ThermalContact):
     """Contact of an indenter at any rise of temperature."""
 
-    def heat(self, solution: ContactSolution, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
-        """Return the heats of a contact solved at a temperature; its resistances `relative` to `closed`, if known."""
+    def heat(self, solution: Any, kelvin: float, relative: ThermalResistances | None = None) -> Heat:
+        """Return the heats of a contact solved at a temperature; its resistances `relative` to `closed`, if known.
+
+        Then the numbers of a contact are enough, without its fields.
+        """
         if relative is None:
             resistances = thermal_resistances(solution, self.modes(kelvin), self.material.poisson_ratio, self.heating)
         else:
@@ -76,7 +79,7 @@ class FreeThermalContact(ThermalContact):
         return Heat(
             resistances,
             self.heating.coulomb_heat(solution.load, self.speed),
-            abs(solution.friction_force * solution.speed),
+            abs(solution.friction_coefficient * solution.load * solution.speed),
             solution.contact_area,
             0.5 * (solution.front + solution.rear),
         )

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from viscofric.contact.heated import finished
 from viscofric.contact.heated_curve import heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
+from viscofric.friction.cases.record import Record, indenter_record
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.solved_columns import columns_of
+from viscofric.friction.planning.shared import SharedContacts
+from viscofric.friction.solved_columns import columns_of_records
 from viscofric.heat.result import SolvedHeatColumns
+from viscofric.processes import Workers
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,8 +22,8 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.contact.heated import ThermalContact
+    from viscofric.contact.heated_curve import States
     from viscofric.heat.heating import Heating
-    from viscofric.processes import Workers
     from viscofric.rheology.interface.law import InterfaceLaw
 
 
@@ -66,23 +69,39 @@ def predict_heated(
     workers: int | Workers,
     report: Callable[[int], None],
     interface: InterfaceLaw | None = None,
+    *,
+    exact: bool = False,
 ) -> HeatedFrictionCurves:
     """Return the friction of contacts, arguments of `solve_steady` each, of one material, indenter and load.
 
-    The heat of an `interface` takes the place of a constant Coulomb friction.
+    The heat of an `interface` takes the place of a constant Coulomb friction.  Contacts are interpolated between others
+    where that is enough, unless `exact`.
     """
     every = [_thermal(heating=heating, interface=interface, **one) for one in contacts]
     kelvins = sorted({one.kelvin for one in every})
     curves = [[one for one in every if one.kelvin == kelvin] for kelvin in kelvins]
-    found = solve_states(curves, contacts[0]["accuracy"], workers, report)
+    accuracy, material = contacts[0]["accuracy"], contacts[0]["material"]
+    with Workers(workers) if not isinstance(workers, Workers) else nullcontext(workers) as processes:
+        shared = None if exact else SharedContacts.of(material, contacts, processes, _untold)
+        found = solve_states(curves, accuracy, processes, report, shared)
     of_contact = dict(zip([id(one) for curve in curves for one in curve], found, strict=True))
     states = [of_contact[id(one)] for one in every]
     columns: dict[str, Any] = heat_columns(states)
+    unit = contacts[0]["indenter"].geometry.load_unit
     return HeatedFrictionCurves(
-        **columns_of(finished(one.contact, one.wanted.solution, one.heating, one.notes) for one in states),
-        source="predicted",
-        **columns,
+        **columns_of_records([_record(one) for one in states], unit), source="predicted", **columns
     )
+
+
+def _untold(done: int) -> None:
+    """Progress is that of the states."""
+
+
+def _record(one: States) -> Record:
+    """Return the numbers of a contact at the temperature of the body, with the notes on its heat."""
+    found, kelvin = one.wanted.solution, one.contact.kelvin
+    record = found if isinstance(found, Record) else indenter_record(found, kelvin)
+    return replace(record, numbers={**record.numbers, "temperature": kelvin}, warnings=(*record.warnings, *one.notes))
 
 
 def _thermal(

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Generator
 
     from viscofric.arrays import Array
 
@@ -98,9 +98,23 @@ def settled(
     tolerance: Callable[[float], float],
     within: tuple[float, float] = (-math.inf, math.inf),
 ) -> tuple[float, float]:
-    """Return a rise ΔT and G(ΔT) − ΔT, no larger than the tolerance at it, from a state, by secants between two bounds.
+    """Return a rise ΔT and G(ΔT) − ΔT, as `settling` does; `produced` solves the contact at ΔT."""
+    steps = settling(start, tolerance, within)
+    rise = next(steps)
+    while True:
+        try:
+            rise = steps.send(produced(rise))
+        except StopIteration as end:
+            found: tuple[float, float] = end.value
+            return found
 
-    `produced` solves the contact at ΔT.  Once a colder contact that produces too much and a warmer one that produces
+
+def settling(
+    start: State, tolerance: Callable[[float], float], within: tuple[float, float] = (-math.inf, math.inf)
+) -> Generator[float, float, tuple[float, float]]:
+    """Find a rise ΔT and G(ΔT) − ΔT, no larger than the tolerance at it, from a state, by secants between two bounds.
+
+    Yields rises ΔT, and takes G at each.  Once a colder contact that produces too much and a warmer one that produces
     too little are known, steps stay between them, and halve what two secants do not.  A G that jumps past ΔT, as points
     of a contact come and go, has its state where both are no farther apart than the tolerance.  Raises ConvergenceError
     if the solves do not settle.
@@ -110,7 +124,7 @@ def settled(
     low = high = None
     widths = [math.inf, math.inf]
     for _ in range(_MOST_SOLVES):
-        found = produced(rise)
+        found = yield rise
         excess, allowed = found - rise, tolerance(rise)
         if abs(excess) <= allowed:
             return rise, excess

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -44,65 +45,112 @@ def shared_records(
     InputError, ConvergenceError
         Of the first contact that cannot be solved, and cannot be interpolated either.
     """
-    accuracy = contacts[0]["accuracy"]
-    given = {name: value for name, value in contacts[0].items() if name not in _OF_CONTACT}
-    settings, usual = ContactSettings(accuracy=accuracy, **given), ContactSettings(accuracy=accuracy)
-    special = any(not _same(getattr(settings, name), getattr(usual, name)) for name in given.keys() - _OF_CURVES)
-    if special or material.shift is None or not isinstance(material.spectrum, RetardationSpectrum):
+    shared = SharedContacts.of(material, contacts, workers, report, sensitive=sensitive)
+    if shared is None:
         return None
-    modulus = settings.indenter_modulus
-    body: dict[str, Any] = {
-        "layer": settings.layer,
-        "modulus": None if modulus is None else positive(modulus, "Pa", "indenter_modulus"),
-        "poisson_ratio": settings.indenter_poisson_ratio,
-    }
-    of_case = ("indenter", "speed", "load", "temperature")
-    cases = [IndenterCase(0, **{name: contact[name] for name in of_case}, **body) for contact in contacts]
-    plan = plan_cases(cases, [material], accuracy=accuracy, sensitive=sensitive)
-    if not plan.shares:
-        return None
-    errors: dict[str, ViscofricError] = {}
-    if isinstance(workers, Workers):
-        found = _carried_out(plan, workers, report, errors)
-    else:
-        with Workers(workers) as alone:
-            found = _carried_out(plan, alone, report, errors)
+    found = shared(places_of(contacts))
     complete = not sensitive or all(record.sensitivity is not None for record in found)
     return found if complete else None
 
 
+def places_of(contacts: Sequence[dict[str, Any]]) -> list[tuple[float, float]]:
+    """Return the speeds and temperatures of contacts."""
+    return [(contact["speed"], contact["temperature"]) for contact in contacts]
+
+
+@dataclass(eq=False)
+class SharedContacts:
+    """Contacts that differ in speed and temperature only, interpolated between those on their curve.
+
+    What has been solved is kept for further contacts.
+    """
+
+    material: Material
+    case: IndenterCase
+    accuracy: float
+    sensitive: bool
+    workers: int | Workers
+    report: Callable[[int], None]
+    _known: dict[str, Record | ViscofricError] = field(default_factory=dict)
+    _asked: list[IndenterCase] = field(default_factory=list)
+
+    @classmethod
+    def of(
+        cls,
+        material: Material,
+        contacts: Sequence[dict[str, Any]],
+        workers: int | Workers,
+        report: Callable[[int], None],
+        *,
+        sensitive: bool = False,
+    ) -> SharedContacts | None:
+        """Return the shared contacts of which these are some; None as of `shared_records`."""
+        first = contacts[0]
+        accuracy = first["accuracy"]
+        given = {name: value for name, value in first.items() if name not in _OF_CONTACT}
+        settings, usual = ContactSettings(accuracy=accuracy, **given), ContactSettings(accuracy=accuracy)
+        special = any(not _same(getattr(settings, name), getattr(usual, name)) for name in given.keys() - _OF_CURVES)
+        if special or material.shift is None or not isinstance(material.spectrum, RetardationSpectrum):
+            return None
+        modulus = settings.indenter_modulus
+        body: dict[str, Any] = {
+            "layer": settings.layer,
+            "modulus": None if modulus is None else positive(modulus, "Pa", "indenter_modulus"),
+            "poisson_ratio": settings.indenter_poisson_ratio,
+        }
+        of_case = ("indenter", "speed", "load", "temperature")
+        case = IndenterCase(0, **{name: first[name] for name in of_case}, **body)
+        found = cls(material, case, accuracy, sensitive, workers, report)
+        return found if found._plan(found._cases(places_of(contacts))).shares else None
+
+    def __call__(self, places: Sequence[tuple[float, float]]) -> list[Record]:
+        """Return the records of contacts at speeds, m/s, and temperatures, K; raises as `shared_records`."""
+        cases = self._cases(places)
+        # Contacts asked for before make the curve worth its nodes, which are known.
+        plan = self._plan([*cases, *self._asked])
+        self._asked += cases
+        if isinstance(self.workers, Workers):
+            self._carry_out(plan, self.workers)
+        else:
+            with Workers(self.workers) as alone:
+                self._carry_out(plan, alone)
+        found: list[Record] = []
+        for outcome in plan.found()[: len(cases)]:
+            if isinstance(outcome, Failure):
+                errors = {str(one): one for one in self._known.values() if isinstance(one, ViscofricError)}
+                raise errors.get(outcome.reason, InputError(outcome.reason, code=outcome.code))
+            found.append(outcome)
+        self.report(plan.total)
+        return found
+
+    def _cases(self, places: Sequence[tuple[float, float]]) -> list[IndenterCase]:
+        return [replace(self.case, speed=speed, temperature=kelvin) for speed, kelvin in places]
+
+    def _plan(self, cases: Sequence[IndenterCase]) -> Plan:
+        return plan_cases(cases, [self.material], accuracy=self.accuracy, sensitive=self.sensitive)
+
+    def _carry_out(self, plan: Plan, workers: Workers) -> None:
+        """Solve the contacts of a plan wave by wave; report the cases known, and those begun of the present wave."""
+        most = 0
+
+        def told(known: int, solved: int) -> None:
+            nonlocal most
+            most = max(most, min(known + solved, plan.total - 1))
+            self.report(most)
+
+        while tasks := plan.wanted():
+            new = [task for task in tasks if task.key not in self._known]
+            calls = [{"task": task} for task in new]
+            outcomes = call_all(_attempt, calls, workers=workers, progress=partial(told, plan.done))
+            self._known |= {task.key: outcome for task, outcome in zip(new, outcomes, strict=True)}
+            for task in tasks:
+                outcome = self._known[task.key]
+                failed = isinstance(outcome, ViscofricError)
+                plan.receive(task.key, Failure.of(outcome, task.label) if failed else outcome)  # type: ignore[arg-type]
+
+
 def _same(value: object, usual: object) -> bool:
     return value is usual or (isinstance(value, int | float | str | tuple) and value == usual)
-
-
-def _carried_out(
-    plan: Plan, workers: Workers, report: Callable[[int], None], errors: dict[str, ViscofricError]
-) -> list[Record]:
-    """Solve the contacts of a plan wave by wave; report the cases known, and those begun of the present wave."""
-    most = 0
-
-    def told(known: int, solved: int) -> None:
-        nonlocal most
-        most = max(most, min(known + solved, plan.total - 1))
-        report(most)
-
-    while tasks := plan.wanted():
-        before = plan.done
-        calls = [{"task": task} for task in tasks]
-        outcomes = call_all(_attempt, calls, workers=workers, progress=partial(told, before))
-        for task, outcome in zip(tasks, outcomes, strict=True):
-            if isinstance(outcome, ViscofricError):
-                errors[str(outcome)] = outcome
-                plan.receive(task.key, Failure.of(outcome, task.label))
-            else:
-                plan.receive(task.key, outcome)
-    found: list[Record] = []
-    for outcome in plan.found():
-        if isinstance(outcome, Failure):
-            raise errors.get(outcome.reason, InputError(outcome.reason, code=outcome.code))
-        found.append(outcome)
-    report(plan.total)
-    return found
 
 
 def _attempt(task: Task) -> Record | ViscofricError:
