@@ -165,9 +165,10 @@ def solve_free(
         if not level.track.moments:
             found = replace(found, interrupted=level.track.interrupted)
             break
-        moments = _compared(level, before)
+        rows = _resolved(level, before) if times is None else list(range(len(level.track.moments)))
+        moments = _compared(level, before, rows)
         found, notes = replace(level.track, moments=moments), ()
-        judged = moments if times is not None else _resolved(moments, before, problem.schedule)
+        judged = [moments[row] for row in rows]
         error = _worst(judged, _largest(level))
         logger.info(
             "%.0f cells along the contact: known to %.1g, %d products", level.cells, error, level.mover.products
@@ -251,10 +252,11 @@ def _largest(level: Level) -> Scales:
     )
 
 
-def _compared(level: Level, coarser: Level) -> list[Moment[Any]]:
+def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Moment[Any]]:
     """Return the moments of the finer grid with the errors of steps and cells, the work of friction extrapolated.
 
-    Friction is that of the memory, or of the pressure on the indenter's slopes if that has changed less.
+    Friction is that of the memory, or of the pressure on the indenter's slopes if that has changed less.  The usual
+    change is that of the moments that are judged.
     """
     fine, coarse = level.track.moments, coarser.track.moments
     kinks = level.mover.setting.schedule.kinks
@@ -262,7 +264,7 @@ def _compared(level: Level, coarser: Level) -> list[Moment[Any]]:
     clock, before = _order([one.instant.time for one in fine]), _order([one.instant.time for one in coarse])
     left = _LEFT * (here - _interpolated(clock, before, there, kinks))
     # One change may be small by chance.
-    usual = np.sqrt(np.mean(left**2, axis=0))
+    usual = np.sqrt(np.mean(left[judged or slice(None)] ** 2, axis=0))
     load, depth, energy, *forces = np.maximum(np.abs(left), usual).T[:7]
     on_slopes = bool(math.hypot(*usual[5:7]) < math.hypot(*usual[3:5]))
     friction = _MARGIN * np.hypot(*(forces[2:] if on_slopes else forces[:2]))
@@ -297,20 +299,21 @@ def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Ar
     return found
 
 
-def _resolved(moments: list[Moment[Any]], coarser: Level, schedule: Schedule) -> list[Moment[Any]]:
-    """Leave out what follows a start or a turn within too few steps or cells of the coarser grid."""
+def _resolved(level: Level, coarser: Level) -> list[int]:
+    """Return rows of moments, without those within few steps or cells of a coarser grid after a start or a turn."""
     times = np.array([one.instant.time for one in coarser.track.moments])
-    setting, kinks = coarser.mover.setting, schedule.kinks
+    setting = coarser.mover.setting
+    schedule, kinks = setting.schedule, setting.schedule.kinks
     shortest = _RESOLVED_CELLS * coarser.mover.grid.spacing * setting.scale.length
     kept = []
-    for one in moments:
+    for row, one in enumerate(level.track.moments):
         place = min(int(np.searchsorted(kinks, one.instant.time, side="right")), len(kinks) - 1) - 1
         begun, ends = (schedule.at(float(kinks[k])) for k in (place, place + 1))
         steps = np.count_nonzero((times > begun.time) & (times <= one.instant.time))
         slid, stroke = (math.hypot(*(instant.position - begun.position)) for instant in (one.instant, ends))
         early = 0.0 < slid < min(shortest, _UNJUDGED * stroke) and _starts(schedule, begun.time)
         if one.instant.time == begun.time or (steps >= _RESOLVED_STEPS and not early):
-            kept.append(one)
+            kept.append(row)
     return kept
 
 
