@@ -1,4 +1,4 @@
-"""A dense solver of a sheared line contact on a bonded strip that shares nothing with viscofric.contact.
+"""A dense solver of a sheared line contact on a strip that shares nothing with viscofric.contact.
 
 R. H. Bentall and K. L. Johnson, Int. J. Mech. Sci. 10 (1968) 637, solve an elastic strip in plane contact by its
 Fourier integrals and tractions that are linear between points; so does this, for a strip that slips everywhere.  Waves
@@ -31,6 +31,7 @@ class SlidingStrip:
     E0: float
     E_inf: float
     memory: float  # speed times retardation time
+    bonded: bool = True  # or sliding on its base without friction
 
     def friction(self, half_width: float, points: int) -> tuple[float, float, float]:
         """Return the friction of the pressure, and the front and rear edge, on points within ±`half_width`."""
@@ -84,5 +85,7 @@ class SlidingStrip:
         depth = np.linspace(1e-4, _DEEP, 400)
         through = expm(depth[:, None, None] * rows)
         loads = np.array([[0.0, 1.0], [-1.0, 0.0]])  # columns: pressure, shear
-        moved = through[:, :2, 2:] @ np.linalg.solve(through[:, 2:, 2:], np.broadcast_to(loads, (len(depth), 2, 2)))
+        base = [2, 3] if self.bonded else [0, 3]  # what is not zero at the base
+        given = np.linalg.solve(through[:, 2:, base], np.broadcast_to(loads, (len(depth), 2, 2)))
+        moved = through[:, :2, base] @ given
         return CubicSpline(depth, -moved[:, 1, 0]), CubicSpline(depth, moved[:, 1, 1])

@@ -11,12 +11,12 @@ import pytest
 
 import viscofric as vf
 from viscofric.contact.bodies import half_space_coupling
-from viscofric.contact.coupling import ShearedContact, SurfaceCoupling, coupling_notes, mean_coupling
+from viscofric.contact.coupling import ShearedContact, SurfaceCoupling, coupling_notes, sheared_compliance
 from viscofric.notes import codes
 
 COULOMB = 0.5
-#: Estimates are right to this factor; on layers on which |X| counts waves that cancel, they are upper bounds.
-FACTOR = 2.0
+#: Estimates are right to this factor, and to the larger one on layers on which X changes its sign with the wave.
+FACTOR, FACTOR_OF_CANCELLING = 2.0, 2.5
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 
 
@@ -32,64 +32,58 @@ def solved_change(solve: Any, **given: Any) -> float:
 
 def free_contact(solution: vf.ContactSolution, one: vf.Material, layer: vf.Layer | None, line: bool) -> ShearedContact:
     radius = 0.5 * solution.contact_area if line else math.sqrt(solution.contact_area / math.pi)
-    modulus = abs(complex(one.modes_at().complex_modulus(abs(solution.speed) / radius)))
+    modes, ratio = one.modes_at(), one.poisson_ratio
     return ShearedContact(
         stress=COULOMB * solution.mean_pressure,
         friction=solution.friction_coefficient,
-        compliance=(1.0 - one.poisson_ratio**2) / modulus,
-        coupling=mean_coupling(one.poisson_ratio, layer, radius, line=line),
+        compliance=sheared_compliance(modes, ratio, layer, radius, solution.speed, line=line),
         line=line,
     )
 
 
-@pytest.mark.parametrize("speed", [0.0, 0.1, 1.0, 10.0])
-@pytest.mark.parametrize("thickness", [None, "0.3 mm", "1 mm", "3 mm"])
+@pytest.mark.parametrize("speed", [0.0, 1.0, 10.0])
+@pytest.mark.parametrize(
+    ("poisson_ratio", "layer"),
+    [
+        (0.3, None),
+        *((0.5, vf.Layer(thickness)) for thickness in ("0.3 mm", "1 mm", "3 mm")),
+        *((0.5, vf.Layer(thickness, bonded=False)) for thickness in ("0.3 mm", "3 mm")),
+        *((0.3, vf.Layer(thickness)) for thickness in ("0.3 mm", "1 mm")),
+        *((0.3, vf.Layer(thickness, bonded=False)) for thickness in ("0.3 mm", "1 mm")),
+    ],
+)
 @pytest.mark.parametrize("line", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_the_change_of_a_free_contact_is_that_of_contacts_solved_with_shear(
-    thickness: str | None, speed: float, line: bool
+    poisson_ratio: float, layer: vf.Layer | None, speed: float, line: bool
 ) -> None:
-    """Memory of 1/8 to 8 contact radii; layers from 1/4 to 8 of them thick, incompressible, half-spaces not."""
-    one = material(0.3 if thickness is None else 0.5)
-    layer = None if thickness is None else vf.Layer(thickness)
+    """Memory of 1 to 8 contact radii; layers from 1/4 to 8 of them thick, on either base."""
+    one = material(poisson_ratio)
     indenter, load = (vf.Cylinder("10 mm"), 100.0) if line else (vf.Ball("10 mm"), 0.5)
 
     def solve(coulomb: float = 0.0) -> vf.ContactSolution:
-        return vf.solve_steady(one, indenter, speed=speed, load=load, accuracy=5e-3, layer=layer, coulomb=coulomb)
+        return vf.solve_steady(one, indenter, speed=speed, load=load, accuracy=1e-2, layer=layer, coulomb=coulomb)
 
-    found = free_contact(solve(), one, layer, line).change
-    assert 1.0 / FACTOR < solved_change(solve) / found < FACTOR
-
-
-@pytest.mark.parametrize("thickness", ["1 mm", "3 mm"])
-@pytest.mark.parametrize("speed", [0.0, 1.0, 10.0])
-def test_on_compressible_layers_the_change_is_an_upper_bound(thickness: str, speed: float) -> None:
-    """X changes its sign with the length of the wave: its parts cancel, the more the thinner the layer is."""
-    one, layer = material(0.3), vf.Layer(thickness)
-
-    def solve(coulomb: float = 0.0) -> vf.ContactSolution:
-        return vf.solve_steady(
-            one, vf.Cylinder("10 mm"), speed=speed, load=100.0, accuracy=5e-3, layer=layer, coulomb=coulomb
-        )
-
-    assert 0.4 < solved_change(solve) / free_contact(solve(), one, layer, True).change < 1.1
+    found, cancels = free_contact(solve(), one, layer, line).change, layer is not None and poisson_ratio < 0.5
+    factor = FACTOR_OF_CANCELLING if cancels else FACTOR
+    assert 1.0 / factor < solved_change(solve) / found < factor
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("poisson_ratio", "thickness", "speeds", "pressures"),
+    ("poisson_ratio", "layer", "speeds", "pressures"),
     [
         (0.3, None, (1e-3, 0.1, 1.0), (2e4, 2e5, 2e6)),  # area fractions from 0.01 to 0.9
         (0.45, None, (0.1,), (2e4, 2e6)),
-        (0.5, "0.1 mm", (1e-3, 1.0), (1e5,)),  # a tenth of the longest wave
-        (0.5, "0.3 mm", (1e-3, 1.0), (1e5,)),
+        (0.5, vf.Layer("0.1 mm"), (1e-3, 1.0), (1e5,)),  # a tenth of the longest wave
+        (0.5, vf.Layer("0.3 mm"), (1e-3, 1.0), (1e5,)),
+        (0.5, vf.Layer("0.1 mm", bonded=False), (1e-3, 1.0), (1e5,)),
     ],
 )
 def test_the_change_on_a_rough_surface_is_that_of_contacts_solved_with_shear(
-    poisson_ratio: float, thickness: str | None, speeds: tuple[float, ...], pressures: tuple[float, ...]
+    poisson_ratio: float, layer: vf.Layer | None, speeds: tuple[float, ...], pressures: tuple[float, ...]
 ) -> None:
     rubber = replace(vf.synthetic_fluoroelastomer(), poisson_ratio=poisson_ratio)
     surface = vf.self_affine(0.8, shape=(64, 64), spacing=1e-3 / 64, shortest=1.25e-4, rms_slope=0.2, seed=1)
-    layer = None if thickness is None else vf.Layer(thickness)
     coupled = SurfaceCoupling.of(surface.to_surface(), poisson_ratio, layer)
     assert coupled.slope == pytest.approx(0.2, rel=1e-6)
     for speed in speeds:
@@ -105,39 +99,14 @@ def test_the_change_on_a_rough_surface_is_that_of_contacts_solved_with_shear(
             assert 1.0 / FACTOR < solved_change(solve) / found < FACTOR
 
 
-@pytest.mark.parametrize("poisson_ratio", [0.0, 0.3, 0.4999])
-def test_coupling_is_that_of_an_elastic_layer_on_a_bonded_base(poisson_ratio: float) -> None:
-    """Against the four constants of waves (a + b z) e^{±z}, solved for a base at rest under shear alone."""
-    kappa, lame = 3.0 - 4.0 * poisson_ratio, 2.0 * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
-
-    def rows(z: float) -> np.ndarray:
-        """Displacements along and across (times i e^{ix} and e^{ix}) and their slopes, of the four constants."""
-        e, E = np.exp(-z), np.exp(z)
-        return np.array(
-            [
-                [-e, -(z - kappa) * e, E, (z + kappa) * E],
-                [e, z * e, E, z * E],
-                [e, -(1.0 - z + kappa) * e, E, (1.0 + z + kappa) * E],
-                [-e, (1.0 - z) * e, E, (1.0 + z) * E],
-            ]
-        )
-
-    def moved(depth: float, load: tuple[float, float]) -> float:
-        along, across, along_slope, across_slope = rows(0.0)
-        normal, shear = lame * (across_slope - along) + 2.0 * across_slope, along_slope + across
-        constants = np.linalg.solve(np.array([normal, shear, *rows(depth)[:2]]), [*load, 0.0, 0.0])
-        return float(across @ constants)
-
-    for thickness in (0.5, 1.0, 3.0):
-        waves = np.exp(np.arange(-5.0, 5.0, 0.1))
-        hertz = ((np.sin(waves) - waves * np.cos(waves)) / waves**2) ** 2
-        depth = np.minimum(waves * thickness, 8.0)
-        sheared = [abs(moved(one, (0.0, -1.0))) for one in depth]
-        expected = float(hertz @ sheared) / hertz.sum() / moved(8.0, (-1.0, 0.0))
-        # A sum over half as many waves, of which the shortest oscillate.
-        assert mean_coupling(poisson_ratio, vf.Layer(thickness), 1.0) == pytest.approx(expected, rel=0.01)
-    thick = mean_coupling(poisson_ratio, vf.Layer(100.0), 1.0)
-    assert thick == pytest.approx((1.0 - 2.0 * poisson_ratio) / (2.0 * (1.0 - poisson_ratio)), abs=1e-3)
+def test_a_thick_layer_is_sheared_like_a_half_space() -> None:
+    one = material(0.3)
+    half_space, *layers = (
+        sheared_compliance(one.modes_at(), 0.3, layer, 1e-3, 1.0)
+        for layer in (None, vf.Layer("0.1 m"), vf.Layer("0.1 m", bonded=False))
+    )
+    # Hundred radii: the waves that reach the base are a hundredth of those of the pressure.
+    assert layers == pytest.approx([half_space, half_space], rel=1e-2)
 
 
 def test_both_directions_of_slip_have_the_same_mean() -> None:
@@ -154,15 +123,12 @@ def test_both_directions_of_slip_have_the_same_mean() -> None:
 
 def test_a_note_has_the_largest_relative_change() -> None:
     """Of shear stresses over E/(1 − ν²): 2c X (5/4 − A) τ (1 − ν²)/E, by hand."""
-    contacts = [ShearedContact(stress, 0.1, 1e-6, 0.25, line=True) for stress in (1e4, -4e4)]
+    contacts = [ShearedContact(stress, 0.1, 0.25e-6, line=True) for stress in (1e4, -4e4)]
     (note,) = coupling_notes(contacts)
     assert note.code == "tangential-coupling"
     assert note.values["change"] == pytest.approx(2.0 * 0.25 * 1.25 * 0.04)
     assert note.values["share"] == pytest.approx(0.25)
     assert coupling_notes(contacts[:0]) == coupling_notes([replace(contacts[0], stress=7e3)]) == ()
-    unknown = coupling_notes([replace(contacts[0], coupling=math.nan)])
-    assert codes(unknown) == {"tangential-coupling"}
-    assert not unknown[0].values
 
 
 HEATING = vf.Heating(

@@ -114,7 +114,7 @@ def test_errors_say_what_is_wrong_and_what_to_do(act: Callable[[], object], code
 
 
 def test_notes_of_shear_say_how_much_friction_changes_and_what_to_do() -> None:
-    (note,) = coupling_notes([ShearedContact(2e5, 0.02, 1e-7, 0.3, where="at 0.1 m/s")])
+    (note,) = coupling_notes([ShearedContact(2e5, 0.02, 3e-8, where="at 0.1 m/s")])
     assert note == (
         "Coulomb friction, a shear stress of 0.2 MPa, also displaces the surface in the normal direction, which "
         "changes the friction coefficient by about 0.0075 (37 % of viscoelastic friction; at 0.1 m/s), with the "

@@ -36,18 +36,21 @@ def sliding_cylinder(modulus: float, coupling: float) -> tuple[float, float, flo
 
 @pytest.mark.parametrize(("poisson_ratio", "thickness"), [(0.3, 2e-3), (0.5, 5e-4)])
 @pytest.mark.parametrize(("speed", "coulomb"), [(0.0, 0.8), (1.0, 0.8), (1.0, -0.8)])
+@pytest.mark.parametrize("bonded", [True, False])
 def test_a_cylinder_that_slides_on_a_strip_agrees_with_a_dense_solver(
-    poisson_ratio: float, thickness: float, speed: float, coulomb: float
+    poisson_ratio: float, thickness: float, speed: float, coulomb: float, bonded: bool
 ) -> None:
     """Elastic and viscoelastic, half and twice as thick as the contact is wide; 201 points have errors of 3e-4."""
+    layer = vf.Layer(thickness, bonded)
     found = vf.solve_steady(
-        rubber(poisson_ratio), vf.Cylinder(RADIUS), speed=speed, load=LOAD, coulomb=coulomb, layer=vf.Layer(thickness)
+        rubber(poisson_ratio), vf.Cylinder(RADIUS), speed=speed, load=LOAD, coulomb=coulomb, layer=layer
     )
     half, modulus = 1.25 * max(found.front, found.rear), 10.0 * MODULUS if speed else MODULUS
-    strip = SlidingStrip(RADIUS, LOAD, thickness, poisson_ratio, coulomb, MODULUS, modulus, 1e-3 * speed)
+    strip = SlidingStrip(RADIUS, LOAD, thickness, poisson_ratio, coulomb, MODULUS, modulus, 1e-3 * speed, bonded)
     friction, front, rear = strip.friction(half, 201)
     assert found.friction_coefficient == pytest.approx(friction, rel=5e-4)
-    assert found.friction_coefficient * (1.0 if speed else coulomb * (2.0 * poisson_ratio - 0.8)) > 0.0
+    if bonded or speed == 0.0:
+        assert found.friction_coefficient * (1.0 if speed else coulomb * (2.0 * poisson_ratio - 0.8)) > 0.0
     step = 2.0 * half / 200  # tractions that are linear between points end up to two steps from an edge
     assert found.front == pytest.approx(front, abs=2.0 * step)
     assert found.rear == pytest.approx(rear, abs=2.0 * step)
@@ -119,9 +122,27 @@ def test_shear_does_not_move_an_incompressible_half_space() -> None:
     assert "power" not in sheared.numbers
 
 
+def test_a_sheared_ball_on_a_sliding_layer_agrees_with_fourier_series() -> None:
+    """At rest, up to the tilt by the images: shear raises the distant surface by (1−ν²)/(πE) μ F X0 x/r².
+
+    Images, with a mean of zero, add the slope −π/L² of x/r², and the friction coefficient is that of the indenter.
+    """
+    layer, period, points = vf.Layer("0.5 mm", bonded=False), 8e-3, 64
+    x = (np.arange(points) - 0.5 * points) * period / points
+    surface = vf.PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * RADIUS), spacing=period / points)
+    sheared = {"speed": 0.0, "coulomb": 0.8, "layer": layer}
+    free = vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), load=0.5, accuracy=5e-3, **sheared)
+    periodic = vf.solve_periodic(rubber(0.3), surface, pressure=0.5 / period**2, **sheared)
+    tilt = (1.0 - 0.3**2) / MODULUS * 0.8 * 0.5 * -layer.long_coupling(0.3) / period**2
+    errors = free.diagnostics.friction_error + periodic.diagnostics.friction_error
+    assert tilt > 2.0 * errors
+    assert periodic.friction_coefficient + tilt == pytest.approx(free.friction_coefficient, abs=errors)
+
+
 @pytest.mark.parametrize("poisson_ratio", [0.1, 0.3, 0.5 - 1e-9])
-@pytest.mark.parametrize("depth", [0.3, 1.0, 3.0])
-def test_coupling_of_a_layer_solves_its_equations(poisson_ratio: float, depth: float) -> None:
+@pytest.mark.parametrize("depth", [0.01, 0.3, 1.0, 3.0])
+@pytest.mark.parametrize("bonded", [True, False])
+def test_coupling_of_a_layer_solves_its_equations(poisson_ratio: float, depth: float, bonded: bool) -> None:
     """The equations of `viscofric.contact.bodies` in Q = qz, integrated by a matrix exponential."""
     nu = poisson_ratio
     rows = [
@@ -130,16 +151,14 @@ def test_coupling_of_a_layer_solves_its_equations(poisson_ratio: float, depth: f
         [1.0 / (1.0 - nu**2), 0.0, 0.0, nu / (1.0 - nu)],
         [0.0, 0.0, -1.0, 0.0],
     ]
-    through = expm(depth * np.array(rows))
-    tractions = np.linalg.solve(through[2:, 2:], [1.0, 0.0])  # at the base, for T = 1 and Σ = 0 on the top
-    raised = through[1, 2:] @ tractions / (2.0 * (1.0 - nu**2))
-    assert vf.Layer(1.0).coupling(depth, nu) == pytest.approx(raised, rel=1e-8, abs=1e-8)
+    through, base = expm(depth * np.array(rows)), [2, 3] if bonded else [0, 3]
+    given = np.linalg.solve(through[2:, base], [1.0, 0.0])  # at the base, for T = 1 and Σ = 0 on the top
+    raised = through[1, base] @ given / (2.0 * (1.0 - nu**2))
+    assert vf.Layer(1.0, bonded).coupling(depth, nu) == pytest.approx(raised, rel=1e-8, abs=1e-8)
 
 
 def test_what_shear_cannot_be_asked_for() -> None:
     contact = {"speed": 1.0, "load": 1.0, "coulomb": 0.3}
-    with refused("sliding-layer"):
-        vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), layer=vf.Layer("1 mm", bonded=False), **contact)
     with refused("no-derivatives"):
         vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), derivatives=True, **contact)
     with refused("out-of-range"):

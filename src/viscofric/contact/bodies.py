@@ -21,13 +21,15 @@ layer must flow sideways instead, and u = q²H³ p/E.  By the correspondence pri
 
 The mean pressure (q = 0) compresses a layer without bound sideways, on either base, by (1+ν)(1−2ν)/(1−ν) H p/E.
 
-A shear stress τ sin qx on the top of a bonded layer instead (Σ = 0, T = τ) raises the surface by
-2(1−ν²)/(E q) X(qH) τ cos qx, with ::
+A shear stress τ sin qx on the top instead (Σ = 0, T = τ) raises the surface by 2(1−ν²)/(E q) X(qH) τ cos qx, with ::
 
-    X = [2κ(κ−1) (cosh 2Q − 1) − 8Q²] / {(κ+1) [2κ cosh 2Q + 1 + κ² + 4Q²]},      κ = 3−4ν
+    bonded    X = [2κ(κ−1) (cosh 2Q − 1) − 8Q²] / {(κ+1) [2κ cosh 2Q + 1 + κ² + 4Q²]},      κ = 3−4ν
+    sliding   X = [(1−2ν) sinh 2Q − 2Q] / {2(1−ν) [sinh 2Q + 2Q]}
 
-X goes to (1−2ν)/(2(1−ν)) for Q → ∞; on thin layers it may be negative, and does not vanish with ν = ½ [4]_.  A layer
-that slides on its base cannot bear shear.
+X goes to (1−2ν)/(2(1−ν)) for Q → ∞; on thin layers it may be negative, and does not vanish with ν = ½ [4]_.  For Q → 0
+it vanishes on a bonded layer, and is −ν/(2(1−ν)) on a sliding one: its base bears no shear, so that the layer passes on
+a force to its distant ends, half of it to either side, and is as much thicker behind the contact, in tension or
+compression, as it is thinner ahead.
 
 References
 ----------
@@ -114,14 +116,22 @@ class Layer:
     def coupling(self, wave_number: ArrayLike, poisson_ratio: float) -> Array:
         """Return X(qH): normal displacement under a wave of shear over that of the half-space under one of pressure.
 
-        Of a bonded layer; parameters and shape as of `yielding`.
+        Parameters and shape as of `yielding`.
         """
         depth = numbers(wave_number, "wave_number") * float(self.thickness)
-        kappa, decay = 3.0 - 4.0 * checked_poisson_ratio(poisson_ratio), np.exp(-2.0 * depth)
+        nu, decay = checked_poisson_ratio(poisson_ratio), np.exp(-2.0 * depth)
+        if not self.bonded:
+            sinh, linear = -0.5 * np.expm1(-4.0 * depth), 2.0 * depth * decay  # over exp(2Q)
+            return np.asarray(((1.0 - 2.0 * nu) * sinh - linear) / (2.0 * (1.0 - nu) * (sinh + linear)))
+        kappa = 3.0 - 4.0 * nu
         squared = np.square(depth * np.exp(-depth))
         above = kappa * (kappa - 1.0) * np.square(np.expm1(-2.0 * depth)) - 8.0 * squared
         below = kappa * (1.0 + decay**2) + (1.0 + kappa**2) * decay + 4.0 * squared
         return np.asarray(above / ((kappa + 1.0) * below))
+
+    def long_coupling(self, poisson_ratio: float) -> float:
+        """Return X of waves much longer than the layer is thick."""
+        return 0.0 if self.bonded else -poisson_ratio / (2.0 * (1.0 - poisson_ratio))
 
     def mean_compression(self, poisson_ratio: float) -> float:
         """Return E u/p under a uniform pressure, m: (1+ν)(1−2ν)/(1−ν) H."""
@@ -188,22 +198,13 @@ def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float
     return (1.0 - ratio**2) / positive(modulus, "Pa", "indenter_modulus")
 
 
-def checked_coulomb(coulomb: float, layer: Layer | None) -> float:
-    """Return a signed coefficient of Coulomb friction.
-
-    InputError if it is not finite or implausible, or the layer cannot bear shear.
-    """
+def checked_coulomb(coulomb: float) -> float:
+    """Return a signed coefficient of Coulomb friction; InputError if it is not finite or implausible."""
     if not abs(number(coulomb, "coulomb")) <= MOST_COULOMB:
         raise InputError(
             f"coulomb = {brief(coulomb)}: must be a friction coefficient from {-MOST_COULOMB:g} to {MOST_COULOMB:g}, "
             "negative where the indenter slips against its motion.",
             code="out-of-range",
-        )
-    if coulomb != 0.0 and layer is not None and not layer.bonded:
-        raise InputError(
-            f"coulomb = {coulomb:g}: a layer that slides on its base without friction cannot bear shear; give a bonded "
-            "layer, or leave coulomb out.",
-            code="sliding-layer",
         )
     return coulomb
 

@@ -4,18 +4,20 @@ A shear τ = μ_c p moves the surface in the normal direction by −i X q·n/|q|
 a half-space by (`viscofric.contact.bodies`).  Under a given pressure, the slope of this displacement changes friction
 by ::
 
-    Δμ = 2(1−ν²) Σ_q (q·n/|q|)² X Re S(−q·v) τ̂ p̂* / σ̄  ≈  2c (1−ν²) |S(v/a)| X̄ <p²>/<p>² (1 − A <p>²/<p²>) τ̄
+    Δμ = 2(1−ν²) Σ_q (q·n/|q|)² X Re S(−q·v) τ̂ p̂* / σ̄  ≈  2c (1−ν²) |<X S(q v)>| <p²>/<p>² (1 − A <p>²/<p²>) τ̄
 
-with the means τ̄ and <p> over the contact, c = 1 of line contacts and 1/2 of others, X̄ the mean of |X| over the waves of
-the pressure, and A the contact area over the nominal one, since a uniform shear has no slope.  <p²>/<p>² is 1.1 for
-Hertz's pressures and 1.2 to 1.4 for rough surfaces.  The change has the other sign where the slip is reversed.
+with the means τ̄ and <p> over the contact, <X S> over the waves of the pressure, c = 1 of line contacts and 1/2 of
+others, and A the contact area over the nominal one, since a uniform shear has no slope.  The change also moves the
+pressure, out of phase with the shear where there is loss: therefore the modulus of the mean rather than its real part.
+<p²>/<p>² is 1.1 for Hertz's pressures and 1.2 to 1.4 for rough surfaces.  The change has the other sign where the slip
+is reversed.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.fft
@@ -27,9 +29,9 @@ from viscofric.notes import Note, Remedy
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from viscofric.arrays import Array
     from viscofric.contact.bodies import Layer
     from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 #: Largest acceptable change, over viscoelastic friction.
@@ -58,9 +60,7 @@ class ShearedContact:
     friction : float
         Viscoelastic friction coefficient.
     compliance : float
-        (1 − ν²)|S(v/a)|, 1/Pa.
-    coupling : float
-        Mean of |X|; NaN where it is unknown.
+        (1 − ν²)|<X S(q v)>|, 1/Pa.
     line : bool
         Whether it is a line contact.
     filled : float
@@ -72,7 +72,6 @@ class ShearedContact:
     stress: float
     friction: float
     compliance: float
-    coupling: float
     line: bool = False
     filled: float = 0.0
     where: str = ""
@@ -80,7 +79,7 @@ class ShearedContact:
     @property
     def change(self) -> float:
         """Estimated change of the friction coefficient, of either sign."""
-        both = (2.0 if self.line else 1.0) * self.compliance * self.coupling * abs(self.stress)
+        both = (2.0 if self.line else 1.0) * self.compliance * abs(self.stress)
         return both * max(_SQUARE - self.filled, 0.0)
 
     @property
@@ -109,29 +108,36 @@ class ShearedContact:
 def coupling_notes(contacts: Iterable[ShearedContact]) -> tuple[Note, ...]:
     """Return a note on the contact whose friction changes most, relative to it; none if it hardly changes."""
     sheared = [one for one in contacts if one.stress != 0.0]
-    if any(math.isnan(one.coupling) for one in sheared):
-        said = (
-            "Coulomb friction also displaces the surface of a layer on a sliding base in the normal direction, by an "
-            "amount that is not estimated; contacts were solved without this effect."
-        )
-        return (Note("tangential-coupling", said),)
     worst = max(sheared, key=lambda one: one.share, default=None)
     if worst is None or worst.share <= LARGEST:
         return ()
     return (Note("tangential-coupling", worst.said, remedy=_REMEDY, values=worst.values),)
 
 
-def mean_coupling(poisson_ratio: float, layer: Layer | None, radius: float, *, line: bool = False) -> float:
-    """Return the mean of |X| below Hertz's pressure on a contact of a radius or half-width, m."""
-    if layer is None:
-        return half_space_coupling(poisson_ratio)
+def sheared_compliance(
+    spectrum: RetardationSpectrum,
+    poisson_ratio: float,
+    layer: Layer | None,
+    radius: float,
+    speed: float,
+    *,
+    line: bool = False,
+) -> float:
+    """Return (1 − ν²)|<X S(q v)>|, 1/Pa, of Hertz's pressure on a contact of a radius or half-width, m, at a speed."""
+    coupling: Any = half_space_coupling(poisson_ratio)
+    if coupling == 0.0 and layer is None:
+        return 0.0
+    waves = _WAVES / radius
+    if layer is not None:
+        coupling = layer.coupling(waves, poisson_ratio)
     if line:
         from scipy.special import j1
 
         weight = np.square(j1(_WAVES)) / _WAVES  # |p̂|² dq, in equal steps of ln q
     else:
         weight = np.square(np.sin(_WAVES) / _WAVES - np.cos(_WAVES)) / np.square(_WAVES)  # q |p̂|² dq
-    return _mean(layer.coupling(_WAVES / radius, poisson_ratio), weight) if layer.bonded else math.nan
+    compliance = weight @ (coupling * spectrum.compliance(abs(speed) * waves)) / weight.sum()
+    return (1.0 - poisson_ratio**2) * abs(complex(compliance))
 
 
 @dataclass(frozen=True)
@@ -143,7 +149,7 @@ class SurfaceCoupling:
     slope : float
         Rms slope of the surface.
     coupling : float
-        Mean of |X| over that of Θ, over its waves, weighted with their slopes; NaN where it is unknown.
+        |<X>| over the mean of Θ, over its waves, weighted with their slopes.
     profile : bool
         Whether it is the same everywhere across the motion.
     """
@@ -160,24 +166,18 @@ class SurfaceCoupling:
         slopes = np.square(magnitude) * waves.ravel()[1:]
         coupling = half_space_coupling(poisson_ratio)
         if layer is not None:
-            coupling = math.nan
-            if layer.bonded:
-                over = _mean(layer.yielding(magnitude, poisson_ratio), slopes)
-                coupling = _mean(layer.coupling(magnitude, poisson_ratio), slopes) / over
+            over = slopes @ layer.yielding(magnitude, poisson_ratio)
+            coupling = abs(float(slopes @ layer.coupling(magnitude, poisson_ratio) / over))
         return cls(math.sqrt(float(slopes.sum())), coupling, surface.shape[1] == 1)
 
     def contact(self, coulomb: float, friction: float, area: float, pressure: float, where: str = "") -> ShearedContact:
         """Return a contact of a Coulomb friction, with its area over the nominal one and its nominal pressure, Pa.
 
-        The compliance times the mean of Θ is that with which Persson's theory, erf(√2 (1−ν²)|S| σ0/h'), has the area,
+        (1 − ν²)|S| times the mean of Θ is that with which Persson's theory, erf(√2 (1−ν²)|S| σ0/h'), has the area,
         but for a factor.
         """
         from scipy.special import erfinv
 
         compliance = self.slope * float(erfinv(area / _SOLVED)) / (math.sqrt(2.0) * pressure)
         stress = abs(coulomb) * pressure / area
-        return ShearedContact(stress, friction, compliance, self.coupling, self.profile, area, where)
-
-
-def _mean(values: Array, weight: Array) -> float:
-    return float(weight @ np.abs(values)) / float(weight.sum())
+        return ShearedContact(stress, friction, compliance * self.coupling, self.profile, area, where)

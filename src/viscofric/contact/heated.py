@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from viscofric.contact.bodies import half_space_coupling
-from viscofric.contact.coupling import ShearedContact, coupling_notes
+from viscofric.contact.coupling import ShearedContact, coupling_notes, sheared_compliance
 from viscofric.contact.heated_result import INTERFACE, SHIFT, Heat, Warmed, beyond, described, ends
 from viscofric.errors import InputError
 from viscofric.heat.branches import LEFT, HeatCurve, outermost, settled
@@ -138,12 +137,11 @@ class ThermalContact:
     def sheared(self, one: Warmed) -> ShearedContact:
         """Return a solved contact with the shear of its Coulomb friction, which it was solved without."""
         slip, heat, ratio = self.heating.sliding(self.speed), one.heat, self.material.poisson_ratio
-        modulus = self.material.modes_at(self.kelvin + one.rise).complex_modulus(abs(self.speed) / heat.size)
+        modes = self.material.modes_at(self.kelvin + one.rise)
         return ShearedContact(
             stress=heat.coulomb / (slip * heat.area) if slip > 0.0 else 0.0,
             friction=one.friction,
-            compliance=(1.0 - ratio**2) / abs(complex(modulus)),
-            coupling=half_space_coupling(ratio),
+            compliance=sheared_compliance(modes, ratio, None, heat.size, self.speed, line=self.line),
             line=self.line,
             filled=heat.area if self.of_nominal_area else 0.0,
         )

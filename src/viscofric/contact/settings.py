@@ -76,7 +76,7 @@ class ContactSettings:
             raise InputError(
                 f"layer = {brief(self.layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
             )
-        checked_coulomb(self.coulomb, self.layer)
+        checked_coulomb(self.coulomb)
         self._derived  # noqa: B018  raises where indenter, direction or backend cannot be used
 
     @property

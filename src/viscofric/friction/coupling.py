@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.bodies import Layer
-from viscofric.contact.coupling import LARGEST, ShearedContact, coupling_notes, mean_coupling
+from viscofric.contact.coupling import LARGEST, ShearedContact, coupling_notes, sheared_compliance
 from viscofric.friction.assumption_check import AssumptionCheck, Place, modes_of, verdict
 from viscofric.notes import Note
 
@@ -88,12 +88,11 @@ def _sheared(
     """Return the contact of a point of curves, of a radius or half-width, m, at a temperature, K."""
     line, ratio = curves.load_unit == "N/m", material.poisson_ratio
     area = 2.0 * radius if line else math.pi * radius**2
-    modulus = abs(complex(modes_of(material, kelvin).complex_modulus(float(curves.speed[row]) / radius)))
+    modes = modes_of(material, kelvin)
     return ShearedContact(
         stress=abs(coulomb) * float(curves.load[row]) / area,
         friction=float(curves.viscoelastic[row]),
-        compliance=(1.0 - ratio**2) / modulus,
-        coupling=mean_coupling(ratio, layer, radius, line=line),
+        compliance=sheared_compliance(modes, ratio, layer, radius, float(curves.speed[row]), line=line),
         line=line,
         where=str(Place.of(curves, row)),
     )

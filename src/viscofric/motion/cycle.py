@@ -102,6 +102,11 @@ def solve_cycle(
         If the periodic state is not reached to the accuracy within `most_periods`, or the accuracy in time is not
         reached.
 
+    Notes
+    -----
+    Contacts have no Coulomb friction here.  In a sliding motion its shear changes friction and energy per cycle; for
+    strokes much longer than the contact by as much as `solve_steady` with `coulomb`, at the same speed.
+
     Examples
     --------
     Oscillating indentation, as in a dynamic indentation test:

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.contact.bodies import half_space_coupling
-from viscofric.contact.coupling import ShearedContact, coupling_notes
+from viscofric.contact.coupling import ShearedContact, coupling_notes, sheared_compliance
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
@@ -138,12 +137,11 @@ def _shear(problem: Problem, run: TransientSolution, heating: Heating, kelvin: A
     slid = np.concatenate([[0.0], np.cumsum(steps)]) >= size
     contacts = []
     for row in np.flatnonzero(slid & (speed > 0.0) & (size > 0.0) & (run.load > 0.0)).tolist():
-        modulus = problem.material.modes_at(float(kelvin[row])).complex_modulus(float(speed[row] / size[row]))
+        modes, line = problem.material.modes_at(float(kelvin[row])), problem.kind == "line"
         load, stress = float(run.load[row]), heating.coulomb * float(run.load[row] / run.contact_area[row])
-        compliance, where = (1.0 - ratio**2) / abs(complex(modulus)), f"at {run.time[row]:.3g} s"
-        friction = float(run.friction_force[row]) / load
-        contact = ShearedContact(stress, friction, compliance, half_space_coupling(ratio), problem.kind == "line")
-        contacts.append(replace(contact, where=where))
+        compliance = sheared_compliance(modes, ratio, None, float(size[row]), float(speed[row]), line=line)
+        friction, where = float(run.friction_force[row]) / load, f"at {run.time[row]:.3g} s"
+        contacts.append(ShearedContact(stress, friction, compliance, line, where=where))
     # Friction passes zero where the motion begins or turns: the largest change counts, over the largest friction.
     largest = max((abs(one.friction) for one in contacts), default=0.0)
     worst = max(contacts, key=lambda one: one.change, default=None)

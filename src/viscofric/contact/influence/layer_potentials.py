@@ -11,6 +11,8 @@ and a shear stress of μ times the pressure along x adds μ times, with X from t
     point    x/r ∫_0^∞ X(qH) J1(qr) dq           = β x/r² + x/r ∫_0^∞ (X − β) J1(qr) dq
     line     ∫_0^∞ X(qH) sin(qx)/q dq            = β (π/2) sgn x + ∫_0^∞ (X − β) sin(qx)/q dq
 
+On a sliding layer X keeps its value X0 of long waves: X0 x/r² and X0 (π/2) sgn x are left at any distance.
+
 The last integrals are smooth functions of r/H, whose nearest singularities lie at ±2i, since Θ − 1 and X − β fade like
 e^(−2Q): they are tabulated once, and integrated over a cell by Gauss points, while the half-space's part is known in
 closed form.  g fades exponentially over a few H, so that the potential has a finite reach; of a layer even a line
@@ -107,16 +109,17 @@ def _shear_taken_by_base(poisson_ratio: float, bonded: bool, line: bool) -> _Tab
     from scipy.special import j1
 
     q, w = _waves()
-    limit = half_space_coupling(poisson_ratio)
-    missing = w * (Layer(1.0, bonded).coupling(q, poisson_ratio) - limit)
+    layer, limit = Layer(1.0, bonded), half_space_coupling(poisson_ratio)
+    missing = w * (layer.coupling(q, poisson_ratio) - limit)
+    fading = limit - layer.long_coupling(poisson_ratio)
 
     def taken(waves: Array) -> Array:
         if line:
             return np.asarray(np.sin(waves) @ (missing / q))
         return np.asarray((j1(waves) / waves) @ (missing * q))
 
-    left = 0.5 * np.pi * limit
-    return _tabulated(taken, (lambda _, found: found + left) if line else lambda r, found: found * r**2 + limit)
+    left = 0.5 * np.pi * fading
+    return _tabulated(taken, (lambda _, found: found + left) if line else lambda r, found: found * r**2 + fading)
 
 
 def _waves() -> tuple[Array, Array]:
@@ -178,8 +181,14 @@ class LayerCell:
         return _shear_taken_by_base(self.poisson_ratio, self.bonded, False)
 
     @property
+    def _far(self) -> float:
+        """X of long waves."""
+        return Layer(1.0, self.bonded).long_coupling(self.poisson_ratio)
+
+    @property
     def _limit(self) -> float:
-        return half_space_coupling(self.poisson_ratio)
+        """X of short waves, less that of long ones."""
+        return half_space_coupling(self.poisson_ratio) - self._far
 
     @property
     def _reach(self) -> float:
@@ -196,11 +205,18 @@ class LayerCell:
     def __call__(self, x: Array, y: Array) -> Array:
         """∫∫_cell g, with its part by shear, seen from (x, y)."""
         found = self._within_reach(x, y, self._near)
-        return found + self.drag * self._within_reach(x, y, self._near_shear) if self.drag else found
+        if self.drag:
+            found += self.drag * self._within_reach(x, y, self._near_shear)
+        if self.drag * self._far:
+            found += self.drag * self._far * shear_potential(x, y, self.aspect)
+        return found
 
     def drag_slope(self, x: Array, y: Array) -> Array:
         """Return the derivative along x of the part by shear (not on the lines x = ±1/2 through the cell's edges)."""
-        return self.drag * self._within_reach(x, y, self._near_shear_slope)
+        found = self._within_reach(x, y, self._near_shear_slope)
+        if self._far:
+            found += self._far * shear_potential_slope(x, y, self.aspect)
+        return self.drag * found
 
     def xx(self, x: Array, y: Array) -> Array:
         """Second derivative along x (not on the lines x = ±1/2 through the cell's edges)."""
@@ -286,8 +302,14 @@ class LayerStrip:
         return _shear_taken_by_base(self.poisson_ratio, self.bonded, True)
 
     @property
+    def _far(self) -> float:
+        """X of long waves."""
+        return Layer(1.0, self.bonded).long_coupling(self.poisson_ratio)
+
+    @property
     def _limit(self) -> float:
-        return half_space_coupling(self.poisson_ratio)
+        """X of short waves, less that of long ones."""
+        return half_space_coupling(self.poisson_ratio) - self._far
 
     def __call__(self, x: Array, y: Array) -> Array:
         """∫_cell g, with its part by shear, seen from x."""
@@ -297,7 +319,7 @@ class LayerStrip:
     def drag_slope(self, x: Array, y: Array) -> Array:
         """Return the derivative along x of the part by shear (not for x = ±1/2)."""
         x, _ = np.broadcast_arrays(x, y)
-        slope = np.where(np.abs(x) < 0.5, np.pi * self._limit, 0.0)
+        slope = np.where(np.abs(x) < 0.5, np.pi * (self._limit + self._far), 0.0)
         return self.drag * np.asarray(slope + self._shear_taken(x + 0.5) - self._shear_taken(x - 0.5))
 
     def _sheared(self, x: Array) -> Array:
@@ -305,7 +327,7 @@ class LayerStrip:
         for dx, weight in zip(*_cell_rule(1.0 / self.thickness), strict=True):
             result += weight * self._shear_taken(x - dx)
         result[np.abs(x) >= self._shear_table.reach * self.thickness + 1.0] = 0.0
-        return np.asarray(result)
+        return np.asarray(result + self._far * strip_shear(x))
 
     def _shear_taken(self, x: Array) -> Array:
         distance = np.abs(x) / self.thickness

@@ -181,7 +181,7 @@ def solve_periodic(
         layer,
         indenter_compliance(indenter_modulus, indenter_poisson_ratio),
         toward,
-        math.copysign(1.0, sliding) * checked_coulomb(coulomb, layer),
+        math.copysign(1.0, sliding) * checked_coulomb(coulomb),
         half_space_coupling(indenter_poisson_ratio),
     )
     given = _Given.of(surface, pressure, gap)
