@@ -169,9 +169,9 @@ if TYPE_CHECKING:
     from viscofric.roughness.patches import ContactStatistics as ContactStatistics
     from viscofric.roughness.patches import contact_statistics as contact_statistics
     from viscofric.roughness.patches import pressure_distribution as pressure_distribution
-    from viscofric.roughness.persson import HeatedPerssonTheory as HeatedPerssonTheory
-    from viscofric.roughness.persson import PerssonTheory as PerssonTheory
     from viscofric.roughness.persson import persson_theory as persson_theory
+    from viscofric.roughness.persson_result import HeatedPerssonTheory as HeatedPerssonTheory
+    from viscofric.roughness.persson_result import PerssonTheory as PerssonTheory
     from viscofric.roughness.reading import read_topography as read_topography
     from viscofric.roughness.rough_friction import HeatedRoughFriction as HeatedRoughFriction
     from viscofric.roughness.rough_friction import RoughFriction as RoughFriction
@@ -265,7 +265,7 @@ _HOME = {
     "TransientHeating": "viscofric.heat.result",
     "HeatedFrictionCurves": "viscofric.friction.heating",
     "HeatedRoughFriction": "viscofric.roughness.rough_friction",
-    "HeatedPerssonTheory": "viscofric.roughness.persson",
+    "HeatedPerssonTheory": "viscofric.roughness.persson_result",
     "MovingHeatSource": "viscofric.heat.sources",
     "surface_temperature": "viscofric.heat.maps",
     "track_temperature": "viscofric.heat.track",
@@ -361,7 +361,7 @@ _HOME = {
     "ContactStatistics": "viscofric.roughness.patches",
     "contact_statistics": "viscofric.roughness.patches",
     "pressure_distribution": "viscofric.roughness.patches",
-    "PerssonTheory": "viscofric.roughness.persson",
+    "PerssonTheory": "viscofric.roughness.persson_result",
     "persson_theory": "viscofric.roughness.persson",
     "read_topography": "viscofric.roughness.reading",
     "FrictionByWavelength": "viscofric.roughness.scales",

@@ -12,6 +12,7 @@ from scipy.special import erf
 
 import viscofric as vf
 from refusals import refused
+from viscofric.notes import codes
 from viscofric.roughness.flash import Flash
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "30 MPa", "1 ms", poisson_ratio=0.4)
@@ -164,7 +165,7 @@ def test_short_contacts_keep_the_heat_where_it_was_made():
     """Without conduction T_q = t0 ∫ f q/(q + q') dq'."""
     insulator = vf.ThermalProperties(1e-9, 1000.0, 2000.0, "insulator")
     area, dissipated = np.linspace(1.0, 0.1, 301), 1e3 * np.exp(-(np.log(SCALES / 3e4) ** 2))
-    found = Flash(insulator, 0.3).rise(SCALES, LOG_WEIGHTS, 0.5, area, dissipated)[:-1]
+    found = Flash(insulator, 0.3).rises(SCALES, LOG_WEIGHTS, (0.5, 300.0), area, dissipated)[0][:-1]
     q_m = np.interp(-0.3, -area, SCALES)
     source = 0.5 / 2e6 * SCALES * dissipated * area / 0.3
     kernel = SCALES[:, None] / (SCALES[:, None] + SCALES)
@@ -179,7 +180,7 @@ def test_long_contacts_warm_the_surface_as_a_flux_of_heat_does():
     conductor = vf.ThermalProperties(1.0, 1000.0, 1000.0, "conductor")
     q_m = float(SCALES[np.argmax(SCALES >= 2e3)])
     speed = 1e-3  # 1.6 s, in which heat goes 1 mm deep, thousands of times the depth of its sources
-    found = Flash(conductor, 0.3).rise(SCALES, LOG_WEIGHTS, speed, area, dissipated)
+    found = Flash(conductor, 0.3).rises(SCALES, LOG_WEIGHTS, (speed, 300.0), area, dissipated)[0]
     flux = speed * float(LOG_WEIGHTS @ (0.5 * SCALES * dissipated * area / 0.3))
     wanted = 2.0 * flux * math.sqrt(math.pi / q_m / speed / (math.pi * 1e6))
     # The shortest waves see the surface; q_m lies between two scales, some per cent apart.
@@ -196,7 +197,7 @@ def test_coulomb_heat_is_a_flux_that_both_bodies_share():
     for counterface, part in ((insulator, 1.0), (conductor, 0.5)):
         heating = vf.Heating(rubber=conductor, counterface=counterface, coulomb=0.4, slip=2.0 * speed)
         flash = Flash(conductor, 0.3, heating, pressure)
-        rise = flash.rise(SCALES, LOG_WEIGHTS, speed, area, np.zeros(len(SCALES)))
+        _, rise = flash.rises(SCALES, LOG_WEIGHTS, (speed, 300.0), area, np.zeros(len(SCALES)))
         # The shortest waves see the surface; q_m lies between two scales, some per cent apart.
         assert rise[-1] == pytest.approx(part * alone, rel=0.02)
         assert np.all(np.diff(rise) > 0.0)
@@ -213,6 +214,47 @@ def test_heating_without_coulomb_heat_is_the_theory_of_the_rubber_alone():
     assert rubbed.flash_temperature[0, 0] > plain.flash_temperature[0, 0]
     with refused("not-with-heating"):
         vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=heating, thermal=THERMAL)
+
+
+def test_an_interface_rubs_with_its_stress_on_the_real_contact_area():
+    law = vf.PowerShearStress("0.2 MPa", 0.1, "0.1 m/s", shift=vf.Arrhenius("50 kJ/mol", "30 degC"))
+    asked = {"speeds": [0.01, 1.0], "pressure": "0.1 MPa", "temperatures": ["30 degC", "60 degC"]}
+    plain = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked)
+    rubbed = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, interface=law)
+    stress = np.array([[float(law(v, T)) for v in (0.01, 1.0)] for T in (303.15, 333.15)])
+    assert rubbed.interface_friction == pytest.approx(stress * plain.contact_area_fraction / 1e5, rel=1e-12)
+    assert rubbed.total == pytest.approx(plain.friction_coefficient + rubbed.interface_friction, rel=1e-12)
+    assert {"interface-law", "interface-without-error"} <= codes(rubbed.notes)
+    assert rubbed.to_dataset().interface_friction.dims == ("temperature", "speed")
+    pressed = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked | {"pressure": "1 GPa"}, interface=law)
+    assert pressed.interface_friction == pytest.approx(stress / 1e9, rel=1e-3)  # full contact
+    with refused("no-interface"):
+        _ = plain.total
+
+
+def test_the_heat_of_an_interface_is_that_of_as_much_coulomb_friction():
+    """And its stress is that at the temperature of the surface that this heat warms."""
+    law = vf.GaussianShearStress("20 MPa", "6 mm/s", 2.0, shift=vf.Arrhenius("90 kJ/mol", "30 degC"))
+    asked = {"speeds": 2.0, "pressure": "0.2 MPa", "temperatures": "30 degC", "accuracy": 1e-2}
+    heating = vf.Heating(rubber=THERMAL, counterface=vf.ThermalProperties(2.0, 2500.0, 800.0, "stone"))
+    found = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=heating, interface=law)
+    assert isinstance(found, vf.HeatedPerssonTheory)
+    friction, face = float(found.interface_friction[0, 0]), float(found.face_rise[0, 0])
+    assert face > 10.0
+    stress = float(law(2.0, 303.15 + face))
+    assert friction == pytest.approx(stress * found.contact_area_fraction[0, 0] / 2e5, rel=1e-12)
+    same = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=replace(heating, coulomb=friction))
+    # Both settle to 1e-5 of the rise on the same grid of waves.
+    assert same.face_rise[0, 0] == pytest.approx(face, rel=1e-4)
+    assert same.friction_coefficient[0, 0] == pytest.approx(found.friction_coefficient[0, 0], rel=1e-4)
+    with refused("not-with-heating"):
+        vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=replace(heating, coulomb=0.1), interface=law)
+    with refused("not-with-heating"):
+        vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, thermal=THERMAL, interface=law)
+    ends = vf.InversePolynomial([5000.0, 1e6], 303.15, fitted_range=(293.15, 305.0))
+    with refused("beyond-interface"):
+        limited = replace(law, shift=ends)
+        vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=heating, interface=limited)
 
 
 def test_the_theory_has_a_cold_and_a_hot_state_on_the_glassy_side_of_its_peak():

@@ -69,6 +69,10 @@ class SlidingInterface:
         """
         by_loss = np.asarray(HeatBalance.of(resistances, 0.0, loss).face_rise)  # type: ignore[arg-type]
         per_heat = np.asarray(HeatBalance.of(resistances, 1.0, np.zeros_like(loss)).face_rise)  # type: ignore[arg-type]
+        return self.heat_of(area, by_loss, per_heat, hot=hot)
+
+    def heat_of(self, area: Any, by_loss: Array, per_heat: Array, *, hot: bool) -> Array:
+        """Return the same (n,) from the rises of the faces by the loss and per heat of the interface."""
 
         def excess(rise: Array) -> Array:
             return np.asarray(by_loss + per_heat * self.heat(area, rise) - rise)

@@ -36,7 +36,7 @@ from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.roughness.line_spectrum import LineSpectrum
 from viscofric.roughness.patches import ContactStatistics
-from viscofric.roughness.persson import PerssonTheory
+from viscofric.roughness.persson_result import PerssonTheory
 from viscofric.roughness.rough_friction import RoughFriction
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.study import StudyResults

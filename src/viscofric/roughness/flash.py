@@ -12,8 +12,9 @@ the weight 2q exp(−2qz), is [1]_ ::
 D the diffusivity; S, 1 in [1]_, makes the heat that of the friction.  q_m is the scale of the macroasperities, at which
 P has fallen to a given share, and R = π/q_m half their wavelength.
 
-Coulomb friction adds heat on the surface of these contacts, μ_c σ0 u/P(q_m) per area with the sliding velocity u, of
-which the rubber takes the share that makes both faces of a disc of diameter R equally warm on average
+Coulomb friction adds heat on the surface of these contacts, μ_c σ0 u/P(q_m) per area with the sliding velocity u, or
+τ_s u P(q_1)/P(q_m) of an interface, with its shear stress τ_s on the real contact area at the temperature of this
+surface.  The rubber takes the share that makes both faces of a disc of diameter R equally warm on average
 (`viscofric.heat.means`).  A flux j gives T_q the term j/ρc 2/π ∫_0^∞ dk (1 − exp(−D k² t0))/(D k²) · 4q²/(k² + 4q²).
 
 References
@@ -26,11 +27,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from viscofric.errors import ConvergenceError
+from viscofric.heat.interface import SlidingInterface
 from viscofric.heat.means import disc_mean
 
 if TYPE_CHECKING:
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.heat.heating import Heating
+    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.thermal import ThermalProperties
 
 
@@ -51,6 +54,16 @@ _SETTLED = 1e-5
 _PER_DECADE = 12  # wave numbers k of the temperature field
 
 
+class Settled(NamedTuple):
+    """P(q) and dissipation; the rise of temperature, its part by Coulomb friction, and that of the surface, K."""
+
+    area: Array
+    dissipated: Array
+    rise: Array
+    by_coulomb: Array
+    face: float
+
+
 @dataclass(frozen=True)
 class Flash:
     """Parameters of hot spots."""
@@ -59,25 +72,27 @@ class Flash:
     macroasperity_area: float  # P(q_m)
     heating: Heating | None = None  # with Coulomb heat
     pressure: float = 0.0  # nominal, Pa
+    interface: InterfaceLaw | None = None  # whose heat takes the place of a constant Coulomb friction
     start: float = 0.0  # rise at all scales from which the settled one is looked for, K
 
     def settled(
-        self, q: Array, log_weights: Array, speed: float, heated: Callable[[Array], tuple[Array, Array]]
-    ) -> tuple[Array, Array, Array]:
-        """Return P(q), the dissipation and the rise of temperature (K) that are consistent with one another.
+        self, q: Array, log_weights: Array, at: tuple[float, float], heated: Callable[[Array], tuple[Array, Array]]
+    ) -> Settled:
+        """Return P(q), the dissipation and the rise of temperature that are consistent with one another.
 
-        `q` (n,) in rad/m; `log_weights` (n,) are those of a quadrature over ln q; `speed` in m/s; `heated` returns P(q)
-        and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, at a rise of temperature.  Raises ConvergenceError if the iteration does
-        not converge.
+        `q` (n,) in rad/m; `log_weights` (n,) are those of a quadrature over ln q; `at` are the speed, m/s, and the
+        temperature, K; `heated` returns P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, at a rise of temperature.  Raises
+        ConvergenceError if the iteration does not converge.
         """
         rise = np.full(len(q), self.start)
         step, before, descending = 1.0, np.zeros(len(q)), self.start > 0.0
         for _ in range(_MOST_ITERATIONS):
             area, dissipated = heated(rise)
-            change = self.rise(q, log_weights, speed, area, dissipated)[:-1] - rise
+            by_loss, by_coulomb = self.rises(q, log_weights, at, area, dissipated)
+            change = (by_loss + by_coulomb)[:-1] - rise
             largest = float(np.abs(change).max())
             if largest <= _SETTLED * (1.0 + float(rise.max())):
-                return area, dissipated, rise
+                return Settled(area, dissipated, rise, by_coulomb[:-1], float(by_loss[-1] + by_coulomb[-1]))
             # From a hot start down in small steps, so as not to pass a hot state, until one may be near.
             descending = descending and largest > _NEAR * float(rise.max())
             difference = change - before
@@ -88,13 +103,16 @@ class Flash:
             before = change
             rise = np.maximum(rise + step * change, 0.0)
         raise ConvergenceError(
-            f"the flash temperature at {speed:g} m/s did not settle after {_MOST_ITERATIONS} iterations; it still "
+            f"the flash temperature at {at[0]:g} m/s did not settle after {_MOST_ITERATIONS} iterations; it still "
             f"changes by {largest:.2g} K.",
             code="not-converged",
         )
 
-    def rise(self, q: Array, log_weights: Array, speed: float, area: Array, dissipated: Array) -> Array:
-        """Return the rise at each scale and then of the surface (n + 1,), K, from given areas and dissipation."""
+    def rises(
+        self, q: Array, log_weights: Array, at: tuple[float, float], area: Array, dissipated: Array
+    ) -> tuple[Array, Array]:
+        """Return the rise at each scale and then of the surface (n + 1,), K, by the loss and by Coulomb friction."""
+        speed, kelvin = at
         # ln P against ln q falls steadily; beyond the last scale there is no wave.
         below = np.flatnonzero(area <= self.macroasperity_area)
         place = int(below[0]) if below.size else len(q) - 1
@@ -112,27 +130,32 @@ class Flash:
         k = np.geomspace(lowest, highest, count)
         spacing = math.log(highest / lowest) / (count - 1)
         lasting = -np.expm1(-diffusivity * k**2 * time) / (diffusivity * k**2) / math.pi
-        radius = 0.5 * math.pi / q_m
-        flux = self._flux(speed, radius) / (area_m * self.thermal.volume_heat)
         # Trapezoids in ln k, which converge fast for what falls smoothly at both ends; below the lowest k all is even.
         weights = spacing * k * lasting
         weights[0] = 0.5 * weights[0] + lowest * lasting[0]
         k_square = np.square(k)
-        given = (4.0 * q[:, None] / (k_square + 4.0 * np.square(q)[:, None])).T @ (
-            log_weights * q * source
-        ) + 2.0 * flux
+        given = (4.0 * q[:, None] / (k_square + 4.0 * np.square(q)[:, None])).T @ (log_weights * q * source)
         met = 4.0 * np.square(q)[:, None] / (k_square + 4.0 * np.square(q)[:, None])
         left = weights * given
-        return np.append(met @ left, left.sum())
+        by_loss = np.append(met @ left, left.sum())
+        if self.heating is None:
+            return by_loss, np.zeros_like(by_loss)
+        taken = self._taken(speed, 0.5 * math.pi / q_m) / (area_m * self.thermal.volume_heat)
+        per_heat = 2.0 * taken * np.append(met @ weights, weights.sum())
+        heat = self.heating.coulomb_heat(self.pressure, speed)
+        slip = self.heating.sliding(speed)
+        if self.interface is not None and slip > 0.0:
+            face = SlidingInterface(self.interface, slip, kelvin)
+            heat = float(face.heat_of(area[-1], by_loss[-1:], per_heat[-1:], hot=self.start > 0.0)[0])
+        return by_loss, heat * per_heat
 
-    def _flux(self, speed: float, radius: float) -> float:
-        """Return the Coulomb heat that the rubber takes up per nominal area, W/m²; macroasperities have a radius, m."""
-        if self.heating is None or self.heating.coulomb == 0.0:
-            return 0.0
+    def _taken(self, speed: float, radius: float) -> float:
+        """Return the share of the Coulomb heat that the rubber takes up; macroasperities have a radius, m."""
+        assert self.heating is not None
         slip = self.heating.sliding(speed)
         bodies = (self.heating.rubber, speed), (self.heating.counterface, abs(speed - slip))
         rubber, other = (
             disc_mean(velocity * radius / (2.0 * body.diffusivity), hertz=False) / float(body.conductivity)
             for body, velocity in bodies
         )
-        return self.heating.coulomb * self.pressure * slip * other / (rubber + other)
+        return other / (rubber + other)

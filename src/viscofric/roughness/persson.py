@@ -26,7 +26,7 @@ References
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,21 +34,22 @@ import numpy as np
 from viscofric.arguments import insist_on
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
-from viscofric.datasets import dataset
+from viscofric.contact.heated_result import INTERFACE, beyond
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
-from viscofric.heat.result import HeatColumns
+from viscofric.heat.interface import SlidingInterface
+from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.flash import Flash
 from viscofric.roughness.persson_integrals import Case, Theory
+from viscofric.roughness.persson_result import HeatedPerssonTheory, PerssonTheory
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantities, Quantity, positive, share, shown_speed, to_si, to_si_array
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.arrays import Array
+    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.roughness.persson_integrals import Found
 
 
@@ -57,105 +58,6 @@ _CLOSEST, _LOOSEST = 1e-8, 0.1
 _HOT = (300.0, 200.0, 150.0, 100.0, 70.0, 50.0, 30.0, 20.0, 10.0, 5.0)
 #: Two states are one where their rises differ by less than this, K, plus the same share of it.
 _SAME = 1e-2
-
-
-@dataclass(frozen=True, eq=False)
-class PerssonTheory:
-    """Results of Persson's theory for a rubber that slides on a rough surface.
-
-    Attributes
-    ----------
-    temperature : (m,) array
-        Of the rubber before it meets the surface, K; NaN where none was given: a material with a shift is then at its
-        reference.
-    speed : (n,) array
-        m/s.
-    pressure : float
-        Nominal, Pa.
-    friction_coefficient : (m, n) array
-        For every temperature and speed.
-    contact_area_fraction : (m, n) array
-        Real contact area over nominal, all waves seen.
-    flash_temperature : (m, n) array
-        Largest rise of temperature over all scales, K; zero without `thermal` or `heating`.
-    wave_number : (k,) array
-        q of the scales below, rad/m.
-    area_by_scale : (m, n, k) array
-        P(q): the contact area as it shows when nothing shorter than 2π/q is seen.
-    friction_by_scale : (m, n, k) array
-        Friction coefficient of all waves up to q.
-    temperature_rise_by_scale : (m, n, k) array
-        T_q less `temperature`, K.
-    error : float
-        Largest estimated error of the integrals: of the area, and of the friction coefficient relative to its largest.
-    notes : tuple of str
-        Doubts about Coulomb friction, one sentence each.
-    """
-
-    temperature: Array
-    speed: Array
-    pressure: float
-    friction_coefficient: Array
-    contact_area_fraction: Array
-    flash_temperature: Array
-    wave_number: Array
-    area_by_scale: Array
-    friction_by_scale: Array
-    temperature_rise_by_scale: Array
-    error: float
-    notes: tuple[str, ...] = ()
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Return everything over temperature, speed and wave number, with pressure, error and notes as attributes."""
-        meanings = {
-            "friction_coefficient": ("1", "friction coefficient"),
-            "contact_area_fraction": ("1", "real over nominal contact area"),
-            "flash_temperature": ("K", "largest rise of temperature"),
-            "area_by_scale": ("1", "contact area fraction without shorter waves"),
-            "friction_by_scale": ("1", "friction coefficient due to all longer waves"),
-            "temperature_rise_by_scale": ("K", "rise of temperature that waves of this length meet"),
-        }
-        return dataset(
-            ("temperature", "speed", "wave_number"),
-            {name: (getattr(self, name), *meaning) for name, meaning in meanings.items()},
-            coordinates={
-                "temperature": (self.temperature, "K", "temperature of the rubber before it meets the surface"),
-                "speed": (self.speed, "m/s", "sliding speed"),
-                "wave_number": (self.wave_number, "rad/m", "wave number"),
-            },
-            attributes={"pressure": self.pressure, "error": self.error}
-            | ({"notes": "\n".join(self.notes)} if self.notes else {}),
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class HeatedPerssonTheory(HeatColumns, PerssonTheory):
-    """Results of Persson's theory with the heat of friction.
-
-    Attributes of `PerssonTheory`, and:
-
-    Attributes
-    ----------
-    isothermal : (m, n) array
-        Friction coefficient without heating.
-    temperature_rise, loss_weighted_rise : (m, n) array
-        Mean of the rise over all scales, weighted with what each loses, K.
-    coulomb_rise, loss_rise : (m, n) array
-        Its parts due to Coulomb friction and to the loss, K.
-    track_rise : (m, n) array
-        Zero.
-    face_rise : (m, n) array
-        Rise of the surface of the macroasperity contacts, K.
-    cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : (m, n) array
-        Friction and rise of the states reached from a cold and from a hot start, equal where there is one only.
-    """
-
-    def __post_init__(self) -> None:
-        self.keep_heat(self.friction_coefficient.shape)
-
-    def to_dataset(self) -> xarray.Dataset:
-        """Return everything as `PerssonTheory` does, with the columns of the heat."""
-        return super().to_dataset().assign(self.heat_variables("temperature", "speed"))
 
 
 def persson_theory(
@@ -168,6 +70,7 @@ def persson_theory(
     gamma: float = 0.5,
     thermal: ThermalProperties | None = None,
     heating: Heating | None = None,
+    interface: InterfaceLaw | None = None,
     macroasperity_area: float = 0.3,
     accuracy: float = 1e-4,
 ) -> PerssonTheory:
@@ -193,6 +96,9 @@ def persson_theory(
         In place of `thermal`: flash temperatures with the Coulomb heat that rubber and counterface share, and the
         isothermal friction beside.  `average` has no meaning here: every scale has its temperature; there is neither
         track nor nominal contact.
+    interface : InterfaceLaw, optional
+        Shear stress of the dry interface on the real contact area, such as from `ShearStress.law`: adds its friction.
+        With heating, its shear stress at the temperature of the macroasperity contacts makes the Coulomb heat.
     macroasperity_area : float
         Contact area fraction that shows at the scale of the macroasperities, at which hot spots begin; between 0 and 1.
     accuracy : float
@@ -240,7 +146,9 @@ def persson_theory(
         raise InputError(f"accuracy = {wanted:g}: must lie between {_CLOSEST:g} and {_LOOSEST:g}.", code="out-of-range")
     spots = share(macroasperity_area, "macroasperity_area", example=0.3)
     nominal = positive(pressure, "Pa", "pressure")
-    flash = _flash(thermal, heating, spots, nominal)
+    if interface is not None:
+        insist_on_interface(interface)
+    flash = _flash(thermal, heating, interface, spots, nominal)
     if flash is not None and (material.shift is None or temperatures is None):
         raise InputError("A flash temperature needs a material with a shift, and temperatures.", code="no-shift")
     cases = [Case(kelvin, float(speed)) for kelvin in kelvins for speed in velocities]
@@ -279,20 +187,44 @@ def persson_theory(
         error=error,
         **columns,
     )
-    if heating is None or heating.coulomb == 0.0:
-        return result
     surface = SurfaceCoupling(spectrum.rms_slope(), half_space_coupling(material.poisson_ratio))
+    return _with_coulomb(result, surface, heating, interface)
+
+
+def _with_coulomb(
+    result: PerssonTheory, surface: SurfaceCoupling, heating: Heating | None, interface: InterfaceLaw | None
+) -> PerssonTheory:
+    """Return results with the friction of an interface, and with notes on Coulomb friction."""
+    friction, area = result.friction_coefficient, result.contact_area_fraction
+    coulomb = np.full(friction.shape, 0.0 if heating is None else heating.coulomb)
+    notes: tuple[str, ...] = ()
+    if interface is not None:
+        slip, face = result.speed, np.broadcast_to(result.temperature[:, None], friction.shape)
+        if heating is not None:
+            assert isinstance(result, HeatedPerssonTheory)
+            slip, face = np.array([heating.sliding(float(one)) for one in slip]), face + result.face_rise
+            _insist_on_known(interface, slip, face)
+        rubbed = friction_on_area(interface, slip, face[..., None], result.pressure, area[..., None])
+        notes, coulomb = rubbed["notes"], rubbed["interface_friction"][..., 0]
+        result = replace(result, interface_friction=coulomb, interface_error=rubbed["interface_error"][..., 0])
     contacts = (
         surface.contact(
-            heating.coulomb,
-            float(result.friction_coefficient[place]),
-            float(result.contact_area_fraction[place]),
-            nominal,
-            f"at {shown_speed(float(velocities[place[1]]), 3)}",
+            float(coulomb[place]),
+            float(friction[place]),
+            float(area[place]),
+            result.pressure,
+            f"at {shown_speed(float(result.speed[place[1]]), 3)}",
         )
-        for place in np.ndindex(shape)
+        for place in np.ndindex(friction.shape)
     )
-    return replace(result, notes=coupling_notes(contacts))
+    return replace(result, notes=(*notes, *coupling_notes(contacts)))
+
+
+def _insist_on_known(law: InterfaceLaw, slip: Array, face: Array) -> None:
+    """Raise InputError where the law of the interface is not known at the temperature of the faces (m, n), K."""
+    for kelvin, speed in zip(face.ravel().tolist(), np.broadcast_to(slip, face.shape).ravel().tolist(), strict=True):
+        if speed > 0.0 and not SlidingInterface(law, speed, kelvin).is_known(0.0):
+            raise beyond(INTERFACE, kelvin)
 
 
 def _columns(isothermal: Found, cold: Found, hot: Found, branch: str) -> dict[str, Array]:
@@ -331,18 +263,27 @@ def _hottest(material: Material, kelvin: float) -> float:
     return 0.0
 
 
-def _flash(thermal: ThermalProperties | None, heating: Heating | None, area: float, pressure: float) -> Flash | None:
+def _flash(
+    thermal: ThermalProperties | None,
+    heating: Heating | None,
+    interface: InterfaceLaw | None,
+    area: float,
+    pressure: float,
+) -> Flash | None:
     """Return the parameters of hot spots of a contact area fraction; None where nothing is heated."""
     if heating is not None:
         insist_on(heating, "heating", Heating)
+        check_interface_heat(heating, interface)
         if thermal is not None or heating.passes > 0 or heating.nominal_radius is not None:
             raise InputError(
                 "heating: not with thermal, a track or a nominal_radius; leave out one of them.",
                 code="not-with-heating",
             )
-        return Flash(heating.rubber, area, heating, pressure)
+        return Flash(heating.rubber, area, heating, pressure, interface)
     if thermal is None:
         return None
     if not isinstance(thermal, ThermalProperties):
         raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.", code="wrong-type")
+    if interface is not None:
+        raise InputError("thermal: not with an interface, which makes heat; give heating.", code="not-with-heating")
     return Flash(thermal, area)

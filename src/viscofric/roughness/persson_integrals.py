@@ -103,22 +103,23 @@ class Theory:
         return float(np.clip(_SMALL_SPREAD / np.maximum(slope, 1e-300), _SHORTEST, _LONGEST_START)[0])
 
     def _case(self, case: Case, grid: _Grid) -> Scales:
-        rise = np.zeros(len(grid.q))
-        area, dissipated = self._isothermal(case, grid, rise)
-        if self.flash is not None and case.speed > 0.0:
+        by_coulomb = rise = np.zeros(len(grid.q))
+        face = 0.0
+        if self.flash is None or case.kelvin is None or case.speed == 0.0:
+            area, dissipated = self._isothermal(case, grid, rise)
+        else:
 
             def heated(rise: Array) -> tuple[Array, Array]:
                 return self._isothermal(case, grid, rise)
 
-            area, dissipated, rise = self.flash.settled(grid.q, grid.log_weights, case.speed, heated)
+            at = case.speed, case.kelvin
+            area, dissipated, rise, by_coulomb, face = self.flash.settled(grid.q, grid.log_weights, at, heated)
         lost = 0.5 * grid.q * area * dissipated / self.pressure
         friction = grid.cumulative(lost)
-        if self.flash is None or case.speed == 0.0 or friction[-1] <= 0.0:
-            return Scales(area[::2], friction, rise[::2])
-        state = grid.q, grid.log_weights, case.speed, area
-        by_coulomb, by_all = (self.flash.rise(*state, heat) for heat in (0.0 * dissipated, dissipated))
-        mean, coulomb = (float(grid.cumulative(lost * one)[-1] / friction[-1]) for one in (rise, by_coulomb[:-1]))
-        return Scales(area[::2], friction, rise[::2], mean, coulomb, float(by_all[-1]))
+        if friction[-1] <= 0.0:
+            return Scales(area[::2], friction, rise[::2], face_rise=face)
+        mean, coulomb = (float(grid.cumulative(lost * one)[-1] / friction[-1]) for one in (rise, by_coulomb))
+        return Scales(area[::2], friction, rise[::2], mean, coulomb, face)
 
     def _isothermal(self, case: Case, grid: _Grid, rise: Array) -> tuple[Array, Array]:
         """Return P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²) at given temperatures, at the ends and middles of a grid."""
