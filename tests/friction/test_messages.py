@@ -185,6 +185,18 @@ def checked(thickness: str | None = None, **columns: object) -> dict[str, str]:
     return {check.name: str(check) for check in found}
 
 
+def test_only_bodies_of_the_handbook_are_called_typical() -> None:
+    curves = friction_curves(np.array([0.02]), np.array([303.15]), np.array([0.00781]))
+    own = vf.ThermalProperties(1.0, 2000.0, 1000.0, "glass")
+    for bodies, said in (
+        ({"counterbody": own}, "25 N; typical handbook values of filled rubber are assumed)"),
+        ({"counterbody": own, "rubber": own}, "25 N)"),
+    ):
+        found = vf.check_assumptions(RUBBER, BALL, curves, **bodies)
+        (check,) = [str(one) for one in found if one.name == "one temperature"]
+        assert said in check
+
+
 def test_assumptions_say() -> None:
     rest = checked()
     assert rest == {

@@ -15,7 +15,7 @@ from viscofric.friction.finite_thickness import check_half_space
 from viscofric.friction.warming import Warming
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
-from viscofric.thermal import FILLED_RUBBER, PTFE, ThermalProperties
+from viscofric.thermal import BODIES, FILLED_RUBBER, PTFE, ThermalProperties
 from viscofric.units import Quantity, plain, positive, to_si_array
 
 if TYPE_CHECKING:
@@ -68,8 +68,8 @@ def check_assumptions(
         - "small contact": contact radius over the radius of a ball or cylinder (of the paraboloid that is as deep, for
           other shapes), at most 0.3.
         - "linearity": representative strain 0.2 a/R, at most that of the limit above, 6 %.
-        - "uncoupled", where Coulomb friction is known: normal displacement of the surface due to its shear, over that
-          due to the pressure, at most 0.02.  It vanishes on a half-space of ν = ½ only.
+        - "uncoupled", where Coulomb friction is known: estimated change of friction by its shear, over viscoelastic
+          friction, at most 5 %.  It vanishes on a half-space of ν = ½ only.
         - "one temperature": relative change of friction by its own heat, at most 5 %; unknown where the face of the
           contact is warm enough for more, and the rubber below is not.
 
@@ -202,11 +202,13 @@ def _one_temperature(
         None: "; predict with heating.",
         False: "; reduce the slip or the speed, or predict with heating.",
     }[holds]
+    typical = [body.name for body in (rubber, counterbody) if body in BODIES.values()]
+    assumed = f"; typical handbook values of {' and '.join(typical)} are assumed" if typical else ""
     sentence = Note(
         "warming",
         f"{heat} the face of the contact by {warming.face:.2g} K, and the rubber where the loss is released by "
-        f"{warming.below:.2g} K ({where}; typical handbook values of {rubber.name} and {counterbody.name} are assumed)"
-        f". This shifts the speed by up to {warming.decades:.2g} decades and changes friction by {change} "
+        f"{warming.below:.2g} K ({where}{assumed}). This shifts the speed by up to {warming.decades:.2g} decades and "
+        f"changes friction by {change} "
         f"(good if ≤ {100 * CHANGE:.0f} %){rest}",
         values={
             "coulomb_counted": counted,

@@ -71,7 +71,7 @@ def check_coupling(
         "both directions of slip, or reduce slip or Coulomb friction (PTFE, lubricant).",
     }[holds]
     values = {"lowest": low, "highest": high, **worst[1].values, **place.values}
-    least = "" if low > 0.98 * high else f" (a change of {100 * low:.2g} % for the other bound of the contact size)"
+    least = "" if low >= 0.98 * high else f" (a change of {100 * low:.2g} % for the other bound of the contact size)"
     said = Note("tangential-coupling", worst[1].said + least + rest, values=values)
     return AssumptionCheck.of("uncoupled", holds, said, high, LARGEST)
 

@@ -67,11 +67,13 @@ def assumption_checks(contacts: Contacts, requested: Solved, at_points: Solved) 
 def _checked(
     contacts: Contacts, case: IndenterCase, curves: FrictionCurves, records: list[Record]
 ) -> Iterable[AssumptionCheck]:
-    """Check contacts of one material, shape and load."""
+    """Check contacts of one material, shape and load, with the thermal properties of the run file if it has any."""
     reach = np.array([_reach(record) for record in records])
     material = contacts.rubbers[case.material].material
     thickness = contacts.study.conditions.thickness if case.layer is None else case.layer.thickness
-    checks = check_assumptions(material, case.indenter, curves, thickness=thickness, contact_radius=reach)
+    heating = contacts.study.heating
+    bodies = {} if heating is None else {"rubber": heating.rubber, "counterbody": heating.counterface}
+    checks = check_assumptions(material, case.indenter, curves, thickness=thickness, contact_radius=reach, **bodies)
     return (check for check in checks if case.layer is None or check.name != _OF_HALF_SPACES)
 
 
