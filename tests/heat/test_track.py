@@ -52,6 +52,10 @@ def test_a_track_ends_at_the_steady_ring() -> None:
     fast = {"speed": 1e4, "radius": 1e-3}  # a ring without turns
     difference = rise([math.inf], **fast) - rise([math.inf], **fast | {"radius": 2e-3})
     assert difference[0] == pytest.approx(0.1 / (2.0 * np.pi**2 * RING * 0.3) * math.log(2.0), rel=2e-3)
+    # The mean of ln d between two places distributed as the chords of a disc is −1/4 − ln 2: Wigner's semicircle.
+    even = rise([math.inf], **fast, distribution="uniform")
+    ring = 0.1 / (2.0 * np.pi**2 * RING * 0.3) * (math.log(8.0 * RING / 1e-3) + 0.25 + math.log(2.0))
+    assert even[0] == pytest.approx(ring, rel=2e-3)
     assert rise([1e14])[0] == pytest.approx(narrow[0], rel=1e-5)
 
 

@@ -53,8 +53,8 @@ class Diffusion:
     def __post_init__(self) -> None:
         if self.insulated and self.speed == 0.0 and math.isinf(self.time) and math.isfinite(self.thickness):
             raise InputError(
-                "A source at rest on a layer with an insulated base warms it without end; give a time, or a base at "
-                "constant temperature.",
+                "A source at rest or on a track warms a layer with an insulated base without end; give a time or a "
+                "number of passes, or a base at constant temperature.",
                 code="no-steady-state",
             )
 
