@@ -15,6 +15,7 @@ from readers.samples.workbook import write as write_workbook
 from viscofric.readers import read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.source import decimal_comma, to_rad_per_second, unit_conversion
+from viscofric.rheology.catalogue import catalogue_material
 
 FREQUENCIES = (0.1, 0.316, 1.0, 3.16, 10.0, 31.6)  # Hz
 HEADER = "T (degC),f (Hz),E' (MPa),E'' (MPa)"
@@ -385,6 +386,19 @@ def test_logarithms_and_liquids_are_reported(tmp_path):
     assert notes_with(read_dma(write(tmp_path, liquid)), "columns-swapped", "20") != []
     plain = read_dma(write(tmp_path, rows()))
     assert notes_with(plain, "logarithms") == notes_with(plain, "columns-swapped") == []
+
+
+def test_swapped_moduli_of_a_rubber_and_its_glass_are_reported(tmp_path):
+    """SYNTHETIC: tan δ from 0.05 to 1.3, so that those of swapped columns are below 20."""
+    rubber, hertz = catalogue_material("synthetic fluoroelastomer"), np.geomspace(0.1, 20.0, 8)
+    points = [
+        (celsius, f, modulus.real / 1e6, modulus.imag / 1e6)
+        for celsius in (-20.0, -10.0, 0.0, 20.0, 60.0, 100.0)
+        for f, modulus in zip(hertz, rubber.complex_modulus(2.0 * np.pi * hertz, celsius + 273.15), strict=True)
+    ]
+    assert notes_with(read_dma(write(tmp_path, points)), "columns-swapped") == []
+    swapped = [(T, f, loss, storage) for T, f, storage, loss in points]
+    assert notes_with(read_dma(write(tmp_path, swapped)), "columns-swapped") != []
 
 
 def test_a_strain_without_unit_is_reported(tmp_path):

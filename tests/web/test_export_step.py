@@ -30,6 +30,11 @@ def packed_study(path: Path) -> dict[str, Any]:
         return {"name": "mine.toml", "mimeType": "text/plain", "buffer": packed.read("study.toml")}
 
 
+def closing(tab: Tab) -> bool:
+    """Return whether the page asks before it is closed."""
+    return not tab.value("window.dispatchEvent(new Event('beforeunload', { cancelable: true }))")
+
+
 def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> None:
     page = tab.page
     page.get_by_role("button", name="Run the whole study").click()
@@ -37,15 +42,20 @@ def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> Non
     page.get_by_role("button", name="Cancel").click()
     page.get_by_text("Cancelled; solved contacts are kept").wait_for()
     with page.expect_download() as download:
-        page.get_by_role("button", name="Run file and data").click()
+        page.get_by_role("button", name="Save project").click()
     with zipfile.ZipFile(download.value.path()) as packed:
         assert packed.namelist() == ["study.toml"]
+    assert not closing(tab)
 
     taken = packed_study(download.value.path())
     page.get_by_label("Title of the study and report").fill("Another")
     page.get_by_label("Title of the study and report").press("Enter")
-    page.locator(".drop-field input").set_input_files(files=[taken])
+    assert closing(tab)
+    with page.expect_file_chooser() as chooser:
+        page.get_by_role("button", name="Open project").click()
+    chooser.value.set_files(files=[taken])
     tab.until("page.state.state.get('title') === 'Friction of a synthetic fluoroelastomer'")
+    assert not closing(tab)
 
     # the end of a run, without the minute that its report takes
     reported = [

@@ -42,12 +42,12 @@ def test_keyboard_reaches_steps_and_focus_goes_to_their_heading(tab: Tab) -> Non
     press = tab.page.keyboard.press
     focused = "document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent"
     order = []
-    for _ in range(4 + len(STEPS) + 2):
+    for _ in range(6 + len(STEPS) + 2):
         press("Tab")
         order.append(tab.value(focused))
     # undo and redo are disabled: nothing has been changed
-    skip, brand, units, theme, *steps, first = order
-    assert (skip, units) == ("Skip to content", "Units")
+    skip, brand, save, opens, units, theme, *steps, first = order
+    assert (skip, save, opens, units) == ("Skip to content", "Save project", "Open project", "Units")
     assert brand.startswith("viscofric")
     assert "change to" in theme
     titles = tab.value("given.map((step) => page.state.page.steps.get(step).title)", *_ALL)
@@ -79,7 +79,8 @@ def test_changes_are_checked_undone_and_survive_a_reload(tab: Tab) -> None:
     described = page.get_by_label("Accuracy of friction").get_attribute("aria-describedby") or ""
     assert error.get_attribute("id") in described.split()
     assert page.get_by_label("Accuracy of friction").get_attribute("aria-invalid") == "true"
-    assert page.get_by_role("button", name="Run file and data").is_disabled()
+    page.get_by_role("button", name="Save project").click()
+    tab.until("document.getElementById('announcements').textContent.startsWith('Error: ')")
 
     page.reload()
     page.wait_for_selector("pre .heading")

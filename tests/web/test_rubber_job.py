@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import json
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import viscofric as vf
 from refusals import refused
 from viscofric.rheology.catalogue import catalogue_material
 from viscofric.web.jobs.context import Context, JobError
+from web.figure_columns import value_at
 from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
 
 if TYPE_CHECKING:
@@ -60,7 +62,7 @@ def test_laws_are_compared_and_the_one_used_is_marked(rubber: Any, fit: vf.Super
     low, high = laws["wlf"]["limits"]["valid"]
     fitted = laws["wlf"]["limits"]["fitted"]
     assert low < fitted[0] < fitted[1] < high
-    assert laws["wlf"]["line"]["temperature"][0] == pytest.approx(low, abs=0.1)
+    assert laws["wlf"]["ends"][0] == pytest.approx(low, abs=0.1)
     # 1 % noise leaves log10 α uncertain by hundredths of a decade
     assert np.max(np.abs(laws["wlf"]["residual"]["log10_residual"])) < 0.05
 
@@ -70,9 +72,27 @@ def test_verdict_is_that_of_the_check(rubber: Any, fit: vf.Superposition) -> Non
     assert check["verdict"] == "holds"
     assert check["sentences"] == list(fit.check.sentences)
     assert check["kramers_kronig"]["holds"] == 1
-    points = sum(len(one["x"]) for one in check["diagrams"]["van_gurp_palmen"])
-    assert points == sum(len(one) for one in fit.isotherms)
-    assert [one["temperature"] for one in check["diagrams"]["wicket"]] == rubber["shift"]["factors"]["temperature"]
+
+
+@pytest.mark.parametrize("vertical", [None, "density"])
+def test_diagrams_are_columns_of_the_shifted_isotherms(workspace: Context, vertical: Literal["density"] | None) -> None:
+    material = SWEEPS if vertical is None else SWEEPS | {"vertical_shift": vertical}
+    reply = done("rubber", workspace, material, options={"bands": False})
+    expected = vf.superpose(vf.read_dma(EXAMPLE), "30 degC", vertical=vertical).check
+    for name in ("van_gurp_palmen", "booij_thoone_palmen", "cole_cole", "wicket"):
+        traces, diagram = reply["figures"][f"diagram-{name}"]["traces"], getattr(expected, name)
+        for axis in ("x", "y"):
+            shown = np.concatenate([value_at(reply, one[axis]) for one in traces])
+            np.testing.assert_allclose(shown, getattr(diagram, axis), rtol=5e-6)  # six digits
+        kelvin = np.repeat([one["temperature"] for one in traces], [len(value_at(reply, one["x"])) for one in traces])
+        np.testing.assert_allclose(kelvin, diagram.temperature, rtol=5e-6)
+
+
+def test_readings_are_sent_once(rubber: Any, fit: vf.Superposition) -> None:
+    """Figures share columns: six of isotherms, four of the master curve, two of residuals; ten characters a number."""
+    readings = sum(len(one) for one in fit.isotherms)
+    # moduli, bands and laws are lines whose length does not depend on the readings
+    assert len(json.dumps(rubber, separators=(",", ":"))) < 12 * 11 * readings + 100_000
 
 
 def test_spectrum_and_its_moduli_belong_together(rubber: Any) -> None:

@@ -57,12 +57,14 @@ def test_a_saved_study_has_the_same_numbers_in_another_browser(
         before = shown(tab)
         tab.step("export")
         with tab.page.expect_download() as download:
-            tab.page.get_by_role("button", name="Run file and data").click()
+            tab.page.get_by_role("button", name="Save project").click()
         download.value.save_as(packed)
         study = tab.value("page.state.state.study")
     with opened_tab(browser, server, "#export") as fresh:
         assert fresh.value("page.state.state.study") != study
-        fresh.page.locator("#step-export input[type=file]").set_input_files(packed)
+        with fresh.page.expect_file_chooser() as chooser:
+            fresh.page.get_by_role("button", name="Open project").click()
+        chooser.value.set_files(packed)
         fresh.until("document.getElementById('announcements').textContent.startsWith('study.zip is opened')")
         assert fresh.value("page.state.state.study") == study
         after = shown(fresh)

@@ -120,7 +120,7 @@ def exported(tab: Tab, folder: Path) -> Path:
     assert "all solved" in tab.text("#step-export .key-numbers")
     sound(tab, "6-export")
     with tab.page.expect_download() as download:
-        tab.page.get_by_role("button", name="Run file and data").click()
+        tab.page.get_by_role("button", name="Save project").click()
     packed = folder / "study.zip"
     download.value.save_as(packed)
     return packed

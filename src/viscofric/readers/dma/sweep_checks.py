@@ -32,6 +32,8 @@ LEAST_OUTLIER = 0.04  # decades
 LIKE_LOGARITHMS = (3.0, 12.0)  # Pa
 #: Even in the glass transition no rubber has a tan δ as large.
 LARGEST_LOSS = 10.0
+#: A storage modulus never falls with frequency; the loss modulus does beyond its peak, by more than noise or drift.
+FALLS = 0.9
 
 
 def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
@@ -153,6 +155,11 @@ def _residuals(x: Array, y: Array) -> Array:
     return r
 
 
+def _falls(storage: Array, loss: Array) -> bool:
+    """Whether a storage modulus falls over its isotherm while the loss modulus rises."""
+    return bool(storage[-1] < FALLS * storage[0] and loss[-1] > loss[0])
+
+
 def _on_sense(sweeps: Sequence[Sorted]) -> list[Note]:
     """Return notes on what rubber never does: softening on cooling, or dissipating far more than it stores."""
     notes = []
@@ -163,8 +170,10 @@ def _on_sense(sweeps: Sequence[Sorted]) -> list[Note]:
         said = f"All storage moduli lie between {span} Pa and look like logarithms; they were read as moduli."
         notes.append(Note("logarithms", said))
     lossy = float(np.median(loss / storage))
-    if lossy > LARGEST_LOSS:
-        said = f"Half of all tan δ are above {lossy:.3g}, as of a liquid; are the columns of the moduli swapped?"
+    falls = any(_falls(one.isotherm.storage_modulus, one.isotherm.loss_modulus) for one in sweeps)
+    if lossy > (1.0 if falls else LARGEST_LOSS):
+        why = "and a storage modulus falls with frequency" if falls else "as of a liquid"
+        said = f"Half of all tan δ are above {lossy:.3g}, {why}; are the columns of the moduli swapped?"
         notes.append(Note("columns-swapped", said))
     level = [float(np.median(np.log(one.isotherm.storage_modulus))) for one in sweeps]
     if len(sweeps) > 2 and np.all(np.diff(level) > 0.0):

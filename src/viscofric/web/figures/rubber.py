@@ -10,14 +10,19 @@ from viscofric.web.figures.sweeps import moduli_of_material
 
 
 def rubber_view(found: dict[str, Any]) -> dict[str, Any]:
-    """Return what is shown of a result of the job ``rubber``; ``limits`` says where its law is valid."""
-    shift, spectrum = found["shift"], found["spectrum"]
+    """Return what is shown of a result of the job ``rubber``; ``limits`` says where its law is valid.
+
+    Columns that figures have of their own are left out of ``shift`` and ``check``.
+    """
+    shift, check, spectrum = found["shift"], found["check"], found["spectrum"]
     tables = {}
     if shift and shift["laws"]:
         tables["laws"] = law_table(shift["laws"])
     if spectrum["modes"]:
         tables["modes"] = modes_table(spectrum)
     return {
+        "shift": shift and _without_lines(shift),
+        "check": check and {**check, "kramers_kronig": _without_columns(check.get("kramers_kronig"))},
         "figures": {
             **spectrum_figures(found),
             **(shift_figures(found) if shift else {}),
@@ -25,10 +30,21 @@ def rubber_view(found: dict[str, Any]) -> dict[str, Any]:
         },
         "tables": tables,
         "key_numbers": spectrum_numbers_shown(found),
-        "verdict_numbers": verdict_numbers(found) if shift and found["check"] else [],
+        "verdict_numbers": verdict_numbers(found) if shift and check else [],
         "summary": {"shift": _shift_summary(found), "spectrum": _spectrum_summary(spectrum)},
         "limits": limits_in_words(shift["material"]) if shift else "",
     }
+
+
+def _without_lines(shift: dict[str, Any]) -> dict[str, Any]:
+    def bare(law: dict[str, Any]) -> dict[str, Any]:
+        return {name: entry for name, entry in law.items() if name != "line"}
+
+    return {**shift, "laws": [bare(law) for law in shift["laws"]], "material": bare(shift["material"])}
+
+
+def _without_columns(found: dict[str, Any] | None) -> dict[str, Any] | None:
+    return found and {name: entry for name, entry in found.items() if not isinstance(entry, (list, dict))}
 
 
 def _shift_summary(found: dict[str, Any]) -> str:

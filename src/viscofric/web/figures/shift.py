@@ -8,6 +8,7 @@ import numpy as np
 
 from viscofric.units import shown_number
 from viscofric.web.figures.spec import (
+    ISOTHERMS,
     MODULUS,
     REDUCED_FREQUENCY,
     TEMPERATURE,
@@ -27,13 +28,20 @@ _LAWS = ("green", "purple", "orange", "sky")
 _LOG_ALPHA = axis("log₁₀ α")
 #: A law is hidden at first whose largest residual is so many times that of the best, which counts as 0.005 at least.
 _FAR, _LEAST = 20.0, 0.005
-_TANGENT = axis("tan δ", log=True)
+#: Columns of the isotherms, with their axes.
+_COLUMNS = {
+    "storage_modulus": {**MODULUS, "label": "E′"},
+    "loss_modulus": {**MODULUS, "label": "E″"},
+    "dynamic_modulus": {**MODULUS, "label": "|E*|"},
+    "loss_angle": axis("loss angle δ", "angle"),
+    "loss_tangent": axis("tan δ", log=True),
+}
 #: Diagrams that no shift along the frequency changes.
 _DIAGRAMS = {
-    "van_gurp_palmen": ("van Gurp–Palmen", {**MODULUS, "label": "|E*|"}, axis("loss angle δ", "angle")),
-    "booij_thoone_palmen": ("tan δ against |E*|", {**MODULUS, "label": "|E*|"}, _TANGENT),
-    "cole_cole": ("E″ against E′", {**MODULUS, "label": "E′"}, {**MODULUS, "label": "E″"}),
-    "wicket": ("tan δ against E′", {**MODULUS, "label": "E′"}, _TANGENT),
+    "van_gurp_palmen": ("van Gurp–Palmen", "dynamic_modulus", "loss_angle"),
+    "booij_thoone_palmen": ("tan δ against |E*|", "dynamic_modulus", "loss_tangent"),
+    "cole_cole": ("E″ against E′", "storage_modulus", "loss_modulus"),
+    "wicket": ("tan δ against E′", "storage_modulus", "loss_tangent"),
 }
 _RESPONSES = {
     "creep": ("creep compliance", {"shear": "J"}, "D", " (1/MPa)", "plain", 1e6),
@@ -52,18 +60,15 @@ def shift_figures(found: dict[str, Any]) -> dict[str, Spec]:
         figures["shifted-steps"] = step_figure(title, shift["steps"], "shift.steps", found["deformation"])
     if shift["vertical"]:
         figures["vertical-shift"] = _vertical(shift["vertical"])
-    for name, symbol, y in (
-        ("storage_modulus", "E′", MODULUS),
-        ("loss_modulus", "E″", MODULUS),
-        ("loss_tangent", "tan δ", _TANGENT),
-    ):
-        over_b = "/b" if shift["vertical"] and y is MODULUS else ""
+    for name in ("storage_modulus", "loss_modulus", "loss_tangent"):
+        y = _COLUMNS[name]
+        over_b = "/b" if shift["vertical"] and y["kind"] else ""
         figures[f"shifted-{name}"] = figure(
             "Isotherms shifted to the reference",
             REDUCED_FREQUENCY,
-            {**y, "label": f"{symbol}{over_b}"},
+            {**y, "label": f"{y['label']}{over_b}"},
             [
-                {**one, "symbol": "square" if about["held"] else "circle"}
+                {**one, "symbol": "square"} if about["held"] else one
                 for one, about in zip(
                     isotherms("shift.isotherms", shift["isotherms"], "angular_frequency", name),
                     shift["isotherms"],
@@ -71,8 +76,9 @@ def shift_figures(found: dict[str, Any]) -> dict[str, Spec]:
                 )
             ],
             "Squares are fixed manually." if any(one["held"] for one in shift["isotherms"]) else "",
+            look=ISOTHERMS,
         )
-    return figures | (_quality(check) if "diagrams" in check else {})
+    return figures | (_quality(check, shift["isotherms"]) if shift["isotherms"] else {})
 
 
 def _factors(shift: dict[str, Any]) -> Spec:
@@ -167,9 +173,7 @@ def step_figure(title: str, steps: dict[str, Any], path: str, deformation: str |
     """Return creep or relaxation tests, as measured or with their fit over reduced time."""
     word, symbols, otherwise, unit, kind, scale = _RESPONSES[steps["kind"]]
     fit = steps.get("fit")
-    traces = isotherms(
-        f"{path}.curves", steps["curves"], "time", "response", mode="markers" if fit else "lines+markers", size=4
-    )
+    traces = isotherms(f"{path}.curves", steps["curves"], "time", "response")
     if scale != 1.0:
         traces = [
             {**one, "y": [scale * value for value in curve["response"]]}
@@ -177,21 +181,23 @@ def step_figure(title: str, steps: dict[str, Any], path: str, deformation: str |
         ]
     if fit:
         fitted = scale * np.array(fit["response"])
-        traces.append(line(f"{path}.fit.time", fitted, "fitted", colour="vermilion", width=1.5))
+        traces.append(line(f"{path}.fit.time", fitted, "fitted", mode="lines", colour="vermilion", width=1.5))
     time = axis("reduced time t/α" if fit else "time", "time", log=True)
     label = f"{word} {symbols.get(deformation or '', otherwise)}{unit}"
-    return figure(title, time, axis(label, kind, log=True), traces)
+    look = {**ISOTHERMS, "mode": "markers" if fit else "lines+markers", "size": 4}
+    return figure(title, time, axis(label, kind, log=True), traces, look=look)
 
 
-def _quality(check: dict[str, Any]) -> dict[str, Spec]:
+def _quality(check: dict[str, Any], shifted: list[dict[str, Any]]) -> dict[str, Spec]:
     """Draw what shows whether superposition holds."""
     figures = {
         f"diagram-{name}": figure(
             title,
-            x,
-            y,
-            isotherms(f"check.diagrams.{name}", check["diagrams"][name], "x", "y", width=1),
+            _COLUMNS[x],
+            _COLUMNS[y],
+            isotherms("shift.isotherms", shifted, x, y),
             "No shift along the frequency changes these points.",
+            look={**ISOTHERMS, "width": 1},
         )
         for name, (title, x, y) in _DIAGRAMS.items()
     }
@@ -260,7 +266,7 @@ def verdict_numbers(found: dict[str, Any]) -> list[Spec]:
             "overlap", f"{shown_number(misfit['joint'], 'z.3f')} decades", remark=f"rms over {misfit['points']} points"
         ),
         merit is not None and number("figure of merit", merit, digits=2, remark="good if ≤ 1"),
-        "diagrams" in check
+        bool(shift["isotherms"])
         and number("E′ against E″", agree[None if causal is None else bool(causal)], remark="Kramers–Kronig"),
         number("α(T) used", "as measured" if shift["used"] == "measured" else shift["used"], remark=origin),
     ]

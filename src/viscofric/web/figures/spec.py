@@ -77,7 +77,7 @@ def around(values: Any, error: Any) -> tuple[Any, Any]:
 
 
 def figure(title: str, x: Spec, y: Spec, traces: list[Spec], caption: str = "", **more: Any) -> Spec:
-    """Return a figure; `more` has marks, map, z, synthetic or `temperatures` that share colours."""
+    """Return a figure; `more` has marks, map, z, the `look` of all traces, or `temperatures` that share colours."""
     return {"title": title, "x": x, "y": y, "traces": traces, "caption": caption, **more}
 
 
@@ -96,10 +96,12 @@ def table(caption: str, head: list[str], rows: list[list[Any]]) -> Spec:
     return {"caption": caption, "head": head, "rows": rows}
 
 
-def isotherms(path: str, curves: list[dict[str, Any]], x: str, y: str, **look: Any) -> list[Spec]:
+#: Look of measured curves at one temperature each.
+ISOTHERMS: Spec = {"mode": "lines+markers", "dash": "solid", "symbol": "circle", "size": 5, "width": 1.2}
+
+
+def isotherms(path: str, curves: list[dict[str, Any]], x: str, y: str) -> list[Spec]:
     """Return columns of curves at one temperature each; `path` is where the result has the curves."""
-    style = {"mode": "lines+markers", "dash": "solid", "symbol": "circle", "size": 5, "width": 1.2, **look}
     return [
-        line(f"{path}[{at}].{x}", f"{path}[{at}].{y}", temperature=one["temperature"], **style)
-        for at, one in enumerate(curves)
+        line(f"{path}[{at}].{x}", f"{path}[{at}].{y}", temperature=one["temperature"]) for at, one in enumerate(curves)
     ]

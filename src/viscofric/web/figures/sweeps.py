@@ -7,6 +7,7 @@ from typing import Any
 from viscofric.web.figures.shift import step_figure
 from viscofric.web.figures.spec import (
     FREQUENCY,
+    ISOTHERMS,
     MODULUS,
     TEMPERATURE,
     Spec,
@@ -21,6 +22,7 @@ from viscofric.web.figures.spec import (
 )
 
 _MOST_ROWS = 200
+_RAMPS: Spec = {"mode": "lines+markers", "size": 4, "width": 1.2}
 _MODULI = {
     "storage_modulus": ("Storage modulus", "′"),
     "loss_modulus": ("Loss modulus", "″"),
@@ -36,8 +38,8 @@ def sweeps_view(found: dict[str, Any], given: str | None) -> dict[str, Any]:
     letter = "G" if found.get("deformation") == "shear" else "E"
     for key in _MODULI if found["source"] in ("dma", "ramps") else ():
         traces = _of_ramps(found["ramps"], key) if "ramps" in found else _of_sweeps(found, key)
-        x = TEMPERATURE if "ramps" in found else FREQUENCY
-        figures[_id(key)] = figure(_MODULI[key][0], x, _axis(key, letter), traces)
+        x, look = (TEMPERATURE, _RAMPS) if "ramps" in found else (FREQUENCY, ISOTHERMS)
+        figures[_id(key)] = figure(_MODULI[key][0], x, _axis(key, letter), traces, look=look)
     tables = {}
     if found.get("files"):
         tables["files"] = _files(found["files"])
@@ -72,13 +74,11 @@ def _axis(key: str, letter: str) -> Spec:
 
 
 def _of_ramps(ramps: list[dict[str, Any]], key: str) -> list[Spec]:
-    look: Spec = {"mode": "lines+markers", "size": 4, "width": 1.2}
     return [
         line(
             f"ramps[{at}].temperature",
             f"ramps[{at}].{key}",
             quantity(one["angular_frequency"], "angular_frequency"),
-            **look,
         )
         for at, one in enumerate(ramps)
     ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain, record
@@ -17,7 +16,6 @@ from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
 
 if TYPE_CHECKING:
-    from viscofric.rheology.superposition.consistency import Diagram
     from viscofric.rheology.superposition.result import Superposition
     from viscofric.study.rubber import Rubber
     from viscofric.web.jobs.context import Context
@@ -59,8 +57,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         0, 2, "shifting the isotherms" if table.dma or table.steps or table.ramps else "reading the rubber"
     )
     rubber = made_rubber(study, context)
-    reply = _without_bands(rubber, table.fixed_shift_factors, context)
-    reply |= rubber_view(reply)
+    found = _without_bands(rubber, table.fixed_shift_factors, context)
+    reply = found | rubber_view(found)
     if not options.bands or wanted.draws == 0 or rubber.superposed is None:
         why = (
             ""
@@ -73,8 +71,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     drawn = friction_bands(study, context)
     if drawn.samples is None:
         return reply | {"band": None, "no_band": " ".join(drawn.notes)}
-    whole = reply | {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
-    return whole | rubber_view(whole)
+    found |= {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
+    return found | rubber_view(found)
 
 
 def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -> dict[str, Any]:
@@ -131,7 +129,7 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
     -------
     dict
         ``verdict`` (`SuperpositionCheck.verdict`), its ``kind``, ``headline`` and ``sentences``;
-        distances of ``neighbours`` in decades; ``diagrams`` in SI units and rad; ``kramers_kronig`` or None.
+        distances of ``neighbours`` in decades; ``kramers_kronig`` or None.
     """
     check, found = fit.check, fit.check.kramers_kronig
     return {
@@ -146,22 +144,5 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
             }
             for pair in check.neighbours
         ],
-        "diagrams": {
-            "van_gurp_palmen": _by_temperature(check.van_gurp_palmen),
-            "booij_thoone_palmen": _by_temperature(check.booij_thoone_palmen),
-            "cole_cole": _by_temperature(check.cole_cole),
-            "wicket": _by_temperature(check.wicket),
-        },
         "kramers_kronig": None if found is None else record(found.to_dataset(), 6) | {"allowed": LARGEST_RMS},
     }
-
-
-def _by_temperature(diagram: Diagram) -> list[dict[str, Any]]:
-    cuts = np.flatnonzero(np.diff(diagram.temperature)) + 1
-    return [
-        {"temperature": plain(float(kelvin[0])), "x": plain(x), "y": plain(y)}
-        for kelvin, x, y in zip(
-            *(np.split(column, cuts) for column in (diagram.temperature, diagram.x, diagram.y)), strict=True
-        )
-        if len(kelvin)
-    ]

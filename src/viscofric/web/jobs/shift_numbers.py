@@ -144,7 +144,7 @@ def _law(row: LawRow[ParametricLaw], rubber: Rubber, factors: ShiftFactors) -> d
 
 
 def _drawn(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
-    """Return the limits of a law, and its line over those that it has, or about the measured temperatures."""
+    """Return the limits of a law, and its line between those that it has, or about the measured temperatures."""
     if measured is not None:
         low, high = float(measured[0]), float(measured[-1])
     else:
@@ -153,7 +153,8 @@ def _drawn(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
     if limits is not None:
         ends = [usual if end is None else end for end, usual in zip(limits["valid"], (low, high), strict=True)]
         low, high = (ends[0], ends[1]) if limits["fitted"] is not None else (max(low, ends[0]), min(high, ends[1]))
-    return {"limits": limits, "line": with_bars(law_line(law, max(low, 1.0), high, _LINE))}
+    low = max(low, 1.0)
+    return {"limits": limits, "ends": plain([low, high]), "line": with_bars(law_line(law, low, high, _LINE))}
 
 
 def _limits(law: ShiftLaw) -> dict[str, Any] | None:
@@ -189,6 +190,8 @@ def _shifted(fit: Superposition, held: Mapping[float, float]) -> list[dict[str, 
     return [
         record(one.to_dataset(), _DIGITS)
         | {
+            "dynamic_modulus": plain(np.hypot(one.storage_modulus, one.loss_modulus)),
+            "loss_angle": plain(np.arctan2(one.loss_modulus, one.storage_modulus)),
             "log10_shift": plain(float(shift)),
             "held": is_held,
             "is_reference": abs(one.temperature - factors.reference) < 1e-6 * one.temperature,

@@ -51,9 +51,7 @@ def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
         "fit": None if fit is None else plain({name: getattr(fit, name) for name in _OF_A_FIT}),
         "notes": list(why),
         "modulus": moduli(at, material.complex_modulus(at)),
-        "measured": None
-        if curve is None
-        else record(curve.to_dataset(), _DIGITS) | {"loss_tangent": plain(curve.loss_tangent)},
+        "measured": None if curve is None else moduli(curve.angular_frequency, curve.complex_modulus),
         "residual": None if curve is None else _residual(curve, material),
     }
 

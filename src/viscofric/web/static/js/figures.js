@@ -4,7 +4,7 @@
 //   x=${{label: "speed", kind: "speed", log: true}} y=${{label: "friction coefficient", zero: 1.06}}
 //   traces=${[{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size, width, open,
 //              lower, upper (a band around y), error (bars), hidden, legend: false, text, group, decoration, fill}, …]}
-//   temperatures=${all that share colours} marks=${[{x | y, label}, …]} map=${{x, y, z: [[…]], smooth}} z=${axis of the map}
+//   look=${of all traces} temperatures=${all that share colours} marks=${[{x | y, label}, …]} map=${{x, y, z: [[…]], smooth}} z=${axis of the map}
 //   height=${400} empty="text without data" synthetic onClick=${(point) => …} onPlot=${(plot) => …} />
 //
 // What is not given is that of the result: of.figures[id], or `spec`.  All numbers are SI; columns may be paths into the result
@@ -216,6 +216,7 @@ function specOf(given) {
     map: all.map && { ...all.map, ...each(all.map, ["x", "y", "z"], column) },
     marks: all.marks.map((mark) => ({ ...mark, ...each(mark, ["label"], units.filled) })),
     traces: all.traces.map(({ temperature, ...one }) => ({
+      ...all.look,
       ...(temperature === undefined ? {} : { temperature, name: units.show(temperature, "temperature") }),
       ...one,
       ...each(one, ["name"], units.filled),

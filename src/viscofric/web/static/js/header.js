@@ -1,12 +1,47 @@
-// Tools in the page's header: undo and redo, the menu of units, light and dark.
+// Tools in the page's header: the project saved and opened, undo and redo, the menu of units, light and dark.
 
+import { downloadUrl, runJob, uploadFiles } from "./api.js";
 import { Select } from "./fields.js";
 import { chooseTheme, isDark } from "./figures.js";
-import { announce } from "./page.js";
-import { html, view } from "./reactive.js";
+import { announce, attempts } from "./page.js";
+import { html, lasting, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
 import { Button, Icon } from "./views.js";
+
+export const [attempt, failed] = attempts();
+const saved = lasting("sessionStorage", "viscofric.saved", ""); // the study that was saved or opened last
+
+/** Save the project: download the run file with its data. */
+export async function pack() {
+  const found = await runJob("export-run-file", { study: state.study, options: { pack: true } });
+  const { name } = found.download;
+  Object.assign(document.createElement("a"), { href: downloadUrl(name), download: name }).click();
+  saved.value = JSON.stringify(state.study);
+  return "The zip file is ready.";
+}
+
+/** Take in data files, and show the study of a run file among them, or of a zip file with both. */
+export async function openFiles(files) {
+  const given = files.find((file) => /\.toml$/i.test(file.name));
+  const names = await uploadFiles(files.filter((file) => file !== given));
+  const archive = names.find((name) => /\.zip$/i.test(name));
+  if (!given && !archive) throw new Error("No run file was given; its name ends with .toml, or .zip with its data.");
+  const options = given ? { text: await given.text() } : { archive };
+  const { study, missing, files: unpacked } = await runJob("open-run-file", { options });
+  state.renew(unpacked);
+  state.replace(study);
+  saved.value = JSON.stringify(state.study);
+  return `${given?.name ?? archive} is opened.${missing.length ? ` Missing data files: ${missing.join(", ")}.` : ""}`;
+}
+
+const chooser = Object.assign(document.createElement("input"), { type: "file", multiple: true });
+chooser.onclick = () => (chooser.value = ""); // the same file may be opened again
+chooser.onchange = () => attempt(() => openFiles([...chooser.files]));
+const Project = () => html`
+  <${Button} kind="quiet" symbol="down" aria-label="Save project" onClick=${() => attempt(pack)}><span>Save project</span><//>
+  <${Button} kind="quiet" symbol="file" aria-label="Open project" onClick=${() => chooser.click()}><span>Open project</span><//>
+`;
 
 const Units = view(() => {
   const row = ({ kind, title, units: all, chosen }) => html`
@@ -45,7 +80,7 @@ const History = view(() =>
   ),
 );
 
-export const Tools = () => html`<${History} /><${Units} /><${Theme} />`;
+export const Tools = () => html`<${Project} /><${History} /><${Units} /><${Theme} />`;
 
 /** Undo and redo by the keyboard; in a text field they are the field's. */
 export function followKeys() {
@@ -56,3 +91,9 @@ export function followKeys() {
     change(event.shiftKey ? "redo" : "undo");
   });
 }
+
+/** Closing the tab asks where there is work that no file has. */
+export const guardWork = () =>
+  window.addEventListener("beforeunload", (event) => {
+    if (state.canUndo && JSON.stringify(state.study) !== saved.value) event.preventDefault();
+  });

@@ -2,7 +2,7 @@
 
 import { getStart } from "./api.js";
 import { homeless } from "./fields.js";
-import { Tools, followKeys } from "./header.js";
+import { Tools, attempt, failed, followKeys, guardWork, openFiles } from "./header.js";
 import { Job, newest, result } from "./jobs.js";
 import { contactOf, explain, goTo, isSynthetic, named, page, sourceOf } from "./page.js";
 import { effect, html, render, signal, view } from "./reactive.js";
@@ -69,15 +69,14 @@ const Section = view(({ step }, self) => {
 
 /** Sentences that have no field, and the steps. */
 const Main = view(() => {
-  const failed = check.error ? [check.error.message] : [];
   const elsewhere = homeless().map((problem) => explain(named(problem), state.step));
   return html`
-    <${Notes} kind="error" aria-live="assertive" list=${[...elsewhere, ...failed]} />
+    <${Notes} kind="error" aria-live="assertive" list=${[...elsewhere, check.error?.message, failed.value?.message]} />
     ${STEPS.map((step) => html`<${Section} key=${step.id} step=${step} />`)}
   `;
 });
 
-/** Files dropped beside a place for files go to the first place of the step, or else to that of the data. */
+/** Projects dropped are opened; files beside a place for files go to the first of the step, or else to that of the data. */
 function takeFilesAnywhere() {
   const place = () =>
     [...document.querySelectorAll(".step:not([hidden]) .drop-field")]
@@ -89,6 +88,7 @@ function takeFilesAnywhere() {
     event.preventDefault();
     const { files } = event.dataTransfer;
     if (files.length === 0) return;
+    if ([...files].some(({ name }) => /\.(toml|zip)$/i.test(name))) return attempt(() => openFiles([...files]));
     const given = new DataTransfer();
     for (const file of files) given.items.add(file);
     const hand = (left) => {
@@ -98,8 +98,7 @@ function takeFilesAnywhere() {
       input.dispatchEvent(new Event("change"));
       return true;
     };
-    if ([...files].some(({ name }) => /\.(toml|zip)$/i.test(name))) goTo("export");
-    else if (!place()) {
+    if (!place()) {
       state.setView("sweeps.source", "dma");
       goTo("sweeps");
     }
@@ -124,6 +123,7 @@ async function begin() {
   );
   render(html`<${Main} />`, main);
   followKeys();
+  guardWork();
   takeFilesAnywhere();
   effect(() => void (document.getElementById("synthetic").hidden = !isSynthetic(state.study)));
   document.querySelector(".skip").addEventListener("click", (event) => {

@@ -11,7 +11,7 @@ import { TESTS, isMade, rubber, shownRubber } from "./made.js";
 import { Shifted, startShifted } from "./shifted.js";
 import { failed, takeFactors } from "./source.js";
 
-const diagram = signal("van_gurp_palmen");
+const diagram = signal("diagram-van_gurp_palmen");
 
 /** The laws that were compared, each with a button where shift factors are those of the sweeps. */
 const Laws = view(({ of }) => {
@@ -35,7 +35,8 @@ const Factors = view(({ of }) => {
   const { figures, tables, check } = of;
   const card = (title, id, more) =>
     figures[id] && html`<${Card} title=${title}><${Figure} id=${id} of=${of} />${more}<//>`;
-  const diagrams = Object.keys(check?.diagrams ?? {}).map((key) => [key, figures[`diagram-${key}`].title]);
+  const names = Object.keys(figures).filter((name) => name.startsWith("diagram-"));
+  const diagrams = names.map((name) => [name, figures[name].title]);
   const causal = check?.kramers_kronig && html`<p class="help">${check.kramers_kronig.sentence}</p>`;
   return html`
     <div class="grid">
@@ -49,7 +50,7 @@ const Factors = view(({ of }) => {
         diagrams.length > 0 &&
         html`<${Card} title="Validity of superposition">
           <${Pick} label="Diagram" options=${diagrams} value=${diagram.value} onChange=${(key) => (diagram.value = key)} />
-          <${Figure} id="superposition-diagram" of=${of} spec=${figures[`diagram-${diagram.value}`]} />
+          <${Figure} id="superposition-diagram" of=${of} spec=${figures[diagram.value]} />
         <//>`
       }
       ${card("Distance of neighbouring isotherms", "neighbour-distances")}

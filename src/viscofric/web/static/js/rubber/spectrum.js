@@ -16,9 +16,9 @@ const moduli = new Job("moduli", {
   when: () => Boolean(rubber.current),
   inputs: () => {
     const { shift, spectrum } = rubber.result ?? {};
-    const line = shift?.material.line.temperature;
+    const ends = shift?.material.ends;
     if (!shift || chosen.value === null || Math.abs(chosen.value - spectrum.reference) < 0.005) return null;
-    if (chosen.value < line[0] || chosen.value > line.at(-1)) return null;
+    if (chosen.value < ends[0] || chosen.value > ends[1]) return null;
     const options = { temperature: worded(chosen.value), bands: rubber.complete };
     return { study: rubber.inputs.value.study, options };
   },
@@ -57,15 +57,15 @@ const Others = view(({ of }) => {
 
 /** Slider and box of the temperature that E(ω) is shown at. */
 const Temperature = view(({ of: { shift, spectrum } }) => {
-  const line = shift.material.line.temperature;
-  const inside = chosen.value !== null && chosen.value >= line[0] && chosen.value <= line.at(-1);
+  const ends = shift.material.ends;
+  const inside = chosen.value !== null && chosen.value >= ends[0] && chosen.value <= ends[1];
   const kelvin = inside ? chosen.value : spectrum.reference;
   const doubt = moduli.result?.extrapolated ? "The shift factor is extrapolated at this temperature." : "";
   return html`<div class="field">
     <label class="field-label" for="modulus-temperature">Temperature</label>
     <div class="slider-row">
-      <input type="range" id="modulus-temperature" step="1" min=${273.15 + Math.ceil(line[0] - 273.15)}
-        max=${273.15 + Math.floor(line.at(-1) - 273.15)} value=${kelvin}
+      <input type="range" id="modulus-temperature" step="1" min=${273.15 + Math.ceil(ends[0] - 273.15)}
+        max=${273.15 + Math.floor(ends[1] - 273.15)} value=${kelvin}
         onInput=${({ target }) => (chosen.value = Number(target.value))} />
       <output for="modulus-temperature" class="field-label">${units.show(kelvin, "temperature")}</output>
       <${Button} kind="small" onClick=${() => (chosen.value = null)}>At the reference<//>

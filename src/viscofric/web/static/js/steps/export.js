@@ -1,14 +1,12 @@
 // The run file, live; the whole study run, with all that it leaves; the rubber as a card for other programs.
 
-import { downloadUrl, runJob, uploadFiles } from "../api.js";
+import { downloadUrl } from "../api.js";
 import { Field, Form, given } from "../fields.js";
 import { Job, newest } from "../jobs.js";
-import { announce, attempts, explain, page } from "../page.js";
+import { announce, explain, page } from "../page.js";
 import { html, view } from "../reactive.js";
 import { state } from "../state.js";
-import { Button, Card, Drop, Icon, Notes, Numbers, Progress, shown } from "../views.js";
-
-const [attempt, failed] = attempts();
+import { Button, Card, Icon, Notes, Numbers, Progress, shown } from "../views.js";
 
 const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
 
@@ -33,27 +31,6 @@ const Download = ({ name }) =>
 /** A download with what it is and how large. */
 const FileLine = ({ name, title, size: bytes }) =>
   html`<li><${Download} name=${name} /><span class="help">${title}, ${size(bytes)}</span></li>`;
-
-/** Download the run file with its data. */
-async function pack() {
-  const found = await runJob("export-run-file", { study: state.study, options: { pack: true } });
-  const { name } = found.download;
-  Object.assign(document.createElement("a"), { href: downloadUrl(name), download: name }).click();
-  return "The zip file is ready.";
-}
-
-/** Take in data files, and show the study of a run file among them, or of a zip file with both. */
-async function openFiles(files) {
-  const given = files.find((file) => /\.toml$/i.test(file.name));
-  const names = await uploadFiles(files.filter((file) => file !== given));
-  const archive = names.find((name) => /\.zip$/i.test(name));
-  if (!given && !archive) throw new Error("No run file was given; its name ends with .toml, or .zip with its data.");
-  const options = given ? { text: await given.text() } : { archive };
-  const { study, missing, files: unpacked } = await runJob("open-run-file", { options });
-  state.renew(unpacked);
-  state.replace(study);
-  return `${given?.name ?? archive} is opened.${missing.length ? ` Missing data files: ${missing.join(", ")}.` : ""}`;
-}
 
 function startOver() {
   state.replace(page.start.study);
@@ -80,18 +57,13 @@ const RunFile = view(() => {
   return html`<${Card} title="Run file">
     <${Field} path="title" label="Title of the study and report" />
     <div class="row">
-      <${Button} kind="small" symbol="down" disabled=${wrong.length > 0} onClick=${() => attempt(pack)}>
-        Run file and data (zip)
-      <//>
       <${Copy} text=${() => text} />
       <${Button} kind="small" onClick=${() => startOver()}>Start over<//>
     </div>
     ${cases && html`<p class="help">${about}</p>`}
-    <${Notes} kind="error" list=${[...wrong, failed.value?.message]} />
+    <${Notes} kind="error" list=${wrong} />
     <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
-    <p class="help">Run in its folder: <code>viscofric run study.toml</code></p>
-    <${Drop} label="Open a run file" help="Drop the zip file here, or the run file with its data files, or choose them."
-      onFiles=${(files) => attempt(() => openFiles(files))} />
+    <p class="help">“Save project” downloads it with its data; run it in its folder: <code>viscofric run study.toml</code></p>
   <//>`;
 });
 
