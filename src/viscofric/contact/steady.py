@@ -212,7 +212,10 @@ def thermal_contact(
     if moving == 0.0 or math.isinf(moving):
         raise InputError(f"heating: an elastic limit, speed = {moving:g}, has no heat.", code="elastic-limit")
     if settings.coulomb != 0.0 or settings.layer is not None:
-        raise InputError("heating: not with the shear of Coulomb friction or a layer.", code="not-with-heating")
+        raise InputError(
+            "heating: not with coulomb, nor with a layer: heat and loss are those of a half-space.",
+            code="not-with-heating",
+        )
     insist_on_indenter(indenter)
     if heating.passes > 0 and indenter.geometry.dimension == 1:
         raise InputError("passes: a line contact leaves no circular track.", code="line-track")

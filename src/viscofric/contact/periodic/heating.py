@@ -106,7 +106,10 @@ def insist_on_heatable(
     if speed == 0.0 or math.isinf(speed):
         raise InputError(f"heating: an elastic limit, speed = {speed:g}, has no heat.", code="elastic-limit")
     if layer is not None or coulomb != 0.0:
-        raise InputError("heating: not with the shear of Coulomb friction or a layer.", code="not-with-heating")
+        raise InputError(
+            "heating: not with coulomb, nor with a layer: heat and loss are those of a half-space.",
+            code="not-with-heating",
+        )
     if heating.passes > 0 and heating.nominal_radius is None:
         raise InputError("passes: of a rough surface, need the nominal_radius.", code="give-one")
 
