@@ -162,6 +162,11 @@ def _interrupts_wait() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+def at_work(workers: int | Workers) -> contextlib.AbstractContextManager[Workers]:
+    """Return processes for a ``with`` block: those given, which are kept after it, or so many for the block alone."""
+    return contextlib.nullcontext(workers) if isinstance(workers, Workers) else Workers(workers)
+
+
 def call_all(
     function: Callable[..., Any],
     calls: Sequence[dict[str, Any]],

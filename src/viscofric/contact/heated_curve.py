@@ -20,7 +20,7 @@ from viscofric.contact.heated_knots import Between, Knot, knots_of
 from viscofric.contact.heated_result import Heat, beyond, described
 from viscofric.heat.branches import HeatCurve, outermost, settling
 from viscofric.heat.result import OF_CONTACT
-from viscofric.processes import Workers, call_all
+from viscofric.processes import call_all
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from viscofric.heat.heating import ThermalResistances
     from viscofric.heat.result import ContactHeating
     from viscofric.notes import Note
+    from viscofric.processes import Workers
 
 
 #: Rises per decade of α at which states are looked for, and speeds per decade below the slowest one.
@@ -60,7 +61,7 @@ class States(NamedTuple):
 def solve_states(
     curves: Sequence[Sequence[ThermalContact]],
     accuracy: float,
-    workers: int | Workers,
+    workers: Workers,
     report: Callable[[int], None],
     shared: Callable[[Sequence[tuple[float, float]]], Sequence[Any]] | None = None,
 ) -> list[States]:
@@ -69,9 +70,6 @@ def solve_states(
     `report` gets the number of solved contacts, of twice as many as there are.  `shared` may give the numbers of
     contacts at speeds and temperatures, which differ in nothing else.
     """
-    if not isinstance(workers, Workers):
-        with Workers(workers) as alone:
-            return solve_states(curves, accuracy, alone, report, shared)
     every = [_Curve(one, accuracy) for one in curves]
     count = sum(map(len, curves))
     for at_knots in (True, False):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +13,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
 from viscofric.friction.solved_columns import columns_of_records
 from viscofric.heat.result import SolvedHeatColumns
-from viscofric.processes import Workers
+from viscofric.processes import at_work
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from viscofric.contact.heated import ThermalContact
     from viscofric.contact.heated_curve import States
     from viscofric.heat.heating import Heating
+    from viscofric.processes import Workers
     from viscofric.rheology.interface.law import InterfaceLaw
 
 
@@ -81,7 +81,7 @@ def predict_heated(
     kelvins = sorted({one.kelvin for one in every})
     curves = [[one for one in every if one.kelvin == kelvin] for kelvin in kelvins]
     accuracy, material = contacts[0]["accuracy"], contacts[0]["material"]
-    with Workers(workers) if not isinstance(workers, Workers) else nullcontext(workers) as processes:
+    with at_work(workers) as processes:
         shared = None if exact else SharedContacts.of(material, contacts, processes, _untold)
         found = solve_states(curves, accuracy, processes, report, shared)
     of_contact = dict(zip([id(one) for curve in curves for one in curve], found, strict=True))

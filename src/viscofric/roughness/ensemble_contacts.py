@@ -13,6 +13,7 @@ from viscofric.contact.periodic.heating import ACCURACY, PeriodicThermalContact
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import ConvergenceError
+from viscofric.processes import at_work
 from viscofric.roughness.patches import contact_statistics
 
 if TYPE_CHECKING:
@@ -127,7 +128,8 @@ def predict_heated(
         _ThermalContact(call["material"], heating, one["temperature"], one["speed"], isothermal, interface)
         for one, isothermal in zip(contacts, solve, strict=True)
     ]
-    found = solve_states([[every[row] for row in rows] for rows in curves.values()], ACCURACY, workers, report)
+    with at_work(workers) as processes:
+        found = solve_states([[every[row] for row in rows] for rows in curves.values()], ACCURACY, processes, report)
     order = np.argsort([row for rows in curves.values() for row in rows])
     states = [found[row] for row in order]
     notes = dict.fromkeys(note for one in states for note in one.notes if note.code == "states-beyond")

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from viscofric.datasets import dataset
-from viscofric.errors import InputError
 from viscofric.heat.result import HeatColumns
+from viscofric.rheology.interface.friction import total_friction
 
 if TYPE_CHECKING:
     import xarray
@@ -68,11 +68,7 @@ class PerssonTheory:
     @property
     def total(self) -> Array:
         """Friction coefficient of hysteresis and interface, (m, n) array; InputError without an interface."""
-        if self.interface_friction is None:
-            raise InputError(
-                "there is no interfacial friction; give persson_theory() an interface.", code="no-interface"
-            )
-        return self.friction_coefficient + self.interface_friction
+        return total_friction(self.friction_coefficient, self.interface_friction, "persson_theory")
 
     def to_dataset(self) -> xarray.Dataset:
         """Return everything over temperature, speed and wave number, with pressure, error and notes as attributes."""

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.result import SolvedHeatColumns
+from viscofric.rheology.interface.friction import total_friction
 from viscofric.units import share
 
 if TYPE_CHECKING:
@@ -66,11 +67,7 @@ class RoughFriction:
     @property
     def total(self) -> Array:
         """Friction coefficient of hysteresis and interface, (m, n, k) array; InputError without an interface."""
-        if self.interface_friction is None:
-            raise InputError(
-                "there is no interfacial friction; give predict_rough_friction() an interface.", code="no-interface"
-            )
-        return self.friction_coefficient + self.interface_friction
+        return total_friction(self.friction_coefficient, self.interface_friction, "predict_rough_friction")
 
     @property
     def mean_friction(self) -> Array:

@@ -12,7 +12,7 @@ from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
 from viscofric.friction.planning.plan import plan_cases
-from viscofric.processes import Workers, call_all
+from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import positive
 
@@ -109,11 +109,8 @@ class SharedContacts:
         # Contacts asked for before make the curve worth its nodes, which are known.
         plan = self._plan([*cases, *self._asked])
         self._asked += cases
-        if isinstance(self.workers, Workers):
-            self._carry_out(plan, self.workers)
-        else:
-            with Workers(self.workers) as alone:
-                self._carry_out(plan, alone)
+        with at_work(self.workers) as processes:
+            self._carry_out(plan, processes)
         found: list[Record] = []
         for outcome in plan.found()[: len(cases)]:
             if isinstance(outcome, Failure):

@@ -45,6 +45,13 @@ def check_interface_heat(heating: Heating, interface: object, slip: object = Non
         )
 
 
+def total_friction(hysteresis: Array, interface: Array | None, predictor: str) -> Array:
+    """Return both parts of a friction coefficient together; InputError without an interface, which a function takes."""
+    if interface is None:
+        raise InputError(f"there is no interfacial friction; give {predictor}() an interface.", code="no-interface")
+    return hysteresis + interface
+
+
 def interface_friction(
     law: InterfaceLaw, speed: Array, kelvin: Array | None, pressure: Array, pressure_error: Array
 ) -> tuple[Array, Array]:
