@@ -163,6 +163,21 @@ def test_a_start_with_a_broad_spectrum_is_as_accurate_as_asked_but_just_after_it
 
 
 @pytest.mark.apart
+def test_a_stiff_cylinder_that_starts_ends_steadily():
+    """After the start, friction settles within a slide of a few a E0/E∞, of which the note tells."""
+    stiff = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="300 MPa", tau="10 ms")
+    speed = 0.1 * A0 / 0.01
+    run = vf.solve_transient(stiff, CYLINDER, vf.History([0.0, 0.8], load=LOAD, speed=speed, before="at rest"))
+    steady = vf.solve_steady(stiff, CYLINDER, speed=speed, load=LOAD)
+    largest = np.abs(run.friction_force).max()
+    assert run.friction_force[-1] / LOAD == pytest.approx(steady.friction_coefficient, abs=1e-3 * largest / LOAD)
+    unsettled = run.errors.friction_force > 1e-3 * largest
+    (note,) = (one for one in run.warnings if one.code == "coarse-start")
+    assert note.values["steps"] == np.count_nonzero(unsettled)
+    assert run.position[unsettled, 0].max() <= 2.0 * A0 / 40.0
+
+
+@pytest.mark.apart
 def test_reciprocation_of_a_cylinder():
     """Independent solution of the state that repeats, forces over the load known to 8e-6, energy to 1e-5."""
     amplitude, omega, energy = A0, 100.0, 0.3836871665069123

@@ -48,9 +48,9 @@ _LEFT = 1.0 / (_FINER**2 - 1.0)
 # Part of the error of the steps that is left after its extrapolation; margin of the errors of friction and energy by
 # cells, whose signs change; least one of the energy, over that of cells of second order (benchmarks/motion).
 _STEPS_LEFT, _MARGIN, _LEAST_ENERGY = 0.5, 2.0, 1.5
-# After a start or a turn, friction changes within slides of no length: so many steps and cells of the coarser grid are
-# not judged, of the way to the next turn at most such a part.
-_RESOLVED_STEPS, _RESOLVED_CELLS, _UNJUDGED = 4, 4, 0.1
+# After a start or a turn, friction changes within slides of no length: so many steps, and cells of the coarser grid or
+# part of the longest contact, are not judged, of the way to the next turn at most such a part.
+_RESOLVED_STEPS, _RESOLVED_CELLS, _RESOLVED_PART, _UNJUDGED = 4, 4, 0.025, 0.1
 # A first window is so much wider than the elastic contact; it is tried again where the contact is so much shorter.
 _FIRST_WINDOW, _SHORT, _ATTEMPTS = 1.25, 0.6, 5
 # Least friction coefficient that errors are compared with, in the slope of the indenter at the contact's edge.
@@ -304,7 +304,8 @@ def _resolved(level: Level, coarser: Level) -> list[int]:
     times = np.array([one.instant.time for one in coarser.track.moments])
     setting = coarser.mover.setting
     schedule, kinks = setting.schedule, setting.schedule.kinks
-    shortest = _RESOLVED_CELLS * coarser.mover.grid.spacing * setting.scale.length
+    cells, part = _RESOLVED_CELLS * coarser.mover.grid.spacing, _RESOLVED_PART * coarser.mover.longest
+    shortest = max(cells, part) * setting.scale.length
     kept = []
     for row, one in enumerate(level.track.moments):
         place = min(int(np.searchsorted(kinks, one.instant.time, side="right")), len(kinks) - 1) - 1
@@ -333,8 +334,8 @@ def _after_starts(
         return ()
     worst, time = max(errors)
     said = (
-        f"In {len(errors)} steps soon after a start or a turn, within a few cells, the stated error is larger than the "
-        f"accuracy: up to {worst:.2g} of the largest value, at {time:.3g} s."
+        f"In {len(errors)} steps soon after a start or a turn, within a few cells or a fortieth of the contact, the "
+        f"stated error is larger than the accuracy: up to {worst:.2g} of the largest value, at {time:.3g} s."
     )
     return (Note("coarse-start", said, values={"steps": len(errors), "error": worst, "time": time}),)
 
