@@ -23,6 +23,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from viscofric.arrays import non_negative_fit
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -260,8 +262,6 @@ class _Response:
 
         A part of the compliance follows at once.  The fit is one of least squares with compliances not below zero.
         """
-        from scipy.optimize import nnls
-
         shortest, longest = float(self.times[0]), float(self.times[-1])
         tau = np.append(np.geomspace(fastest * shortest, 0.5 / fastest * longest, count), _SLOWEST * longest)
         total, size = float(every.C.sum()), np.abs(self.dynamic)
@@ -275,7 +275,7 @@ class _Response:
             (np.full((count + 2, 1), _SUM / total), np.array([_SUM])),
         ]
         matrix, aim = (np.concatenate(each, axis=-1) for each in zip(*parts, strict=True))
-        found, _ = nnls(total * matrix.T, aim)
+        found = non_negative_fit(total * matrix.T, aim)
         quick, C = total / found.sum() * found[0], total / found.sum() * found[1:]
         used = C > 0.0
         return Modes(every.instantaneous + float(quick), C[used], tau[used], at_once=float(quick))

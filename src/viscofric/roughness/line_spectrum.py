@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from viscofric.arrays import non_negative_fit
 from viscofric.roughness.spectrum import NODES, Density, PowerSpectrum, integral
 from viscofric.units import to_si
 
@@ -86,8 +87,6 @@ def _isotropic_density(q: Array, line: Callable[[Array], Array]) -> Array:
     C is sought as C₁(k)/k times a factor that is linear in ln k between the points, not below zero, by least squares of
     the relative misfit.  For C ∝ k^(−s) the factor is constant, Γ(s/2)/(√π Γ((s−1)/2)).
     """
-    from scipy.optimize import nnls
-
     logs, count = np.log(q), len(q)
     place, weight = np.polynomial.legendre.leggauss(NODES)
     rows = np.zeros((count - 1, count))
@@ -105,6 +104,6 @@ def _isotropic_density(q: Array, line: Callable[[Array], Array]) -> Array:
     rows /= line(q[:-1])[:, None]
     bends = _SMOOTHNESS * np.diff(np.eye(count), 2, axis=0)
     right = np.concatenate([np.ones(count - 1), np.zeros(len(bends))])
-    factor, _ = nnls(np.concatenate([rows, bends]), right)
+    factor = non_negative_fit(np.concatenate([rows, bends]), right)
     factor = np.maximum(factor, _FLOOR * float(np.median(factor)))
     return np.asarray(factor * line(q) / q)

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import non_negative_fit
 from viscofric.contact.fields.stress import rectangle_corners, strip_ends
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
 
@@ -44,8 +45,6 @@ class Modes(NamedTuple):
         Those of a spectrum denser than a ratio of times are replaced by others at it, whose loss is fitted to theirs:
         to a few parts in a thousand at 2.5, to 2 to 4 % at 4.
         """
-        from scipy.optimize import nnls
-
         lossy = self.C > 0.0
         C, tau = self.C[lossy], self.tau[lossy]
         held = np.clip(tau, shortest, longest)
@@ -59,8 +58,7 @@ class Modes(NamedTuple):
             return found
         frequency = np.geomspace(1.0 / longest, 1.0 / shortest, 8 * len(few))
         relative = _loss(frequency, few) / (_loss(frequency, times) @ found.C)[:, None]
-        unit = float(relative.max())
-        fitted = nnls(relative / unit, np.ones(len(frequency)))[0] / unit
+        fitted = non_negative_fit(relative, np.ones(len(frequency)))
         return Modes(fitted[fitted > 0.0], few[fitted > 0.0])
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arrays import non_negative_fit
 from viscofric.rheology.spectra.modulus_misfit import Modes
 
 if TYPE_CHECKING:
@@ -47,28 +48,19 @@ def nonnegative_modes(misfit: Misfit, tau: Array, start: Modes | None = None, *,
 
 def _relative_start(misfit: Misfit, tau: Array) -> Array:
     """Minimise Σ |S/S_measured − 1|²."""
-    from scipy.optimize import nnls
-
-    rows, target = misfit.relative(tau)
-    scale = np.linalg.norm(rows, axis=0)  # columns of equal norm, independent of units
-    strengths, _ = nnls(rows / scale, target, maxiter=50 * rows.shape[1])
-    return np.asarray(strengths / scale)
+    return non_negative_fit(*misfit.relative(tau))
 
 
 def _refined(misfit: Misfit, columns: NDArray[Any], strengths: Array, converged: float) -> Array:
     """Minimise Σ (ln E'/E'_measured)² + (ln E''/E''_measured)² by non-negative Gauss–Newton steps."""
-    from scipy.optimize import nnls
-
     now = misfit.residual(columns @ strengths)
     for _ in range(ITERATIONS):
         if not np.all(np.isfinite(now)):
             break
         jacobian = misfit.jacobian(columns @ strengths, columns)
-        scale = np.linalg.norm(jacobian, axis=0) + 1e-300
         least = np.zeros(len(strengths))
         least[0] = misfit.least_glass if misfit.glass_within else 0.0
-        aim, _ = nnls(jacobian / scale, now + jacobian @ (strengths - least), maxiter=50 * columns.shape[1])
-        step = aim / scale + least - strengths
+        step = non_negative_fit(jacobian, now + jacobian @ (strengths - least)) + least - strengths
         fraction, before = 1.0, float(now @ now)
         trial = misfit.residual(columns @ (strengths + step))
         while not trial @ trial < before and fraction > 1e-3:

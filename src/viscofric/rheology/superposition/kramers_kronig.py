@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import non_negative_fit
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 
@@ -206,14 +207,9 @@ def _binned(master_curve: MasterCurve) -> tuple[Array, Array, Array, Array]:
 
 def _non_negative(basis: Array, size: Array, weight: Array, target: Array | None = None) -> Array:
     """Minimise Σ weight² ((basis g − target)/size)² over g ≥ 0; the target is `size` unless given."""
-    from scipy.optimize import nnls
-
     rows = weight / size
     aim = weight if target is None else rows * target
-    matrix = basis * rows[:, None]
-    scale = np.linalg.norm(matrix, axis=0) + 1e-300
-    modes, _ = nnls(matrix / scale, aim, maxiter=50 * basis.shape[1])
-    return np.asarray(modes / scale)
+    return non_negative_fit(basis * rows[:, None], aim)
 
 
 def _scale(rise: Array, storage: Array, weight: Array) -> tuple[float, float]:
