@@ -366,7 +366,7 @@ CALLS: dict[str, Any] = {
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None, "resume": None, "heating": None},
     "solve_cycle": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "one_period": vf.History([0.0, 0.1, 0.2],
         load=[0.5, 1.0, 0.5], temperature=300.0), "accuracy": 1e-2, "layer": None, "indenter_modulus": 1e9,
-        "indenter_poisson_ratio": 0.3, "most_periods": 60, "times": None, "progress": None},
+        "indenter_poisson_ratio": 0.3, "coulomb": 0.1, "most_periods": 60, "times": None, "progress": None},
     "solve_impact": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "mass": 0.03, "speed": 0.1, "gravity":
         9.81, "rebounds": 1, "temperature": 300.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
         0.3},
