@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
@@ -132,6 +133,7 @@ def check_assumptions(
                 f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.",
                 code="not-thermal-properties",
             )
+    insist_on(layer, "layer", Layer, type(None), right="a Layer, such as Layer(thickness='2 mm')")
     thick = None if thickness is None else positive(thickness, "m", "thickness")
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))
     sizes = [
