@@ -366,7 +366,7 @@ CALLS: dict[str, Any] = {
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None, "resume": None, "heating": None},
     "solve_cycle": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "one_period": vf.History([0.0, 0.1, 0.2],
         load=[0.5, 1.0, 0.5], temperature=300.0), "accuracy": 1e-2, "layer": None, "indenter_modulus": 1e9,
-        "indenter_poisson_ratio": 0.3, "most_periods": 60, "times": None, "progress": None},
+        "indenter_poisson_ratio": 0.3, "coulomb": 0.1, "most_periods": 60, "times": None, "progress": None},
     "solve_impact": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "mass": 0.03, "speed": 0.1, "gravity":
         9.81, "rebounds": 1, "temperature": 300.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
         0.3},
@@ -415,8 +415,8 @@ CALLS: dict[str, Any] = {
     "read_friction_curves": lambda: {"path": at("friction.csv"), "columns": {}, "sheet": None},
     "write_friction_curves": lambda: {"curves": curves(), "path": at("friction again.csv")},
     "check_assumptions": lambda: {"material": shifted(), "indenter": CYLINDER, "curves": curves(), "thickness": 1e-2,
-        "contact_radius": np.full(N, 1e-3), "rubber": vf.ThermalProperties(0.28, 1150.0, 1700.0, "rubber"),
-        "counterbody": vf.ThermalProperties(0.25, 2170.0, 1010.0, "PTFE")},
+        "layer": None, "contact_radius": np.full(N, 1e-3), "rubber": vf.ThermalProperties(0.28, 1150.0, 1700.0,
+        "rubber"), "counterbody": vf.ThermalProperties(0.25, 2170.0, 1010.0, "PTFE")},
     "FrictionCurves": lambda: {**COLUMNS, **{name: np.full(N, 0.01) for name in MORE_COLUMNS}, "viscoelastic_upper":
         np.full(N, 0.03), "viscoelastic_freedom": np.full(N, 8.0), "coulomb_freedom": np.full(N, 8.0), "source": "",
         "notes": (), "load_unit": "N", "assumption": ""},

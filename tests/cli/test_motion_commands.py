@@ -199,6 +199,9 @@ def test_a_repeated_history_has_its_periodic_state(tmp_path: Path) -> None:
     assert len(record(*words, "--points", 15)["results"]["time"]) == 15
     for option in (("--save-state", "a.npz"), ("--resume", "a.npz")):
         assert refusal(*words, *option).status == 2, option
+    assert record(*words, "--coulomb", 0.3)["inputs"]["coulomb"] == 0.3
+    assert refusal(*words, "--coulomb", 20)[:2] == (1, "out-of-range")
+    assert refusal("transient", *PRESS, "--coulomb", 0.3).status == 2
     assert refusal("transient", *PRESS, "--load-time", "1 ms", "--cycle")[:2] == (1, "not-a-period")
 
 

@@ -219,6 +219,43 @@ def test_without_coulomb_friction_its_heat_is_said_not_to_count() -> None:
     assert check.value < 0.01
 
 
+def test_curves_predicted_with_heating_hold_their_coulomb_friction_and_its_effect() -> None:
+    """The change that the isothermal curve is warned of is in the heated one, to the first order of the estimate."""
+    body = vf.ThermalProperties("0.3 W/m/K", "1200 kg/m**3", "1500 J/kg/K", "rubber")
+    heating = vf.Heating(rubber=body, counterface=PTFE, coulomb=0.5, slip="0.4 m/s", average="contact")
+    asked = {"speeds": 0.2, "temperatures": 333.15, "load": 25.0, "accuracy": 1e-2}
+    cold, hot = (vf.predict_friction(RUBBER, BALL, heating=one, **asked) for one in (None, heating))
+    assert isinstance(hot, vf.HeatedFrictionCurves)
+    assert (hot.coulomb.tolist(), hot.slip.tolist(), hot.coulomb_error) == ([0.5], [0.4], None)
+    np.testing.assert_array_equal(hot.total, hot.viscoelastic + 0.5)
+    assert cold.coulomb is None
+    included = checks(RUBBER, BALL, hot)["one temperature"]
+    assert (included.code, included.holds) == ("warming-included", True)
+    assert included.values["change"] == pytest.approx(abs(hot.viscoelastic[0] / hot.isothermal[0] - 1.0))
+    assert included.values["rise"] == hot.temperature_rise[0]
+    rubbed = replace(cold, coulomb=hot.coulomb, slip=hot.slip)
+    settings = {"contact_radius": "2.5 mm", "rubber": body}
+    warned = checks(RUBBER, BALL, rubbed, **settings)["one temperature"]
+    assert warned.values["coulomb_counted"]
+    assert warned.values["change"] == pytest.approx(included.values["change"], rel=0.3)  # of Hertz's contact
+
+
+def test_of_a_solved_layer_the_half_space_is_not_checked() -> None:
+    """Its shear is judged by its own base: without one that is bonded, the same as with the thickness alone."""
+    rubbed = replace(curves(), coulomb=np.full(4, 0.2), slip=SPEED)
+    known, bonded, sliding = (
+        checks(RUBBER, BALL, rubbed, contact_radius="2 mm", **body)
+        for body in (
+            {"thickness": "4 mm"},
+            {"layer": vf.Layer("4 mm")},
+            {"layer": vf.Layer("4 mm", bonded=False)},
+        )
+    )
+    assert "half-space" in known
+    assert not {"half-space"} & {*bonded, *sliding}
+    assert known["uncoupled"].value == bonded["uncoupled"].value != sliding["uncoupled"].value
+
+
 def test_a_slow_contact_is_hardly_warmer() -> None:
     """Its heat falls with the speed, and has the time to leave."""
     slow, fast = (

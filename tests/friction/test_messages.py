@@ -225,8 +225,9 @@ def test_assumptions_say() -> None:
         "Coulomb friction, a shear stress of 0.78 MPa, also displaces the surface in the normal direction, which "
         "changes the friction coefficient by about 0.013 (268 % of viscoelastic friction; at 30 °C, 200 mm/s and 25 "
         "N), with the opposite sign where the slip is reversed. Contacts were solved without this effect (a change of "
-        "79 % for the other bound of the contact size), which is doubtful above 5 %: solve them with it (coulomb=…), "
-        "take the mean over both directions of slip, or reduce slip or Coulomb friction (PTFE, lubricant)."
+        "79 % for the other bound of the contact size), which is doubtful above 5 %; solve contacts with it (coulomb=, "
+        "without heating), or take the mean of friction over both directions of slip. Less slip or Coulomb friction "
+        "(PTFE, lubricant) reduces it."
     )
     assert rubbed["one temperature"].startswith(
         "Coulomb heat and the viscoelastic loss warm the face of the contact by "

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from refusals import refused
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.carried import Lattice
+from viscofric.notes import Note, note_of
 
 SLS = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
 BALL = vf.Ball("10 mm")
@@ -100,6 +103,31 @@ def test_reciprocation_is_reached_by_waiting_too() -> None:
     assert cycle.mean_friction_coefficient == pytest.approx(cycle.energy_per_cycle / (2.0 * there * pressure), rel=1e-3)
     assert cycle.to_dataset().attrs["periods"] == cycle.periods
     assert cycle.to_dataset().attrs["mean_friction_coefficient_error"] == cycle.mean_friction_coefficient_error
+
+
+@pytest.mark.slow
+def test_a_note_has_the_change_of_friction_by_shear_that_is_left_out() -> None:
+    """Of constant sliding, that between steady contacts with slip both ways, to the factor of two that is stated."""
+    history, coulomb = vf.History([0.0, 4e-3], pressure=1e3, speed=0.05), 0.3
+
+    def notes(poisson_ratio: float) -> list[Note]:
+        rubber = replace(SLS, poisson_ratio=poisson_ratio)
+        cycle = vf.solve_cycle(rubber, wave(25), history, times=[0.0, 4e-3], accuracy=1e-2, coulomb=coulomb)
+        assert cycle.warnings == cycle.run.warnings
+        return [note_of(one) for one in cycle.warnings]
+
+    assert not notes(0.5)
+    (said,) = notes(0.3)
+    against, along = (
+        vf.solve_periodic(
+            replace(SLS, poisson_ratio=0.3), wave(25), speed=0.05, pressure=1e3, coulomb=one
+        ).friction_coefficient
+        for one in (-coulomb, coulomb)
+    )
+    assert said.code == "tangential-coupling"
+    assert 0.5 < said.values["change"] / (0.5 * (against - along)) < 2.0
+    with refused("out-of-range", naming="coulomb"):
+        vf.solve_cycle(SLS, wave(25), history, coulomb=20.0)
 
 
 @pytest.mark.apart

@@ -102,3 +102,36 @@ def test_parts_of_rough_surfaces_are_means_with_the_interval_of_the_total(count)
     else:
         upper = found.interval(of="total")[1][0]
     np.testing.assert_allclose(tops, upper, rtol=1e-4)
+
+
+def test_parts_of_the_theory_and_of_a_given_coulomb_friction_are_drawn_alike():
+    """Anything whose parts have these names, along any dimensions."""
+    rubber = vf.synthetic_fluoroelastomer()
+    road = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.3)
+    asked = {"speeds": [0.1, 0.01], "temperatures": "60 degC"}
+    theory = vf.persson_theory(rubber, road, **asked, pressure="0.3 MPa", interface=LAW)
+    steel = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")
+    heating = vf.Heating(rubber=steel, counterface=steel, coulomb=0.3)
+    heated = vf.predict_friction(rubber, vf.Cylinder("10 mm"), **asked, load=500.0, heating=heating, accuracy=0.1)
+    for found, total, named in ((theory, theory.total[0], "interface"), (heated, heated.total, "Coulomb, given")):
+        axes = Figure().subplots()
+        report.plot_friction_parts(axes, found)
+        (bars,) = axes.containers
+        np.testing.assert_allclose(bars.lines[0].get_ydata(), total[::-1])
+        assert named in [words.get_text() for words in axes.get_legend().get_texts()]
+    halves = 0.5 * np.ptp([segment[:, 1] for segment in bars_of(theory)], axis=1)
+    expected = 1.95996 * np.hypot(theory.interface_error, theory.friction_error)[0, ::-1]
+    np.testing.assert_allclose(halves, expected, rtol=1e-4)
+    both = vf.persson_theory(rubber, road, **asked | {"temperatures": [320.0, 340.0]}, pressure=3e5, interface=LAW)
+    with pytest.raises(vf.InputError) as refused:
+        report.plot_friction_parts(axes, both)
+    assert refused.value.code == "several-temperatures"
+    one = both.to_dataset().isel(temperature=1)
+    report.plot_friction_parts(axes, one)
+    np.testing.assert_allclose(axes.containers[-1].lines[0].get_ydata(), both.total[1, ::-1])
+
+
+def bars_of(found):
+    axes = Figure().subplots()
+    report.plot_friction_parts(axes, found)
+    return axes.containers[0].lines[2][0].get_segments()

@@ -38,10 +38,10 @@ fields = "none"
 GIVEN = '[interface]\nlaw = "power"\nstress = "0.2 MPa"\nexponent = 0.5\nspeed = "20 mm/s"\n'
 
 
-def run(folder: Path, text: str) -> vf.StudyResults:
+def run(folder: Path, text: str, *, resume: bool = False) -> vf.StudyResults:
     path = folder / "study.toml"
     path.write_text(BASE + text, encoding="utf-8")
-    return vf.run_study(path)
+    return vf.run_study(path, resume=resume)
 
 
 @pytest.mark.slow
@@ -56,6 +56,15 @@ def test_a_given_law_adds_its_friction_to_every_case(tmp_path: Path) -> None:
     assert {"interface-law", "interface-share", "interface-without-error"} <= set(codes(results.notes))
     assert stress_figure(results.tree) is None
     assert "given" in scope(results.tree)[-1]
+    # Its heat is that of the same Coulomb friction, given.
+    coulomb = f'[heating]\ncounterface = "PTFE"\ncoulomb = {float(data["interface_friction"])}\n'
+    (tmp_path / "given").mkdir()
+    warm, given, cold = (
+        one.tree["assumptions"].to_dataset()["value"].values[-1]
+        for one in (results, run(tmp_path / "given", coulomb), run(tmp_path / "given", "", resume=True))
+    )
+    assert warm == pytest.approx(given)
+    assert warm > 2.0 * cold
 
 
 @pytest.mark.slow

@@ -74,6 +74,13 @@ Examples:
     help="Target relative error of load, indentation, friction and energy in time.",
 )
 @click.option("--cycle", is_flag=True, help="Solve the periodic state of the history as one repeated period.")
+@click.option(
+    "--coulomb",
+    type=float,
+    default=0.0,
+    metavar="μ",
+    help="With --cycle: Coulomb friction, whose shear is left out; a note has its effect [default: none].",
+)
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
 @click.option("--save-state", "state", type=FILE, help="Write the last state (.npz) for --resume.")
 @click.option("--json", "as_json", is_flag=True, help="Print inputs and results over time as JSON, in SI units.")
@@ -136,6 +143,8 @@ def _check_pairs(parameters: dict[str, Any]) -> None:
     """Refuse options that exclude each other."""
     if parameters["cycle"] and parameters["heating"] is not None:
         raise click.UsageError("--cycle and --heating are both given; a periodic state is isothermal.")
+    if parameters["coulomb"] and not parameters["cycle"]:
+        raise click.UsageError("--coulomb needs --cycle; of a history it is --heating-coulomb.")
     reasons = {"cycle": "a periodic state has no end", "heating": "a heated contact has no state"}
     for one, reason in reasons.items():
         for name, typed in (("resume", "--resume"), ("state", "--save-state")):
@@ -165,7 +174,9 @@ def _solved(
     if parameters["cycle"]:
         shown = "{:.0f} periods, {:.2g} away from the periodic state"
         with time_bar("Periodic state", quiet=quiet, shown=shown) as bar:
-            return solve_cycle(material, body, history, times=times, progress=bar, **contact)
+            return solve_cycle(
+                material, body, history, times=times, progress=bar, coulomb=parameters["coulomb"], **contact
+            )
     with time_bar("Contact over time", quiet=quiet) as bar:
         run = solve_transient(
             material, body, history, times=times, progress=bar, resume=parameters["resume"],
@@ -205,6 +216,7 @@ def _record(
         "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
         "indenter": shape.record | {"elastic": elastic_record(parameters)},
         "heating": heating_record(chosen_heating(parameters)),
+        "coulomb": parameters["coulomb"],
         "accuracy": parameters["accuracy"],
     }
     return transient_record(inputs, history, result, seconds)

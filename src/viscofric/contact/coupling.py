@@ -42,7 +42,8 @@ _SQUARE = 1.25
 _SOLVED = 1.25
 #: Wave numbers times the contact's radius, over the whole spectrum of the pressure.
 _WAVES = np.exp(np.arange(-5.0, 5.0, 0.05))
-_REMEDY = (
+#: What to do about the change, as the end of a sentence.
+REMEDY = (
     "; solve contacts with it ("
     + Remedy("coulomb=, without heating", "--coulomb", "viscofric solve --coulomb", "viscofric solve --coulomb")
     + "), or take the mean of friction over both directions of slip."
@@ -111,7 +112,7 @@ def coupling_notes(contacts: Iterable[ShearedContact]) -> tuple[Note, ...]:
     worst = max(sheared, key=lambda one: one.share, default=None)
     if worst is None or worst.share <= LARGEST:
         return ()
-    return (Note("tangential-coupling", worst.said, remedy=_REMEDY, values=worst.values),)
+    return (Note("tangential-coupling", worst.said, remedy=REMEDY, values=worst.values),)
 
 
 def sheared_compliance(

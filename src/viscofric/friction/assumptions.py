@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import insist_on
+from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, Place, verdict
@@ -13,7 +15,8 @@ from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.finite_thickness import check_half_space
 from viscofric.friction.warming import Warming
-from viscofric.notes import Note
+from viscofric.heat.result import HeatColumns
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import BODIES, FILLED_RUBBER, PTFE, ThermalProperties
 from viscofric.units import Quantity, plain, positive, to_si_array
@@ -29,6 +32,13 @@ REPRESENTATIVE_STRAIN = 0.2
 #: Acceptable relative change of friction by warming or by the rubber's thickness: the repeatability of tribometers.
 CHANGE = 0.05
 _SOLVE = "solve the contact and give contact_radius"
+_HEAT = Remedy(
+    "predict with heating.",
+    "give --heating.",
+    "give [heating].",
+    "switch on “Friction heats the contact”.",
+    field="heating",
+)
 
 
 def check_assumptions(
@@ -37,6 +47,7 @@ def check_assumptions(
     curves: FrictionCurves,
     *,
     thickness: Quantity | None = None,
+    layer: Layer | None = None,
     contact_radius: Quantities | None = None,
     rubber: ThermalProperties = FILLED_RUBBER,
     counterbody: ThermalProperties = PTFE,
@@ -49,10 +60,12 @@ def check_assumptions(
         With a shift.
     indenter : Indenter
     curves : FrictionCurves
-        Measured or predicted: speeds, temperatures, loads and friction.  Measured ones also have the Coulomb friction
-        and the sliding velocity, and with them the heat on the surface.
+        Measured or predicted: speeds, temperatures, loads and friction.  Coulomb friction and sliding velocity, where
+        they have both, make the heat on the surface.
     thickness : float, str or pint.Quantity, optional
         Of the rubber, m; its base is taken as bonded, which changes friction more than a sliding one.
+    layer : Layer, optional
+        On which the contacts of the curves were solved: then "half-space" is not checked.
     contact_radius : float, str, pint.Quantity, or one for each point, optional
         Half width or half length of the solved contact, whichever is larger, m.  If not given, it lies between Hertz's
         at |E(ω = v/a)|, an estimate, and Hertz's at the relaxed modulus E0, the largest possible on this material.
@@ -71,7 +84,7 @@ def check_assumptions(
         - "uncoupled", where Coulomb friction is known: estimated change of friction by its shear, over viscoelastic
           friction, at most 5 %.  It vanishes on a half-space of ν = ½ only.
         - "one temperature": relative change of friction by its own heat, at most 5 %; unknown where the face of the
-          contact is warm enough for more, and the rubber below is not.
+          contact is warm enough for more, and the rubber below is not.  It holds for curves predicted with heating.
 
     Raises
     ------
@@ -120,6 +133,7 @@ def check_assumptions(
                 f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.",
                 code="not-thermal-properties",
             )
+    insist_on(layer, "layer", Layer, type(None), right="a Layer, such as Layer(thickness='2 mm')")
     thick = None if thickness is None else positive(thickness, "m", "thickness")
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))
     sizes = [
@@ -128,16 +142,14 @@ def check_assumptions(
     ]
     # By both bounds, as the widest of `check_half_space`.
     steepest = max(sizes, key=lambda size: size.largest * size.smallest * size.curvature**2)
-    try:
-        radius = [size.smallest for size in sizes]
-        warming = Warming.worst(material, indenter, curves, radius, rubber, counterbody)
-        isothermal = _one_temperature(curves, sizes[warming.row].where, warming, rubber, counterbody)
-    except InputError as error:  # the shift factors end where their slope is needed
-        unknown = Note("warming-unknown", f"The effect of warming on friction is unknown: {error}")
-        isothermal = AssumptionCheck.of("one temperature", None, unknown, None, CHANGE)
-    coupled = check_coupling(curves, material, thick, [(size.smallest, size.largest) for size in sizes])
+    if isinstance(curves, HeatColumns):
+        isothermal = _heated(curves)
+    else:
+        isothermal = _isothermal(material, indenter, curves, sizes, rubber, counterbody)
+    sheared = layer if layer is not None or thick is None else Layer(thick)
+    coupled = check_coupling(curves, material, sheared, [(size.smallest, size.largest) for size in sizes])
     return (
-        check_half_space(material, curves, sizes, thick, CHANGE),
+        *(() if layer is not None else (check_half_space(material, curves, sizes, thick, CHANGE),)),
         _small_contact(steepest, indenter.noun),
         _linearity(steepest),
         *(() if coupled is None else (coupled,)),
@@ -183,24 +195,48 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
     return AssumptionCheck.of("linearity", holds, sentence, high, limit)
 
 
-def _one_temperature(
+def _heated(curves: HeatColumns) -> AssumptionCheck:
+    """Return the check of curves that hold friction at the temperature to which it heats the contacts."""
+    assert isinstance(curves, FrictionCurves)
+    change = np.abs(curves.viscoelastic / curves.isothermal - 1.0)
+    row = int(np.argmax(change))
+    rise, where = float(curves.temperature_rise[row]), Place.of(curves, row)
+    sentence = Note(
+        "warming-included",
+        f"Friction is that at the temperature to which it heats the contact; this changes it by up to "
+        f"{plain(100 * float(change[row]), 2)} % (the rubber is {rise:.2g} K warmer {where}).",
+        values={"change": float(change[row]), "rise": rise, **where.values},
+    )
+    return AssumptionCheck.of("one temperature", True, sentence, None, CHANGE)
+
+
+def _isothermal(
+    material: Material,
+    indenter: Indenter,
     curves: FrictionCurves,
-    where: Place,
-    warming: Warming,
+    sizes: list[ContactSize],
     rubber: ThermalProperties,
     counterbody: ThermalProperties,
 ) -> AssumptionCheck:
+    """Return the check of curves that hold friction at the temperature of the body."""
+    try:
+        warming = Warming.worst(material, indenter, curves, [size.smallest for size in sizes], rubber, counterbody)
+    except InputError as error:  # the shift factors end where their slope is needed
+        unknown = Note("warming-unknown", f"The effect of warming on friction is unknown: {error}")
+        return AssumptionCheck.of("one temperature", None, unknown, None, CHANGE)
+    where = sizes[warming.row].where
     counted = curves.coulomb is not None and curves.slip is not None
     holds = verdict(warming.least, warming.change, CHANGE)
     heat = "Coulomb heat and the viscoelastic loss warm"
     if not counted:
-        heat = "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms"
+        missing = "Coulomb friction" if curves.coulomb is None else "sliding velocity"
+        heat = f"Coulomb heat is not included, as no {missing} is known; the viscoelastic loss warms"
     low, high = (plain(100 * one, 2) for one in (warming.least, warming.change))
     change = f"{high} %" if low == high else f"{low} to {high} %"
     rest = {
-        True: ".",
-        None: "; predict with heating.",
-        False: "; reduce the slip or the speed, or predict with heating.",
+        True: None,
+        None: "; " + _HEAT,
+        False: "; reduce the slip or the speed, or " + _HEAT,
     }[holds]
     typical = [body.name for body in (rubber, counterbody) if body in BODIES.values()]
     assumed = f"; typical handbook values of {' and '.join(typical)} are assumed" if typical else ""
@@ -209,7 +245,8 @@ def _one_temperature(
         f"{heat} the face of the contact by {warming.face:.2g} K, and the rubber where the loss is released by "
         f"{warming.below:.2g} K ({where}{assumed}). This shifts the speed by up to {warming.decades:.2g} decades and "
         f"changes friction by {change} "
-        f"(good if ≤ {100 * CHANGE:.0f} %){rest}",
+        f"(good if ≤ {100 * CHANGE:.0f} %){'.' if rest is None else ''}",
+        remedy=rest,
         values={
             "coulomb_counted": counted,
             "face_rise": warming.face,

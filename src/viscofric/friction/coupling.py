@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.bodies import Layer
-from viscofric.contact.coupling import LARGEST, ShearedContact, coupling_notes, sheared_compliance
+from viscofric.contact.coupling import LARGEST, REMEDY, ShearedContact, coupling_notes, sheared_compliance
 from viscofric.friction.assumption_check import AssumptionCheck, Place, modes_of, verdict
 from viscofric.notes import Note
 
@@ -16,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
+    from viscofric.contact.bodies import Layer
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
 
@@ -43,17 +43,15 @@ def shear_notes(
 def check_coupling(
     curves: FrictionCurves,
     material: Material,
-    thickness: float | None,
+    layer: Layer | None,
     radii: Sequence[tuple[float, float]],
 ) -> AssumptionCheck | None:
     """Check the coupling at the worst point of friction curves of known Coulomb friction; None if none is known.
 
-    `thickness` is that of the rubber, m (a half-space without it); `radii` are the smallest and the largest possible
-    radius of each contact, m.
+    `radii` are the smallest and the largest possible radius of each contact, m.
     """
     if curves.coulomb is None or not np.any(np.isfinite(curves.coulomb)):
         return None
-    layer = None if thickness is None else Layer(thickness)
     worst: list[ShearedContact] = []
     for row in np.flatnonzero(np.isfinite(curves.coulomb)).tolist():
         kelvin, coulomb = float(curves.temperature[row]), float(curves.coulomb[row])
@@ -63,16 +61,17 @@ def check_coupling(
             worst, place = found, Place.of(curves, row)
     low, high = worst[0].share, worst[1].share
     holds = verdict(low, high, LARGEST)
+    percent = f"{100 * LARGEST:.0f} %"
     rest = {
-        True: f", which is negligible up to {100 * LARGEST:.0f} %.",
-        None: f", which is negligible up to {100 * LARGEST:.0f} %. Here this depends on the contact size: solve the "
-        "contact and give contact_radius.",
-        False: f", which is doubtful above {100 * LARGEST:.0f} %: solve them with it (coulomb=…), take the mean over "
-        "both directions of slip, or reduce slip or Coulomb friction (PTFE, lubricant).",
+        True: f", which is negligible up to {percent}.",
+        None: f", which is negligible up to {percent}. Here this depends on the contact size: solve the contact and "
+        "give contact_radius.",
+        False: f", which is doubtful above {percent}",
     }[holds]
+    remedy = None if holds is not False else REMEDY + " Less slip or Coulomb friction (PTFE, lubricant) reduces it."
     values = {"lowest": low, "highest": high, **worst[1].values, **place.values}
     least = "" if low >= 0.98 * high else f" (a change of {100 * low:.2g} % for the other bound of the contact size)"
-    said = Note("tangential-coupling", worst[1].said + least + rest, values=values)
+    said = Note("tangential-coupling", worst[1].said + least + rest, remedy=remedy, values=values)
     return AssumptionCheck.of("uncoupled", holds, said, high, LARGEST)
 
 

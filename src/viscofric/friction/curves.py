@@ -70,8 +70,8 @@ class FrictionCurves:
     replicates : (n,) array of int
         Repetitions behind each entry (1 where predicted).
     coulomb, coulomb_error, coulomb_scatter : (n,) array or None
-        The same for the Coulomb friction coefficient, of a measurement or of a prediction with an interface; None
-        where it is not known.
+        The same for the Coulomb friction coefficient, of a measurement, of a prediction with an interface, or as given
+        with heating, without an error; None where it is not known.
     consistency, consistency_error : (n,) array or None
         Residual of the four sign configurations, which have three unknowns, (F_I − F_II + F_III − F_IV)/4 over the
         load, and its standard error: zero within that error in a sound measurement.  None where predicted or not
@@ -80,7 +80,7 @@ class FrictionCurves:
     notes : tuple of str
         One sentence each.
     slip : (n,) array or None
-        Magnitude of the sliding velocity, m/s; None where predicted without an interface.
+        Magnitude of the sliding velocity, m/s; None where predicted without Coulomb friction.
     offset : (n,) array or None
         Zero reading of the force cell, N; None where predicted.
     load_unit : {"N", "N/m"}
@@ -185,7 +185,8 @@ class FrictionCurves:
         """
         if self.coulomb is None:
             raise InputError(
-                "these friction curves have no Coulomb friction; give predict_friction() an interface.",
+                "these friction curves have no Coulomb friction; give predict_friction() an interface, or heating with "
+                "coulomb.",
                 code="no-coulomb",
             )
         return self.viscoelastic + self.coulomb

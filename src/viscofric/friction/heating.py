@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from viscofric.contact.heated_curve import heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
 class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
     """Friction curves of contacts that their own friction heats; `temperature` is that of the body.
 
-    Parameters and attributes of `FrictionCurves`, and:
+    Parameters and attributes of `FrictionCurves`, with the Coulomb friction of the `Heating` or of the interface, and:
 
     Attributes
     ----------
@@ -87,6 +89,9 @@ def predict_heated(
     of_contact = dict(zip([id(one) for curve in curves for one in curve], found, strict=True))
     states = [of_contact[id(one)] for one in every]
     columns: dict[str, Any] = heat_columns(states)
+    if interface is None and heating.coulomb > 0.0:
+        slip = [heating.sliding(one.speed) for one in every]
+        columns |= {"coulomb": np.full(len(every), heating.coulomb), "slip": np.array(slip)}
     unit = contacts[0]["indenter"].geometry.load_unit
     return HeatedFrictionCurves(
         **columns_of_records([_record(one) for one in states], unit), source="predicted", **columns

@@ -168,14 +168,11 @@ def predict_friction(
         curves = _isothermal(material, contacts, drawn, workers, report, exact)
     if interface is not None:
         curves = with_interface(curves, interface, slip, rise=rise)
-    coulomb = curves.coulomb
-    if coulomb is None and heating is not None:
-        coulomb = np.full(len(curves), heating.coulomb)
-    if coulomb is None or settings.get("coulomb"):
+    if curves.coulomb is None or settings.get("coulomb"):
         return curves
     bodies = [(material, settings.get("layer"))] * len(curves)
     warmer = getattr(curves, "temperature_rise", None)
-    return replace(curves, notes=(*curves.notes, *shear_notes(curves, coulomb, bodies, warmer)))
+    return replace(curves, notes=(*curves.notes, *shear_notes(curves, curves.coulomb, bodies, warmer)))
 
 
 def _isothermal(

@@ -16,11 +16,13 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from viscofric.arguments import insist_on_function, whole_number
+from viscofric.contact.bodies import checked_coulomb
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.motion.chains import Link, Pair, Reached
 from viscofric.motion.cycle_numbers import Found, Period
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.march import march
+from viscofric.motion.shear import shear_notes
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
 from viscofric.motion.watch import Watch
 from viscofric.threads import one_blas_thread
@@ -62,6 +64,7 @@ def solve_cycle(
     layer: Layer | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
+    coulomb: float = 0.0,
     most_periods: int = 60,
     progress: Callable[[int, float], object] | None = None,
 ) -> CycleSolution:
@@ -85,6 +88,9 @@ def solve_cycle(
         Young's modulus of an elastic indenter, Pa; rigid if omitted.
     indenter_poisson_ratio : float
         Of an elastic indenter.
+    coulomb : float
+        Coulomb friction coefficient of a sliding contact, where it is known.  The contact is solved without its shear;
+        the note `tangential-coupling` has the change of friction by it, if above 5 %.
     most_periods : int
         Maximum number of periods.
     progress : callable, optional
@@ -104,8 +110,8 @@ def solve_cycle(
 
     Notes
     -----
-    Contacts have no Coulomb friction here.  In a sliding motion its shear changes friction and energy per cycle; for
-    strokes much longer than the contact by as much as `solve_steady` with `coulomb`, at the same speed.
+    In a sliding motion the shear of Coulomb friction changes friction and energy per cycle; for strokes much longer
+    than the contact by as much as `solve_steady` with `coulomb`, at the same speed.
 
     Examples
     --------
@@ -125,6 +131,7 @@ def solve_cycle(
     if progress is not None:
         insist_on_function(progress, "progress")
     whole_number(most_periods, "most_periods", 1)
+    checked_coulomb(coulomb)
     problem = checked_problem(material, indenter, one_period, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     _insist_on_period(one_period, problem.kind)
     asked = checked_times(times, problem.schedule)
@@ -140,8 +147,11 @@ def solve_cycle(
         track = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked)
     assert search.whole is not None
     assert search.found is not None
-    run = assemble(track, problem, one_period, method, notes=notes)
-    whole = run if asked is None else assemble(search.whole, problem, one_period, method, notes=notes)
+    whole = assemble(search.whole, problem, one_period, method, notes=notes)
+    whole = replace(whole, warnings=(*whole.warnings, *shear_notes(problem, whole, coulomb, whole.temperature)))
+    run = whole
+    if asked is not None:
+        run = replace(assemble(track, problem, one_period, method, notes=notes), warnings=whole.warnings)
     return replace(CycleSolution.of(whole, search.found, problem.schedule.control, search.periods), run=run)
 
 

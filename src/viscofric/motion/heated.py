@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.contact.coupling import ShearedContact, coupling_notes, sheared_compliance
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
@@ -21,6 +20,7 @@ from viscofric.heat.path import Passage, path_rise
 from viscofric.heat.result import TransientHeating
 from viscofric.motion.history import History, dense_times
 from viscofric.motion.progress import Progress
+from viscofric.motion.shear import contact_sizes, shear_notes
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def solve_heated(
         residual, _change_with_half(problem, run, heating, heats, warmer),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
-    doubts = (*_thin_skin(problem, run, heating, found), *_shear(problem, run, heating, around + warmer))
+    doubts = (*_thin_skin(problem, run, heating, found), *shear_notes(problem, run, heating.coulomb, around + warmer))
     run = replace(run, warnings=(*run.warnings, *doubts))
     # A state of the last run is no state of the heated contact.
     chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
@@ -111,7 +111,7 @@ def _thin_skin(problem: Problem, run: TransientSolution, heating: Heating, found
         return ()
     lasting = np.diff(run.time) > 0.0
     speed = np.hypot(*np.diff(run.position, axis=0).T)[lasting] / np.diff(run.time)[lasting]
-    size = _sizes(problem, run)
+    size = contact_sizes(problem, run)
     if not len(speed) or speed.max() * size.max() == 0.0 or not found.face.any():
         return ()
     skin = float(np.sqrt(2.0 * heating.rubber.diffusivity / (speed.max() * size.max())))
@@ -124,34 +124,6 @@ def _thin_skin(problem: Problem, run: TransientSolution, heating: Heating, found
     )
     values = {"skin": skin, "face_rise": face, "loss_weighted_rise": below}
     return (Note("thin-skin", said, remedy="; for friction at the latter, give " + AT_THE_LOSS + ".", values=values),)
-
-
-def _shear(problem: Problem, run: TransientSolution, heating: Heating, kelvin: Array) -> tuple[Note, ...]:
-    """Return a note where the shear of Coulomb friction, without which it was solved, changes the friction."""
-    if heating.coulomb == 0.0:
-        return ()
-    ratio, size = problem.material.poisson_ratio, _sizes(problem, run)
-    steps = np.hypot(*np.diff(run.position, axis=0).T)
-    speed = np.append(steps / np.maximum(np.diff(run.time), 1e-300), 0.0)
-    # The compliance at v/a is that of a contact that has slid by its own size.
-    slid = np.concatenate([[0.0], np.cumsum(steps)]) >= size
-    contacts = []
-    for row in np.flatnonzero(slid & (speed > 0.0) & (size > 0.0) & (run.load > 0.0)).tolist():
-        modes, line = problem.material.modes_at(float(kelvin[row])), problem.kind == "line"
-        load, stress = float(run.load[row]), heating.coulomb * float(run.load[row] / run.contact_area[row])
-        compliance = sheared_compliance(modes, ratio, None, float(size[row]), float(speed[row]), line=line)
-        friction, where = float(run.friction_force[row]) / load, f"at {run.time[row]:.3g} s"
-        contacts.append(ShearedContact(stress, friction, compliance, line, where=where))
-    # Friction passes zero where the motion begins or turns: the largest change counts, over the largest friction.
-    largest = max((abs(one.friction) for one in contacts), default=0.0)
-    worst = max(contacts, key=lambda one: one.change, default=None)
-    return () if worst is None else coupling_notes([replace(worst, friction=largest)])
-
-
-def _sizes(problem: Problem, run: TransientSolution) -> Array:
-    """Return the radius of the disc with the area of the contact, or half its width, (n,), m."""
-    area = run.contact_area
-    return np.asarray(0.5 * area if problem.kind == "line" else np.sqrt(area / np.pi))
 
 
 def _insist_on_heatable(problem: Problem, history: History, heating: Heating) -> None:
@@ -204,7 +176,7 @@ def _rise(
     coulomb, loss = heats
     rows = np.arange(len(run.time), dtype=np.intp) if rows is None else rows
     shape = "strip" if problem.kind == "line" else "disc"
-    passage = Passage(run.time[rows], run.position[rows], _sizes(problem, run)[rows], shape)
+    passage = Passage(run.time[rows], run.position[rows], contact_sizes(problem, run)[rows], shape)
     return path_rise(passage, np.diff(coulomb[rows], prepend=0.0), np.diff(loss[rows], prepend=0.0), heating)
 
 

@@ -92,8 +92,8 @@ def solve_transient(
         those of the earlier one; for a longer history on cells, to the stated errors.
         Where a normal motion goes on by sliding, its past is solved again on cells, and a note says so.
     heating : Heating, optional
-        Thermal properties and Coulomb heat: the rubber responds at the temperature of the history plus the mean rise of
-        the contact's face, which the solution's `heating` holds.  In three or four runs, at some sixty times and those
+        Thermal properties and Coulomb heat: the rubber responds at the temperature of the history plus a mean rise
+        (`Heating.average`), which the solution's `heating` holds.  In three or four runs, at some sixty times and those
         asked for.  Not with a layer, a rough surface, `resume` or steady sliding before.
 
     Returns

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from viscofric.datasets import dataset
 from viscofric.heat.result import HeatColumns
 from viscofric.rheology.interface.friction import total_friction
@@ -70,10 +72,16 @@ class PerssonTheory:
         """Friction coefficient of hysteresis and interface, (m, n) array; InputError without an interface."""
         return total_friction(self.friction_coefficient, self.interface_friction, "persson_theory")
 
+    @property
+    def friction_error(self) -> Array:
+        """Largest error of the friction coefficient by the integrals, (m, n) array, the same everywhere."""
+        return np.full(self.friction_coefficient.shape, self.error * float(np.abs(self.friction_coefficient).max()))
+
     def to_dataset(self) -> xarray.Dataset:
         """Return everything over temperature, speed and wave number, with pressure, error and notes as attributes."""
         meanings = {
             "friction_coefficient": ("1", "friction coefficient"),
+            "friction_error": ("1", "largest error of the friction coefficient by the integrals"),
             "contact_area_fraction": ("1", "real over nominal contact area"),
             "flash_temperature": ("K", "largest rise of temperature"),
             "area_by_scale": ("1", "contact area fraction without shorter waves"),

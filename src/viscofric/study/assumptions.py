@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
 from viscofric.friction.cases.surfaces import MadeSurface, surface_of
-from viscofric.notes import Note, note_of
+from viscofric.friction.interface.prediction import with_interface
+from viscofric.notes import Note, Remedy, note_of
 from viscofric.study.study_rubber import curves_of
 
 if TYPE_CHECKING:
@@ -22,12 +24,13 @@ if TYPE_CHECKING:
     from viscofric.friction.cases.record import Record
     from viscofric.friction.cases.surface_case import SurfaceCase
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.study.contacts import Contacts, Solved
     from viscofric.study.run_file.study import Study
 
-_OF_HALF_SPACES = "half-space"
 # Checks with a warning of the run; others have warnings of single contacts, or are harmless.
-_WARNED_OF = (_OF_HALF_SPACES, "uncoupled")
+_WARNED_OF = ("half-space", "uncoupled")
+_HEATED = Remedy("; this is the isothermal friction, the results also have that with heating.")
 
 
 def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
@@ -44,8 +47,13 @@ def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:
     ]
 
 
-def assumption_checks(contacts: Contacts, requested: Solved, at_points: Solved) -> list[AssumptionCheck]:
-    """Check thickness, small strain and warming of all contacts, and return the worst check of each kind."""
+def assumption_checks(
+    contacts: Contacts, requested: Solved, at_points: Solved, law: InterfaceLaw | None
+) -> list[AssumptionCheck]:
+    """Check thickness, small strain, shear and warming of all contacts, and return the worst check of each kind.
+
+    `law` is that of the interface, where it is known.
+    """
     if contacts.study.indenter is None:
         return _surface_checks(contacts.study, requested.of_records)
     alike: dict[object, list[tuple[IndenterCase, Record]]] = {}
@@ -56,25 +64,51 @@ def assumption_checks(contacts: Contacts, requested: Solved, at_points: Solved) 
     for pairs in sorted(alike.values(), key=lambda pairs: -max(_reach(record) for _, record in pairs)):
         records = [record for _, record in pairs]
         curves = replace(curves_of(records), load_unit=pairs[0][0].indenter.geometry.load_unit)
-        _keep_worst(found, _checked(contacts, pairs[0][0], curves, records))
+        _keep_worst(found, _checked(contacts, pairs[0][0], curves, records, law))
     if at_points.records and contacts.measured is not None:
         solved = np.array([not hasattr(outcome, "reason") for outcome in at_points.outcomes], dtype=bool)
         curves = contacts.measured.curves.select(solved)
-        _keep_worst(found, _checked(contacts, at_points.of_records[0], curves, at_points.records))
+        _keep_worst(found, _checked(contacts, at_points.of_records[0], curves, at_points.records, law))
     return list(found.values())
 
 
 def _checked(
-    contacts: Contacts, case: IndenterCase, curves: FrictionCurves, records: list[Record]
+    contacts: Contacts, case: IndenterCase, curves: FrictionCurves, records: list[Record], law: InterfaceLaw | None
 ) -> Iterable[AssumptionCheck]:
     """Check contacts of one material, shape and load, with the thermal properties of the run file if it has any."""
+    study = contacts.study
     reach = np.array([_reach(record) for record in records])
     material = contacts.rubbers[case.material].material
-    thickness = contacts.study.conditions.thickness if case.layer is None else case.layer.thickness
-    heating = contacts.study.heating
-    bodies = {} if heating is None else {"rubber": heating.rubber, "counterbody": heating.counterface}
-    checks = check_assumptions(material, case.indenter, curves, thickness=thickness, contact_radius=reach, **bodies)
-    return (check for check in checks if case.layer is None or check.name != _OF_HALF_SPACES)
+    settings: dict[str, Any] = {"thickness": study.conditions.thickness, "layer": case.layer, "contact_radius": reach}
+    if study.heating is not None:
+        settings |= {"rubber": study.heating.rubber, "counterbody": study.heating.counterface}
+    checks = check_assumptions(material, case.indenter, _rubbed(curves, study, law), **settings)
+    heated = study.heating is not None and (study.interface is None or law is not None)
+    return (_beside_heated(check) if heated else check for check in checks)
+
+
+def _rubbed(curves: FrictionCurves, study: Study, law: InterfaceLaw | None) -> FrictionCurves:
+    """Return curves with the Coulomb friction of [interface] or [heating], the largest of several; not of measured."""
+    heating = study.heating
+    if curves.coulomb is not None:
+        return curves
+    if law is not None and study.interface is not None and curves.mean_pressure is not None:
+        try:
+            return with_interface(curves, law, study.interface.slip)
+        except InputError:  # a note says where the law is not known
+            return curves
+    if heating is None or max(heating.coulomb) == 0.0:
+        return curves
+    slip = curves.speed if heating.slip is None else np.full(len(curves), max(heating.slip))
+    return replace(curves, coulomb=np.full(len(curves), max(heating.coulomb)), slip=slip)
+
+
+def _beside_heated(check: AssumptionCheck) -> AssumptionCheck:
+    """Return a check of isothermal friction in a study that also has the heated one."""
+    note = note_of(check.sentence)
+    if note.code != "warming" or note.remedy is None:
+        return check
+    return replace(check, sentence=Note(note.code, note.text, note.where, _HEATED, note.values))
 
 
 def _reach(record: Record) -> float:

@@ -243,7 +243,7 @@ def tree_of(
             groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
     for one in singles:
         groups |= one.groups()
-    checked = assumption_checks(contacts, requested, at_points)
+    checked = assumption_checks(contacts, requested, at_points, interface.law)
     groups |= assumptions(checked)
     tree = xarray.DataTree.from_dict(groups)
     of_friction = [*(measured.notes if measured else ()), *interface.notes, *rubbed.notes]

@@ -11,7 +11,6 @@ from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.errors import InputError
 from viscofric.friction.cases.record import Record
 from viscofric.friction.cases.surfaces import surface_of
-from viscofric.friction.coupling import shear_notes
 from viscofric.friction.interface.prediction import with_interface
 from viscofric.friction.interface.shear_stress import shear_stress
 from viscofric.notes import Note, note_of
@@ -86,9 +85,7 @@ def interface_columns(contacts: Contacts, interface: StudyInterface, requested: 
         "interface_error": curves.coulomb_error,
         "total_friction": curves.total,
     }
-    assert curves.coulomb is not None
-    bodies = [(contacts.rubbers[one.material].material, one.layer) for one in requested.of_records]
-    return InterfaceColumns(columns, list(map(note_of, (*curves.notes, *shear_notes(curves, curves.coulomb, bodies)))))
+    return InterfaceColumns(columns, list(map(note_of, curves.notes)))
 
 
 def _on_surface(table: InterfaceTable, law: InterfaceLaw, requested: Solved, contacts: Contacts) -> InterfaceColumns:

@@ -263,7 +263,8 @@ def shear_stress(
     insist_on_curves(curves, "curves")
     if curves.coulomb is None or curves.coulomb_error is None:
         raise InputError(
-            "curves have no Coulomb friction; separate() finds it from runs of both directions of slip.",
+            "curves have no Coulomb friction with its standard error; separate() finds both from runs of both "
+            "directions of slip.",
             code="no-coulomb",
         )
     if shift is not None and not isinstance(shift, ShiftLaw):

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.interface.shear_stress import ShearStress
     from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.roughness.persson_result import PerssonTheory
 
 
 _MEGA, _MILLIMETRES = 1e-6, 1e3
@@ -117,17 +118,17 @@ def _plot_law(axes: Axes, line: xr.Dataset, dashes: Any, *, banded: bool) -> Lin
     return Line2D([], [], color=colour, linestyle=dashes, label=str(line.attrs["law"]))
 
 
-def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | xr.Dataset) -> None:
+def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | PerssonTheory | xr.Dataset) -> None:
     """Draw predicted friction against speed with its parts, hysteresis and interface, stacked.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
-    curves : FrictionCurves, RoughFriction or xarray.Dataset
-        Predicted with an interface, at one temperature and load (`FrictionCurves.at_temperature`); the total has its
-        95 % interval.  Of several rough surfaces, the mean.  A dataset has `speed`, `temperature`,
-        `friction_coefficient`, `friction_error`, `interface_friction`, `interface_error` and perhaps
-        `friction_material_error` along `case`.
+    curves : FrictionCurves, RoughFriction, PerssonTheory or xarray.Dataset
+        Predicted with an interface or a given Coulomb friction, at one temperature and load
+        (`FrictionCurves.at_temperature`, or the data set of one); the total has its 95 % interval.  Of several rough
+        surfaces, the mean.  A dataset has `speed`, `temperature`, `friction_coefficient`, `friction_error`,
+        `interface_friction`, `interface_error` and perhaps `friction_material_error`.
 
     Raises
     ------
@@ -140,14 +141,14 @@ def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | xr.
     nominal = nominal_temperatures(parts.temperature)
     if nominal.size > 1:
         raise InputError(
-            f"the friction curves have {nominal.size} temperatures; choose one with at_temperature().",
+            f"the friction has {nominal.size} temperatures; draw one, of curves with at_temperature().",
             code="several-temperatures",
         )
     order = np.argsort(parts.speed, kind="stable")
     speed, hysteresis = _MILLIMETRES * parts.speed[order], parts.hysteresis[order]
     total, half = hysteresis + parts.interface[order], LEVEL_95 * parts.error[order]
     axes.fill_between(speed, 0.0, hysteresis, color=BLUE, alpha=0.6, linewidth=0, label="hysteresis")
-    named = "Coulomb, given" if as_dataset(curves).attrs.get("heat_of") == "given" else "interface"
+    named = "Coulomb, given" if parts.given else "interface"
     axes.fill_between(speed, hysteresis, total, color=ORANGE, alpha=0.6, linewidth=0, label=named)
     axes.errorbar(speed, total, yerr=half, color=INK, marker="o", markersize=3, elinewidth=1.0, label="total, 95 %")
     axes.set(xscale="log", ylabel=r"friction coefficient $\mu$", ylim=(0.0, 1.08 * float(np.nanmax(total + half))))
@@ -158,24 +159,33 @@ def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | xr.
 
 
 class _Parts(NamedTuple):
-    """Parts of friction (n,), and the standard error of their sum."""
+    """Parts of friction (n,), the standard error of their sum, and whether Coulomb friction is given."""
 
     speed: Array
     temperature: Array
     hysteresis: Array
     interface: Array
     error: Array
+    given: bool = False
 
 
-def _parts(curves: FrictionCurves | xr.Dataset) -> _Parts:
+def _parts(curves: FrictionCurves | PerssonTheory | xr.Dataset) -> _Parts:
+    """Return the parts of friction along any dimensions, by their names."""
     data = as_dataset(curves)
-    of_case = "friction_coefficient" in data
-    names = ("friction_coefficient", "interface_friction") if of_case else ("viscoelastic", "coulomb")
+    of_curves = "viscoelastic" in data
+    names = ("viscoelastic", "coulomb") if of_curves else ("friction_coefficient", "interface_friction")
     errors = ("friction_error", "friction_material_error", "interface_error")
-    errors = errors if of_case else ("viscoelastic_error", "material_error", "coulomb_error")
-    squares = [np.nan_to_num(values(data, name)) ** 2 for name in errors]
-    speed, temperature, hysteresis, interface = (values(data, name) for name in ("speed", "temperature", *names))
-    return _Parts(speed, temperature, hysteresis, interface, np.sqrt(np.sum(squares, axis=0)))
+    errors = ("viscoelastic_error", "material_error", "coulomb_error") if of_curves else errors
+    friction = data[names[0]]
+
+    def column(name: str) -> Array:
+        one = data[name] if name in data.variables else friction * np.nan
+        return np.ravel(one.broadcast_like(friction).transpose(*friction.dims)).astype(float)
+
+    error = np.sqrt(sum(np.nan_to_num(column(name)) ** 2 for name in errors))
+    given = data.attrs.get("heat_of") == "given" or (of_curves and "coulomb_error" not in data)
+    speed, kelvin, hysteresis, interface = map(column, ("speed", "temperature", *names))
+    return _Parts(speed, kelvin, hysteresis, interface, error, given)
 
 
 def _parts_of_mean(found: RoughFriction) -> _Parts:
@@ -188,8 +198,8 @@ def _parts_of_mean(found: RoughFriction) -> _Parts:
         assert found.interface_error is not None
         error = np.hypot(found.friction_error, found.interface_error)[..., 0]
     kelvin, speed = np.meshgrid(found.temperature, found.speed, indexing="ij")
-    each = speed, kelvin, found.mean_friction, total - found.mean_friction, error
-    return _Parts(*(np.ravel(one) for one in each))
+    mean = np.ravel(found.mean_friction)
+    return _Parts(np.ravel(speed), np.ravel(kelvin), mean, np.ravel(total) - mean, np.ravel(error))
 
 
 def stress_figure(tree: xr.DataTree) -> Figure | None:

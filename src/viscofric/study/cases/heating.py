@@ -81,8 +81,9 @@ def solve_heated(
         if not curves:
             raise wrong[0] from None
     notes = [note_of(note) for one in curves for note in one.notes]
-    # That of an interface is a note of the isothermal contacts too.
-    kept = (*_KEPT, "tangential-coupling") if settings.get("interface") is None else _KEPT
+    # Of indenters a check, with an interface a note of the isothermal contacts has it.
+    has_shear = "surface" in settings and settings.get("interface") is None
+    kept = (*_KEPT, "tangential-coupling") if has_shear else _KEPT
     said += [str(note) for note in notes if note.code in kept]
     return HistoryRecord({}, tuple(dict.fromkeys(said)), columns=_columns(curves))
 

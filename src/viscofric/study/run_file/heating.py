@@ -104,11 +104,6 @@ class HeatingTable(Table):
             if len(set(values)) < len(values):
                 yield name, "contains the same value twice"
 
-    @property
-    def suits_histories(self) -> bool:
-        """Whether contacts over time can be heated like this: what a history itself brings about is not prescribed."""
-        return not (self.slip is not None or self.passes > 0 or self.branch == "hot")
-
     def heating(self, coulomb: float, slip: float | None) -> Heating:
         """Return the heating of one value of Coulomb friction and of slip."""
         return Heating(

@@ -49,13 +49,6 @@ def isothermal(noun: str, reason: str = "") -> Note:
     return Note("history-isothermal", f"{noun} are isothermal: only steady cases are heated{reason}.")
 
 
-#: What contacts over time are not heated with.
-_NOT_HEATED = (
-    "; over time, heating is for indenters on a half-space, without a law of the interface, cycle, steady sliding "
-    "before, slip, earlier passes, mean rise weighted with the loss, or hot state"
-)
-
-
 def _several(value: object) -> object:
     return [value] if isinstance(value, dict | MaterialTable) else value
 
@@ -157,8 +150,9 @@ class Study(Table):
         sampled = any(material.dma or material.steps for material in self.materials)
         over_time = sampled and (self.history is not None or self.impact is not None)
         said = self.uncertainty.notes(rough=self.indenter is None, over_time=over_time)
-        if self.heating is not None and self.history is not None and not self.heats_histories:
-            said = (*said, isothermal("Contacts over time", _NOT_HEATED))
+        if self._against_heating:
+            reasons = " or ".join(self._against_heating)
+            said = (*said, isothermal("Contacts over time", f"; over time, heating is not possible with {reasons}"))
         if self.heating is not None and self.impact is not None:
             said = (*said, isothermal("Impacts"))
         return said
@@ -166,11 +160,25 @@ class Study(Table):
     @property
     def heats_histories(self) -> bool:
         """Whether the cases over time are heated, if the material permits it."""
+        return self.history is not None and self.heating is not None and not self._against_heating
+
+    @property
+    def _against_heating(self) -> list[str]:
+        """What keeps the cases over time isothermal, in words; what a history itself brings about is not prescribed."""
         history, heating = self.history, self.heating
-        if history is None or heating is None or not heating.suits_histories:
-            return False
-        alone = self.indenter is not None and self.layer is None and self.interface is None
-        return alone and not history.cycle and history.before != "sliding"
+        if history is None or heating is None:
+            return []
+        reasons = {
+            "a rough surface": self.surface is not None,
+            "a layer": self.layer is not None,
+            "a law of the interface": self.interface is not None,
+            "a periodic state": history.cycle,
+            "steady sliding before": history.before == "sliding",
+            "a given sliding velocity": heating.slip is not None,
+            "earlier passes": heating.passes > 0,
+            "the hot state": heating.branch == "hot",
+        }
+        return [reason for reason, holds in reasons.items() if holds]
 
     def sweep(self) -> Sweep:
         """Return all cases of the study, with their axes."""

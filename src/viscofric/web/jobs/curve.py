@@ -85,7 +85,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     with Serial() as executor:
         run_plan(contacts.plan, store, executor, progress)
         requested, at_points, along = contacts.results()
-        more, said = _of_tables(contacts, requested, lambda plan: run_plan(plan, store, executor, _counter(context)))
+        more, said, law = _of_tables(
+            contacts, requested, lambda plan: run_plan(plan, store, executor, _counter(context))
+        )
     if not requested.records:
         first = requested.failures[0]
         raise JobError(f"No case could be solved; the first one failed: {first}", code=first.code)
@@ -104,7 +106,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             ],
         ),
         **listed("notes", [*_notes(contacts, checked), *said], "page"),
-        "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points)]),
+        "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points, law)]),
     }
 
 
@@ -170,8 +172,8 @@ def _counter(context: Context) -> Progress:
 
 def _of_tables(
     contacts: Contacts, requested: Solved, solve: Callable[[Plan], object]
-) -> tuple[dict[str, Any], list[Note]]:
-    """Return what [interface] and [heating] add to all cases, each number a column, and notes.
+) -> tuple[dict[str, Any], list[Note], InterfaceLaw | None]:
+    """Return what [interface] and [heating] add to all cases, each number a column, notes, and the interface's law.
 
     A law that is fitted to the measurement is left to the run of the study; of several values of Coulomb friction and
     slip, the first counts.
@@ -201,7 +203,7 @@ def _of_tables(
             found["interface_friction"] = warm["interface_friction"]
             found["total_friction"] = warm["friction_coefficient"] + warm["interface_friction"]
         said += [*heatings.failures, *heatings.warnings]
-    return {name: plain(column, _DIGITS) for name, column in found.items()}, said
+    return {name: plain(column, _DIGITS) for name, column in found.items()}, said, law
 
 
 class _Sender:

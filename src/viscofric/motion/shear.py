@@ -1,0 +1,59 @@
+"""Change of friction over time by the shear of Coulomb friction, for contacts that are solved without it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscofric.contact.coupling import ShearedContact, SurfaceCoupling, coupling_notes, sheared_compliance
+from viscofric.contact.periodic.surface import PeriodicSurface
+
+if TYPE_CHECKING:
+    from viscofric.arrays import Array
+    from viscofric.motion.problem import Problem
+    from viscofric.motion.solution import TransientSolution
+    from viscofric.notes import Note
+
+
+def contact_sizes(problem: Problem, run: TransientSolution) -> Array:
+    """Return the radius of the disc with the area of the contact, or half its width, (n,), m."""
+    area = run.contact_area
+    return np.asarray(0.5 * area if problem.kind == "line" else np.sqrt(area / np.pi))
+
+
+def shear_notes(
+    problem: Problem, run: TransientSolution, coulomb: float, kelvin: Array | None = None
+) -> tuple[Note, ...]:
+    """Return a note where the shear of Coulomb friction changes friction by too much.
+
+    `kelvin` (n,) is the temperature of the rubber, K, if it is known.
+    """
+    if coulomb == 0.0:
+        return ()
+    ratio, layer, line = problem.material.poisson_ratio, problem.layer, problem.kind == "line"
+    steps = np.hypot(*np.diff(run.position, axis=0).T)
+    speed = np.append(steps / np.maximum(np.diff(run.time), 1e-300), 0.0)
+    sliding = (speed > 0.0) & (run.contact_area > 0.0) & (run.load > 0.0)
+    contacts = []
+    if isinstance(problem.indenter, PeriodicSurface):
+        surface = SurfaceCoupling.of(problem.indenter, ratio, layer)
+        for row in np.flatnonzero(sliding).tolist():
+            friction, area, load = (float(one[row]) for one in (run.friction_coefficient, run.contact_area, run.load))
+            contacts.append(surface.contact(coulomb, friction, area, load, f"at {run.time[row]:.3g} s"))
+    else:
+        # The compliance at v/a is that of a contact that has slid by its own size.
+        size = contact_sizes(problem, run)
+        slid = np.concatenate([[0.0], np.cumsum(steps)]) >= size
+        slid &= np.ptp(run.position, axis=0).max() >= size
+        for row in np.flatnonzero(sliding & slid).tolist():
+            modes = problem.material.modes_at(None if kelvin is None else float(kelvin[row]))
+            compliance = sheared_compliance(modes, ratio, layer, float(size[row]), float(speed[row]), line=line)
+            stress = coulomb * float(run.load[row] / run.contact_area[row])
+            friction, where = float(run.friction_coefficient[row]), f"at {run.time[row]:.3g} s"
+            contacts.append(ShearedContact(stress, friction, compliance, line, where=where))
+    # Friction passes zero where the motion begins or turns: the largest change counts, over the largest friction.
+    largest = max((abs(one.friction) for one in contacts), default=0.0)
+    worst = max(contacts, key=lambda one: one.change, default=None)
+    return () if worst is None else coupling_notes([replace(worst, friction=largest)])
