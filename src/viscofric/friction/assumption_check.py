@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from viscofric.checks import Check
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     import xarray
 
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
     from viscofric.notes import Reader
@@ -137,21 +139,33 @@ class ContactSize:
     where: Place
 
     @classmethod
-    def of(
-        cls, material: Material, indenter: Indenter, curves: FrictionCurves, row: int, solved: float | None
-    ) -> ContactSize:
-        """Return the size at a point of friction curves, given the solved radius, if there is one."""
-        spectrum = modes_of(material, float(curves.temperature[row]))
+    def all_of(
+        cls, material: Material, indenter: Indenter, curves: FrictionCurves, solved: Array | None = None
+    ) -> list[ContactSize]:
+        """Return the sizes at the points of friction curves, given the solved radii, m, if there are any."""
         plane_strain = 1.0 - material.poisson_ratio**2
-        scale = Scale.for_load(indenter, spectrum.E0 / plane_strain, float(curves.load[row]))
-        curvature, where = scale.slope / scale.length, Place.of(curves, row)
+        spectrum_at = cache(partial(modes_of, material))
+        scale_at = cache(partial(Scale.for_load, indenter))
+        found = []
+        for row, kelvin in enumerate(curves.temperature.tolist()):
+            spectrum = spectrum_at(kelvin)
+            scale = scale_at(spectrum.E0 / plane_strain, float(curves.load[row]))
+            known = None if solved is None else float(solved[row])
+            found.append(cls._of(spectrum, scale, float(curves.speed[row]), Place.of(curves, row), known))
+        return found
+
+    @classmethod
+    def _of(
+        cls, spectrum: RetardationSpectrum, scale: Scale, speed: float, where: Place, solved: float | None
+    ) -> ContactSize:
+        curvature = scale.slope / scale.length
         if solved is not None:
             return cls(solved, solved, scale.length, curvature, where)
         # Hertz: a³ ~ F R/E of a ball, a² ~ F R/E of a cylinder.
         power = 1.0 / (1.0 + scale.geometry.dimension)
         radius = scale.length
         for _ in range(50):
-            modulus = abs(complex(spectrum.complex_modulus(curves.speed[row] / radius)))
+            modulus = abs(complex(spectrum.complex_modulus(speed / radius)))
             before, radius = radius, scale.length * (spectrum.E0 / modulus) ** power
             if abs(radius - before) <= 1e-3 * radius:
                 break
