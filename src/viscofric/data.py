@@ -11,12 +11,16 @@ from viscofric.arguments import insist_on, numbers, sentences, text
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
+from viscofric.showing import Items, Plotted, rows_of
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
 
     from viscofric.arrays import Array, ComplexArray, Integers
+    from viscofric.showing import Rows
 
 
 #: How a dynamic mechanical analyser deformed its sample.
@@ -81,7 +85,7 @@ def picked(rows: object, count: int, noun: str) -> Integers:
 
 
 @dataclass(frozen=True, eq=False)
-class Isotherm:
+class Isotherm(Plotted, Items[tuple[float, float, float]]):
     """One frequency sweep at one temperature.
 
     Parameters
@@ -126,8 +130,17 @@ class Isotherm:
                 )
             object.__setattr__(self, "strain_amplitude", amplitude)
 
-    def __len__(self) -> int:
-        return len(self.angular_frequency)
+    def _items(self) -> Sequence[tuple[float, float, float]]:
+        return rows_of(self.angular_frequency, self.storage_modulus, self.loss_modulus)
+
+    def _shown(self) -> Rows:
+        return (
+            ("temperature", self.temperature, "°C"),
+            ("angular frequency", self.angular_frequency, "rad/s"),
+            ("storage modulus", self.storage_modulus, "Pa"),
+            ("loss modulus", self.loss_modulus, "Pa"),
+            ("strain amplitude", self.strain_amplitude, "%"),
+        )
 
     @property
     def loss_tangent(self) -> Array:
@@ -158,7 +171,7 @@ class Isotherm:
 
 
 @dataclass(frozen=True, eq=False)
-class IsothermalSweeps:
+class IsothermalSweeps(Plotted, Items[Isotherm]):
     """Frequency sweeps of a dynamic mechanical analyser at several temperatures.
 
     Parameters
@@ -201,8 +214,19 @@ class IsothermalSweeps:
         object.__setattr__(self, "notes", sentences(self.notes, "notes of the sweeps"))
         object.__setattr__(self, "isotherms", tuple(sorted(self.isotherms, key=lambda sweep: sweep.temperature)))
 
-    def __len__(self) -> int:
-        return len(self.isotherms)
+    def _items(self) -> Sequence[Isotherm]:
+        return self.isotherms
+
+    def _shown(self) -> Rows:
+        return (
+            ("isotherms", self.isotherms),
+            ("readings", sum(map(len, self.isotherms))),
+            ("temperature", self.temperatures, "°C"),
+            ("deformation", self.deformation),
+            ("format", self.format or None),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
 
     @property
     def temperatures(self) -> Array:
@@ -252,7 +276,7 @@ class IsothermalSweeps:
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve:
+class MasterCurve(Plotted, Items[tuple[float, float, float]]):
     """Tensile modulus at one reference temperature, every measured point shifted by its isotherm's shift factor.
 
     Parameters
@@ -290,8 +314,17 @@ class MasterCurve:
         if np.any(np.diff(self.angular_frequency) < 0):
             raise InputError("the frequencies of a master curve must ascend.", code="not-ascending")
 
-    def __len__(self) -> int:
-        return len(self.angular_frequency)
+    def _items(self) -> Sequence[tuple[float, float, float]]:
+        return rows_of(self.angular_frequency, self.storage_modulus, self.loss_modulus)
+
+    def _shown(self) -> Rows:
+        return (
+            ("angular frequency", self.angular_frequency, "rad/s"),
+            ("storage modulus", self.storage_modulus, "Pa"),
+            ("loss modulus", self.loss_modulus, "Pa"),
+            ("measured at", self.temperature, "°C"),
+            ("reference", self.reference, "°C"),
+        )
 
     @property
     def complex_modulus(self) -> ComplexArray:

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 
 from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
+from viscofric.datasets import dataset, on_grid
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
 from viscofric.friction.solved_columns import columns_of
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
+from viscofric.showing import Plotted
 from viscofric.units import Quantity, positive, share, shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
+    from typing import Self
 
     import xarray
 
     from viscofric.arrays import Array, Integers, Mask
     from viscofric.checks import Check
     from viscofric.contact.solution import ContactSolution
+    from viscofric.showing import Rows
 
 
 _REQUIRED = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
@@ -48,7 +52,7 @@ _COORDINATES = ("speed", "temperature", "load", "slip")
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionCurves:
+class FrictionCurves(Plotted):
     """Viscoelastic (and Coulomb) friction coefficients, one entry per speed and temperature.
 
     An infinite standard error means that the number could not be found from the data.
@@ -166,6 +170,20 @@ class FrictionCurves:
 
     def __len__(self) -> int:
         return len(self.speed)
+
+    def _shown(self) -> Rows:
+        return (
+            ("speed", self.speed, "m/s"),
+            ("temperature", self.temperatures, "°C"),
+            ("load", self.load, self.load_unit),
+            ("viscoelastic friction", self.viscoelastic),
+            ("its error", self.viscoelastic_error),
+            ("Coulomb friction", self.coulomb),
+            ("error by the material", self.material_error),
+            ("replicates", self.replicates),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
 
     @property
     def temperatures(self) -> Array:
@@ -333,13 +351,32 @@ class FrictionCurves:
             )
         return self.select(keep)
 
+    def __iter__(self) -> Iterator[Self]:
+        """Iterate over the entries, each as curves of one point."""
+        return (self[place] for place in range(len(self)))
+
+    def __getitem__(self, keep: int | slice | Mask | Integers) -> Self:
+        """Return some of the entries: ``curves[0]``, ``curves[:5]``, ``curves[curves.speed > 0.05]``; see `select`."""
+        return cast("Self", self.select(np.atleast_1d(np.arange(len(self))[keep])))
+
     def to_dataset(self) -> xarray.Dataset:
-        """Return the curves as a labelled data set along ``point``, with units and long names.
+        """Return the curves as a labelled data set, with units and long names.
 
-        Speed, temperature, load and slip are coordinates; source, notes and assumption are attributes.
+        Returns
+        -------
+        xarray.Dataset
+            Over ``temperature`` and ``speed`` where there is one entry for each pair of them, over ``load``,
+            ``temperature`` and ``speed`` where there is one for each three, and else along ``point``, as
+            `points_dataset` returns it.  Speed, temperature, load and slip are coordinates; source, notes and
+            assumption are attributes.
         """
-        from viscofric.datasets import dataset
+        points = self.points_dataset()
+        found = on_grid(points, "temperature", "speed")
+        found = on_grid(points, "load", "temperature", "speed") if found is None else found
+        return points if found is None else found
 
+    def points_dataset(self) -> xarray.Dataset:
+        """Return the curves as a labelled data set along ``point``, one for each entry, in their order."""
         labels = LABELS | {"load": (self.load_unit, LOADS[self.load_unit])}
         columns = {
             name: (getattr(self, name), *label) for name, label in labels.items() if getattr(self, name) is not None

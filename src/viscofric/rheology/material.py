@@ -12,19 +12,22 @@ from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.showing import Plotted
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import ComplexArray
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 
 
 @dataclass(frozen=True, eq=False)
-class Material:
+class Material(Plotted):
     """A linear viscoelastic, incompressible or nearly incompressible rubber.
 
     E(ω, T) = b(T) E(α(T) ω, reference) (Eq. 4 of [1]_, with a vertical shift); the Poisson ratio is constant.
@@ -100,6 +103,16 @@ class Material:
         text(self.name, "name of a material")
         text(self.citation, "citation of a material")
 
+    def _shown(self) -> Rows:
+        return (
+            ("name", self.name or None),
+            ("spectrum", self.spectrum),
+            ("Poisson ratio", self.poisson_ratio),
+            ("shift", None if self.shift is None else self.shift),
+            ("reference", self.reference, "°C"),
+            ("vertical shift", None if self.vertical_shift is None else type(self.vertical_shift).__name__),
+        )
+
     @classmethod
     def standard_linear_solid(
         cls, E0: Quantity, E_inf: Quantity, tau: Quantity, poisson_ratio: float = 0.5
@@ -146,6 +159,10 @@ class Material:
             If a temperature is given for a material without a shift, or one where a shift has no meaning.
         """
         return self._moved(self.spectrum, temperature)  # type: ignore[type-var]
+
+    def to_dataset(self, temperature: Quantity | None = None) -> xarray.Dataset:
+        """Return the modes, or the table of moduli, at a temperature as a labelled data set; see `at`."""
+        return self.at(temperature).to_dataset()
 
     def _moved(self, spectrum: Spectrum, temperature: Quantity | None) -> Spectrum:
         if temperature is None:

@@ -13,6 +13,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.roughness import preparation, waves
+from viscofric.showing import Plotted
 from viscofric.units import Quantity, two_lengths
 
 if TYPE_CHECKING:
@@ -23,10 +24,11 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.height_map import HeightMap, Profile
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class Topography:
+class Topography(Plotted):
     """Heights of a rough surface on a rectangular grid, or along a line, with the steps that made them.
 
     Every method that changes heights returns a new topography with one more step in its history.
@@ -93,6 +95,18 @@ class Topography:
         object.__setattr__(self, "periodic", flag(periodic, "periodic"))
         object.__setattr__(self, "name", text(name, "name of a topography"))
         object.__setattr__(self, "history", sentences(history, "history of a topography"))
+
+    def _shown(self) -> Rows:
+        return (
+            ("name", self.name or None),
+            ("heights", self.heights, "m"),
+            ("size", " × ".join(f"{1e3 * one:.4g}" for one in self.size) + " mm"),
+            ("rms height", None if self.missing else self.rms_height, "m"),
+            ("rms slope", None if self.missing else self.rms_slope),
+            ("missing points", self.missing),
+            ("periodic", self.periodic),
+            ("steps of preparation", self.history),
+        )
 
     @property
     def shape(self) -> tuple[int, int]:

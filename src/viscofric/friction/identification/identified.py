@@ -11,6 +11,7 @@ import numpy as np
 
 from viscofric.arguments import flag, numbers
 from viscofric.datasets import dataset
+from viscofric.showing import Plotted
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+    from viscofric.showing import Rows
 
 
 #: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.
@@ -54,7 +56,7 @@ class IdentifiedBand:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Identified:
+class Identified(Plotted):
     """A material identified from a measurement: what results from friction and from indentation have in common.
 
     Samples, bands and standard errors assume a smooth spectrum; it may end, or rise to the glass transition, near the
@@ -108,6 +110,18 @@ class Identified:
     error_scale: float
     roughness: float
     notes: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("material", self.material.name or None),
+            ("spectrum", self.material.spectrum),
+            ("frequencies", self.frequency_range, "rad/s"),
+            ("determined E", f"{self.identified.decades:.2g} decades"),
+            ("magnitude known", self.anchored),
+            ("misfit (rms)", self.rms, "%"),
+            ("samples", len(self.samples)),
+            ("notes", self.notes),
+        )
 
     def standard_error(self, angular_frequency: ArrayLike, *, relative: bool | None = None) -> Array:
         """Return the relative standard error of |E(ω)| at the reference.

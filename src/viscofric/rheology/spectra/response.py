@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arguments import numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
+from viscofric.showing import Plotted
 from viscofric.units import positive
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, ComplexArray
 
 
-class FrequencyResponse(ABC):
+class FrequencyResponse(Plotted, ABC):
     """A linear viscoelastic solid or liquid at one temperature, known by E(ω) (convention e^{+iωt})."""
 
     @abstractmethod

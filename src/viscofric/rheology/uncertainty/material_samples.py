@@ -11,10 +11,11 @@ import numpy as np
 
 from viscofric.arguments import insist_on_function, numbers
 from viscofric.datasets import dataset
+from viscofric.showing import Items, Plotted
 from viscofric.units import share
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import xarray
     from numpy.typing import ArrayLike, NDArray
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.residuals import SystematicMisfit
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
@@ -45,7 +47,7 @@ class StandardErrors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class MaterialSamples:
+class MaterialSamples(Plotted, Items["Material"]):
     """Uncertainty samples of a material, bootstrap or posterior; their spread is the uncertainty.
 
     Parameters
@@ -69,12 +71,16 @@ class MaterialSamples:
     frequency_range: tuple[float, float]
     misfit: SystematicMisfit | None = None
 
-    def __len__(self) -> int:
-        return len(self.materials)
+    def _items(self) -> Sequence[Material]:
+        return self.materials
 
-    def __repr__(self) -> str:
-        low, high = self.frequency_range
-        return f"MaterialSamples({len(self)} materials, measured from {low:.3g} to {high:.3g} rad/s)"
+    def _shown(self) -> Rows:
+        return (
+            ("samples", len(self)),
+            ("measured", self.frequency_range, "rad/s"),
+            ("E0", self.E0, "Pa"),
+            ("E_inf", self.E_inf, "Pa"),
+        )
 
     @cached_property
     def E0(self) -> Array:
