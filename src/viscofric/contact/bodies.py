@@ -97,6 +97,15 @@ class Layer(Shown):
         object.__setattr__(self, "thickness", positive(self.thickness, "m", "thickness of the layer"))
         flag(self.bonded, "bonded")
 
+    @classmethod
+    def of(cls, layer: Layer | Quantity | None) -> Layer | None:
+        """Return a layer as it is, or a bonded one of a thickness such as "2 mm"; None: a half-space."""
+        if layer is None or isinstance(layer, Layer):
+            return layer
+        if isinstance(layer, (str, int, float)) or hasattr(layer, "magnitude"):
+            return cls(layer)
+        raise InputError(f"layer = {brief(layer)}: must be a Layer, or a thickness such as '2 mm'.", code="wrong-type")
+
     def _shown(self) -> Rows:
         return (
             ("thickness", self.thickness, "m"),

@@ -196,6 +196,26 @@ class FrictionCurves(Plotted):
         return np.unique(self.speed)
 
     @property
+    def friction_coefficient(self) -> Array:
+        """`viscoelastic`, (n,): the friction coefficient under the name that it has in single contacts."""
+        return self.viscoelastic
+
+    @property
+    def friction_error(self) -> Array:
+        """`viscoelastic_error`, (n,), under the name that it has in single contacts."""
+        return self.viscoelastic_error
+
+    @property
+    def interface_friction(self) -> Array | None:
+        """`coulomb`, (n,): the part of the interface under the name that it has on rough surfaces."""
+        return self.coulomb
+
+    @property
+    def interface_error(self) -> Array | None:
+        """`coulomb_error`, (n,), under the name that it has on rough surfaces."""
+        return self.coulomb_error
+
+    @property
     def total(self) -> Array:
         """Viscoelastic plus Coulomb friction, (n,): friction where the rubber is deformed in the direction of slip.
 

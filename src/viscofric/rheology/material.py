@@ -11,7 +11,7 @@ from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.showing import Plotted
 from viscofric.units import checked_poisson_ratio, positive
 
@@ -75,11 +75,13 @@ class Material(Plotted):
     citation: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.spectrum, (RetardationSpectrum, ModulusTable)):
-            hint = "; a Prony series is turned into one by its to_retardation()"
+        given: object = self.spectrum
+        if isinstance(given, RelaxationSpectrum):
+            object.__setattr__(self, "spectrum", given.to_retardation())
+        elif not isinstance(given, (RetardationSpectrum, ModulusTable)):
             raise InputError(
-                "spectrum of a material must be a RetardationSpectrum or a ModulusTable, not "
-                f"{type(self.spectrum).__name__}{hint if hasattr(self.spectrum, 'to_retardation') else ''}.",
+                "spectrum of a material must be a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable, not "
+                f"{type(given).__name__}.",
                 code="wrong-type",
             )
         if not (self.shift is None or isinstance(self.shift, ShiftLaw)):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import scipy.fft
@@ -20,6 +20,14 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, ComplexArray
     from viscofric.showing import Rows
+
+
+@runtime_checkable
+class Topographic(Protocol):
+    """What becomes a periodic surface, such as a topography."""
+
+    def to_surface(self) -> PeriodicSurface:
+        """Return it as a periodic surface."""
 
 
 class Coarser(NamedTuple):

@@ -155,6 +155,16 @@ class FrictionMasterCurve(Plotted):
         )
 
     @property
+    def friction_coefficient(self) -> Array:
+        """`friction`, (n,), under the name that it has in single contacts."""
+        return self.friction
+
+    @property
+    def friction_error(self) -> Array:
+        """`error`, (n,), under the name that it has in single contacts."""
+        return self.error
+
+    @property
     def reduced_range(self) -> tuple[float, float]:
         """Lowest and highest reduced speed, m/s."""
         return float(self.reduced_speed[0]), float(self.reduced_speed[-1])
