@@ -12,7 +12,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.showing import Items, Plotted, rows_of
-from viscofric.units import checked_poisson_ratio, positive
+from viscofric.units import checked_poisson_ratio, in_si, positive
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -39,9 +39,37 @@ def tensile_from_shear(poisson_ratio: float, what: str = "moduli", more: str = "
 _LARGEST_WHOLE = 2**53
 
 
-def read_only(values: object, name: str = "a column of measurements") -> Array:
-    """Return a read-only float copy, so that frozen measurements stay frozen; errors use the name."""
-    column = np.array(numbers(values, name, infinite=True, missing=True))
+#: Quantity that the name of a column begins with -> its unit, in which text and quantities are converted.
+_UNITS = {
+    "angular_frequency": "rad/s",
+    "storage_modulus": "Pa",
+    "loss_modulus": "Pa",
+    "temperature": "K",
+    "time": "s",
+    "speed": "m/s",
+    "disc_speed": "m/s",
+    "ball_speed": "m/s",
+    "slip": "m/s",
+    "load": "N",
+    "traction_force": "N",
+    "zero_force": "N",
+    "offset": "N",
+    "track_radius": "m",
+    "mean_pressure": "Pa",
+}
+
+
+def read_only(values: object, name: str = "a column of measurements", unit: str = "") -> Array:
+    """Return a read-only float copy, so that frozen measurements stay frozen; errors use the name.
+
+    Text and quantities are converted to the unit, or that of the quantity that the name begins with.
+    """
+    unit = unit or _UNITS.get(name.split(maxsplit=1)[0], "")
+    column = np.array(
+        in_si(values, unit, name, infinite=True, missing=True)
+        if unit
+        else numbers(values, name, infinite=True, missing=True)
+    )
     column.flags.writeable = False
     return column
 
@@ -306,7 +334,7 @@ class MasterCurve(Plotted, Items[tuple[float, float, float]]):
     reference: float
 
     def __post_init__(self) -> None:
-        shape = numbers(self.angular_frequency, "angular_frequency of a master curve").shape
+        shape = read_only(self.angular_frequency, "angular_frequency of a master curve").shape
         for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
             column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
             object.__setattr__(self, name, column)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import insist_on, numbers, sentences, text, whole_number
+from viscofric.arguments import insist_on, sentences, text, whole_number
 from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
@@ -246,7 +246,7 @@ class StepMasterCurve(Plotted):
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")
-        shape = numbers(self.time, "time of a master curve").shape
+        shape = read_only(self.time, "time of a master curve").shape
         for name in ("time", "response", "temperature"):
             column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
             object.__setattr__(self, name, column)

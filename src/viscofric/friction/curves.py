@@ -152,15 +152,16 @@ class FrictionCurves(Plotted):
     mean_pressure_error: Array | None = None
 
     def __post_init__(self) -> None:
+        check_choice(self.load_unit, "load_unit", "N", "N/m")
         shape = (read_only(self.speed, "speed of friction curves").size,)
         for name in (*_REQUIRED, *_OPTIONAL):
             if name in _REQUIRED or getattr(self, name) is not None:
-                object.__setattr__(self, name, _column(getattr(self, name), name, shape))
+                unit = self.load_unit if name == "load" else ""
+                object.__setattr__(self, name, _column(getattr(self, name), name, shape, unit))
         replicates = whole_numbers(self.replicates, "replicates of friction curves")
         if replicates.shape != shape:
             raise InputError("replicates of friction curves must hold one whole number per speed.", code="wrong-length")
         object.__setattr__(self, "replicates", replicates)
-        check_choice(self.load_unit, "load_unit", "N", "N/m")
         for name in ("source", "assumption"):
             text(getattr(self, name), f"{name} of friction curves")
         object.__setattr__(self, "notes", sentences(self.notes, "notes of friction curves"))
@@ -419,8 +420,8 @@ def insist_on_curves(given: object, name: str) -> FrictionCurves:
     return given
 
 
-def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
-    column = read_only(values, f"{name} of friction curves")
+def _column(values: object, name: str, shape: tuple[int, ...], unit: str) -> Array:
+    column = read_only(values, f"{name} of friction curves", unit)
     if column.shape != shape:
         raise InputError(f"{name} of friction curves must hold one value per speed.", code="wrong-length")
     if name.endswith(("_error", "_scatter", "_freedom")):

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viscofric.arguments import check_cost, flag, numbers, sentences, text
+from viscofric.arguments import check_cost, flag, sentences, text
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.roughness import preparation, waves
 from viscofric.showing import Plotted
-from viscofric.units import Quantity, two_lengths
+from viscofric.units import Quantity, in_si, two_lengths
 
 if TYPE_CHECKING:
     import xarray
@@ -76,7 +76,7 @@ class Topography(Plotted):
         name: str = "",
         history: tuple[str, ...] = (),
     ) -> None:
-        z = np.array(numbers(heights, "heights of a topography", infinite=True, missing=True))
+        z = np.array(in_si(heights, "m", "heights of a topography", infinite=True, missing=True))
         z = z[:, None] if z.ndim == 1 else z
         if z.ndim != 2 or z.shape[0] < 2 or z.size == 0:
             raise InputError(

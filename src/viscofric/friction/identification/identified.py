@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.arguments import flag, numbers
+from viscofric.arguments import flag
 from viscofric.datasets import dataset
 from viscofric.showing import Plotted
-from viscofric.units import shown_celsius
+from viscofric.units import in_si, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -133,7 +133,7 @@ class Identified(Plotted):
         relative : bool, optional
             Whether of |E(ω)| over that at the middle frequency; if not given, without an anchor.
         """
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         rows = np.array([np.log(np.abs(one.complex_modulus(omega))) for one in self.samples.materials])
         if not self.anchored if relative is None else flag(relative, "relative"):
             level = self._levels
@@ -160,8 +160,10 @@ class Identified(Plotted):
             Along ``angular_frequency``: ``storage_modulus`` and ``loss_modulus`` with ``_lower`` and ``_upper`` (Pa),
             and ``modulus_error``, relative; the other results, in SI units, are its attributes.
         """
-        wanted = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
-        omega = np.ravel(wanted)
+        wanted = (
+            self.frequencies if angular_frequency is None else in_si(angular_frequency, "rad/s", "angular_frequency")
+        )
+        omega = np.ravel(in_si(wanted, "rad/s", "angular_frequency"))
         modulus, band = np.asarray(self.material.complex_modulus(omega)), self.samples.modulus_band(omega)
         columns = {}
         for name, part in (("storage", "real"), ("loss", "imag")):

@@ -17,6 +17,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.rheology.shifts.columns import checked_covariance
 from viscofric.showing import Plotted
+from viscofric.units import to_si
 
 if TYPE_CHECKING:
     import xarray
@@ -30,6 +31,14 @@ if TYPE_CHECKING:
 _DRAWN = 101
 #: The constants in the order of their covariance.
 CONSTANTS = ("storage_linear", "storage_large", "critical_strain", "exponent", "loss_peak", "loss_large")
+
+
+_UNITS = dict.fromkeys(CONSTANTS, "Pa") | {
+    "critical_strain": "dimensionless",
+    "exponent": "dimensionless",
+    "angular_frequency": "rad/s",
+    "temperature": "K",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +89,9 @@ class KrausLaw(Plotted):
 
     def __post_init__(self) -> None:
         for name in (*CONSTANTS, "angular_frequency", "temperature"):
-            if not (value := number(getattr(self, name), name)) > 0.0:
+            value = getattr(self, name)
+            value = to_si(value, _UNITS[name], name) if isinstance(value, str) else number(value, name)
+            if not value > 0.0:
                 raise InputError(f"{name} = {value:g}: must be above zero.")
             object.__setattr__(self, name, value)
         check_choice(self.deformation, "deformation", *DEFORMATIONS)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import insist_on, numbers, sentences
+from viscofric.arguments import insist_on, sentences
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
@@ -21,7 +21,7 @@ from viscofric.rheology.spectra.sparse import joint_error
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum
 from viscofric.showing import Items, rows_of
 from viscofric.threads import one_blas_thread
-from viscofric.units import to_si
+from viscofric.units import in_si, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -210,7 +210,7 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
         InputError
             If a frequency is outside the table and not to be extrapolated, or is NaN.
         """
-        signed = numbers(angular_frequency, "angular_frequency", infinite=True)
+        signed = in_si(angular_frequency, "rad/s", "angular_frequency", infinite=True)
         omega = np.abs(signed)
         low, high = float(self.angular_frequency[0]), float(self.angular_frequency[-1])
         outside = ~((omega >= low * (1.0 - _ROUNDING)) & (omega <= high * (1.0 + _ROUNDING)))
@@ -257,7 +257,7 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
 
 
 def _column(values: ArrayLike, name: str) -> Array:
-    column = np.atleast_1d(np.array(numbers(values, name)))
+    column = np.atleast_1d(np.array(in_si(values, "rad/s" if name == "angular_frequency" else "Pa", name)))
     if column.ndim != 1 or not np.all(column > 0.0):
         raise InputError(
             f"{name} of a modulus table must be one row of finite numbers above zero.", code="not-a-number"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import insist_on, numbers
+from viscofric.arguments import insist_on
 from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
@@ -21,7 +21,7 @@ from viscofric.rheology.spectra.response import (
 )
 from viscofric.showing import Items, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
-from viscofric.units import positive, to_si
+from viscofric.units import in_si, positive, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -124,7 +124,7 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
 
     def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         # Mode by mode: a grid of a million frequencies does not fit into memory forty times.
         total = np.full(omega.shape, 1.0 / self.E_inf, dtype=complex)
         for compliance, time in zip(self.C, self.tau, strict=True):
@@ -344,7 +344,7 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
 
     def complex_modulus(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         total = np.full(omega.shape, self.E0, dtype=complex)
         for modulus, time in zip(self.E, self.tau, strict=True):
             total += modulus * (1j * omega * time) / (1.0 + 1j * omega * time)

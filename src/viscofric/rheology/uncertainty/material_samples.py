@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arguments import insist_on_function, numbers
+from viscofric.arguments import insist_on_function
 from viscofric.datasets import dataset
 from viscofric.showing import Items, Plotted
-from viscofric.units import share
+from viscofric.units import in_si, share
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -128,7 +128,7 @@ class MaterialSamples(Plotted, Items["Material"]):
         Where the spectrum misses what was measured by more than noise (`misfit`), this is added as another error of the
         logarithms of E' and E'', independent of those that were drawn.
         """
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
         storage, loss = _limits(moduli.real, level), _limits(moduli.imag, level)
         if self.misfit is not None and np.any(self.misfit.size):
@@ -153,7 +153,7 @@ class MaterialSamples(Plotted, Items["Material"]):
             ``storage_modulus_lower``, ``storage_modulus_upper``, ``loss_modulus_lower`` and ``loss_modulus_upper`` (Pa)
             along ``angular_frequency`` (rad/s).
         """
-        omega = np.ravel(numbers(angular_frequency, "angular_frequency"))
+        omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         band = self.modulus_band(omega, temperature, level)
         columns = {}
         for part, take in {"storage": np.real, "loss": np.imag}.items():
