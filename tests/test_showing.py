@@ -5,7 +5,7 @@ import inspect
 import pickle
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -230,6 +230,20 @@ def test_a_result_draws_itself(objects, name):
 def test_an_object_is_the_same_after_pickling(objects, name):
     again = pickle.loads(pickle.dumps(objects[name]))
     assert repr(again) == repr(objects[name])
+    assert again == objects[name]
+    if type(again).__hash__ is Shown.__hash__:
+        assert hash(again) == hash(objects[name])
+
+
+def test_objects_with_other_numbers_are_others(objects):
+    spectrum, curves = objects["RetardationSpectrum"], objects["FrictionCurves"]
+    assert vf.Material(spectrum) == vf.Material(replace(spectrum)) != vf.Material(spectrum.shifted(2.0))
+    assert vf.Material(spectrum) != spectrum
+    assert curves[1:] != curves[:-1]
+    assert len({curves, curves[:], curves[1:]}) == 2
+    runs = objects["TractionRuns"]
+    unknown = replace(runs, zero_force=np.full(len(runs), np.nan))
+    assert unknown == replace(runs, zero_force=np.full(len(runs), np.nan)) != runs
 
 
 @pytest.mark.parametrize("name", sorted(name for name, found in CLASSES.items() if issubclass(found, Items)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import math
 from collections.abc import Iterable, Mapping, Sized
-from dataclasses import fields, is_dataclass
+from dataclasses import Field, fields, is_dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar, cast, overload
 
@@ -57,6 +57,17 @@ class Shown:
 
     def __repr__(self) -> str:
         return shown_as_text(type(self).__name__, self._shown())
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all public fields are the same, arrays with all their numbers; some dataclasses have their own."""
+        if type(self) is not type(other) or not is_dataclass(self):
+            return NotImplemented
+        return self is other or _same_fields(self, other)
+
+    def __hash__(self) -> int:
+        if not is_dataclass(self):
+            return object.__hash__(self)
+        return hash((type(self), *(_hashed(getattr(self, one.name)) for one in _compared(self))))
 
     def _repr_html_(self) -> str:
         return shown_as_html(type(self).__name__, self._shown())
@@ -123,6 +134,47 @@ class Items(Generic[Item]):
     def __getitem__(self, place: slice) -> Sequence[Item]: ...
     def __getitem__(self, place: int | slice) -> Item | Sequence[Item]:
         return self._items()[place]
+
+
+def same(one: Any, other: Any) -> bool:
+    """Return whether two values are the same: arrays with all their numbers, NaN where the other has one."""
+    if one is other:
+        return True
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        first, second = np.asarray(one), np.asarray(other)
+        return np.array_equal(first, second, equal_nan=first.dtype.kind in "fc" and second.dtype.kind in "fc")
+    if type(one) is not type(other):
+        return bool(one == other)
+    if isinstance(one, float):
+        return one == other or (math.isnan(one) and math.isnan(other))
+    if isinstance(one, (tuple, list)):
+        return len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, Mapping):
+        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
+    if hasattr(one, "identical"):  # of xarray
+        return bool(one.identical(other))
+    if is_dataclass(one) and type(one).__eq__ is object.__eq__:
+        return _same_fields(one, other)
+    return bool(one == other)
+
+
+def _same_fields(one: Any, other: Any) -> bool:
+    return all(same(getattr(one, each.name), getattr(other, each.name)) for each in _compared(one))
+
+
+def _compared(one: Any) -> list[Field[Any]]:
+    return [each for each in fields(one) if each.compare and not each.name.startswith("_")]
+
+
+def _hashed(value: Any) -> Any:
+    """Return what the hash of an object takes of a field: equal for all that `same` calls the same."""
+    if isinstance(value, np.ndarray):
+        value = float(value.sum()) if value.dtype.kind in "fiu" else value.shape
+    if isinstance(value, float):
+        return 0.0 if math.isnan(value) else value
+    if isinstance(value, (str, int)) or getattr(type(value), "__hash__", None) is Shown.__hash__:
+        return value
+    return None
 
 
 def rows_of(*columns: np.ndarray[Any, np.dtype[Any]]) -> list[Any]:
