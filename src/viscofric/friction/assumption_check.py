@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from viscofric.checks import Check
 from viscofric.contact.free.scale import Scale
 from viscofric.notes import note_of
+from viscofric.showing import Shown
 from viscofric.units import plain, shown_celsius, shown_speed
 
 if TYPE_CHECKING:
@@ -23,10 +24,11 @@ if TYPE_CHECKING:
     from viscofric.notes import Reader
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)
-class AssumptionCheck(Check):
+class AssumptionCheck(Shown, Check):
     """One assumption behind predicted friction, checked.
 
     Attributes
@@ -48,6 +50,14 @@ class AssumptionCheck(Check):
     values : mapping
         Numbers of the sentence by name, in SI units, with the temperature, speed and load where it is worst.
     """
+
+    def _shown(self) -> Rows:
+        return (
+            ("assumption", self.name),
+            ("holds", "unknown" if self.holds is None else self.holds),
+            ("value", self.value),
+            ("limit", self.limit),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the check as a labelled data set along ``assumption``; see `assumptions_dataset`."""
