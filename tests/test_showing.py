@@ -283,6 +283,7 @@ def test_numbers_are_shown_with_their_units_and_errors():
         shown_value((1.0, 1e3), "Hz"),
         shown_value(()),
         shown_value("a" * 100),
+        shown_value("3.14, " * 20),
     ]
     assert shown == [
         "20 mm/s",
@@ -295,7 +296,8 @@ def test_numbers_are_shown_with_their_units_and_errors():
         "3 of 25 N",
         "1 Hz to 1 kHz",
         "none",
-        "a" * 47 + "…",
+        "a" * 79 + "…",
+        "3.14, " * 12 + "3.14 …",
     ]
 
 

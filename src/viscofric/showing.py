@@ -34,7 +34,7 @@ _PREFIXED = {"m", "m²", "m/s", "N", "N/m", "Pa", "J", "J/m", "W", "Hz", "s"}
 _ROUND_OFF = 1e-12
 _SPACE = "\N{NO-BREAK SPACE}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_LONGEST_VALUE = 48
+_LONGEST_VALUE = 80
 _LONGEST_LINE = 100
 
 
@@ -222,7 +222,10 @@ def shown_value(value: Any, unit: str = "", error: float | None = None) -> str:
         text = ", ".join(" ".join(row) for row in _texts(value._shown()))
     else:
         text = " ".join(str(value).split())
-    return text if len(text) <= _LONGEST_VALUE else f"{text[: _LONGEST_VALUE - 1]}…"
+    if len(text) <= _LONGEST_VALUE:
+        return text
+    words = text[:_LONGEST_VALUE].rpartition(" ")[0].rstrip(",=")  # a number that is cut would be another one
+    return f"{words} …" if words else f"{text[: _LONGEST_VALUE - 1]}…"
 
 
 def _array(values: np.ndarray[Any, np.dtype[Any]], unit: str) -> str:
