@@ -167,6 +167,18 @@ def test_elastic_cylinder_on_a_layer_has_no_far_field() -> None:
     assert abs(found.diagnostics.energy) < 0.02
 
 
+@pytest.mark.parametrize("tau", [1e15, 1e40])
+def test_memory_without_end_leaves_a_glassy_layer(tau: float) -> None:
+    # A retardation time at low temperature: the way slid in it is longer than any integer of cells.
+    glass = vf.Material.standard_linear_solid(E0=E_INF, E_inf=1.001 * E_INF, tau=TAU)
+    settings = {"load": 100.0, "layer": vf.Layer(SIZE), "accuracy": 1e-2}
+    found = vf.solve_steady(rubber(0.5, tau), indenter(True), speed=1.0, **settings)  # type: ignore[arg-type]
+    at_rest = vf.solve_steady(glass, indenter(True), speed=0.0, **settings)  # type: ignore[arg-type]
+    assert found.indentation == pytest.approx(at_rest.indentation, rel=1e-3)
+    assert found.max_pressure == pytest.approx(at_rest.max_pressure, rel=1e-3)
+    assert 0.0 < found.friction_coefficient < 1e-9
+
+
 def test_units_do_not_matter_on_a_layer() -> None:
     one = vf.solve_steady(rubber(0.4), vf.Ball(RADIUS), speed=1.0, load=1.0, layer=vf.Layer(1e-3), accuracy=1e-2)
     material = vf.Material.standard_linear_solid(E0=1e6 * E0, E_inf=1e6 * E_INF, tau=1e9 * TAU, poisson_ratio=0.4)

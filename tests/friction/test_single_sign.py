@@ -102,6 +102,14 @@ def test_both_disc_directions_at_one_slip_need_no_zero_with_a_known_coulomb_fric
         separate(runs, coulomb="constant")
 
 
+def test_one_slip_is_separated_where_a_replicate_is_incomplete() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=[(1, 1), (-1, 1)], speeds=[0.1], replicates=3)
+    rows = rows_of(runs)[1:]
+    curves = separate(runs_from(rows[rows[:, 4] == rows[0, 4]]), coulomb=(0.05, 0.01))
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=ROUNDING)
+    np.testing.assert_array_equal(curves.coulomb_freedom, np.inf)  # type: ignore[arg-type]
+
+
 def test_one_speed_shows_nothing_of_constant_coulomb_friction() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=[(1, 1)], speeds=[0.1])
     with refused("one-speed"):

@@ -92,6 +92,20 @@ def test_a_law_of_one_temperature_is_refused_at_another():
     assert fit_stress("constant", one, None, 303.15, energy=False).law(0.01, 323.15) > 0.0
 
 
+def test_stress_beyond_all_numbers_is_refused_with_its_limits():
+    law = vf.PowerShearStress(
+        3e5, 1.0, 0.01, shift=vf.VFT("1500 K", "200 K", "20 degC"), covariance=np.diag([1e8, 1e4])
+    )
+    for ask in (law, law.interval):
+        with pytest.raises(vf.InputError) as refused:
+            ask(0.01, 201.0)  # shifted by 644 decades
+        assert refused.value.code == "too-large"
+    assert law(10.0, 293.15) == pytest.approx(3e8)
+    with pytest.raises(vf.InputError) as refused:
+        law.interval(10.0, 293.15)  # ± 600 decades
+    assert refused.value.code == "too-large"
+
+
 def test_stress_without_a_maximum_has_no_gaussian_and_too_few_points_no_law():
     with pytest.raises(vf.InputError) as refused:
         fit_stress("gaussian", table(vf.PowerShearStress(3e5, 0.2, 0.01)), None, 303.15, energy=False)

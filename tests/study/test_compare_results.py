@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 made = partial(made_results, stored=False)
 
 
-def changed(results: StudyResults, folder: Path, name: str, factor: float, case: int) -> StudyResults:
-    """Return results with one number of them changed."""
+def changed(results: StudyResults, folder: Path, name: str, factor: float, case: int | slice) -> StudyResults:
+    """Return results with one number of them, or all of a slice, changed."""
     tree = results.tree.copy(deep=True)
     tree["prediction"][name].values.reshape(-1)[case] *= factor
     return StudyResults(tree, folder)
@@ -45,6 +45,17 @@ def test_results_are_the_same_as_themselves(tmp_path: Path) -> None:
     assert {one.points for one in found.differences} == {17}
     assert {one.largest for one in found.differences} == {0.0}
     assert results.compare(results).equal
+
+
+def test_line_contacts_are_the_same_as_themselves_and_no_point_contacts(tmp_path: Path) -> None:
+    points = made(tmp_path / "a")
+    lines = changed(points, tmp_path / "b", "half_width", np.inf, slice(None))  # as a line contact is stored
+    found = vf.compare_results(lines, lines)
+    assert found.equal
+    assert "half_width" not in {one.name for one in found.differences}
+    ends = difference(vf.compare_results(points, lines), "half_width")
+    assert not ends.equal
+    assert ends.largest == ends.rms == 1.0
 
 
 def test_the_largest_difference_is_found_where_it_is(tmp_path: Path) -> None:

@@ -65,7 +65,7 @@ class _Table:
     reach: float
 
     def __call__(self, distance: Array) -> Array:
-        """Value at r/H up to the reach."""
+        """Value at r/H up to the reach; beyond it, the value at the end."""
         piece, t = self._locate(distance)
         result = np.asarray(self.coefficients[-1][piece])
         for row in self.coefficients[-2::-1]:
@@ -82,8 +82,9 @@ class _Table:
         return result * (2.0 / _PIECE)
 
     def _locate(self, distance: Array) -> tuple[Indices, Array]:
-        scaled = distance / _PIECE
-        piece = np.minimum(scaled.astype(np.intp), self.coefficients.shape[1] - 1)
+        count = self.coefficients.shape[1]
+        scaled = np.minimum(distance / _PIECE, count)  # before it becomes an index: memories reach beyond all integers
+        piece = np.minimum(scaled.astype(np.intp), count - 1)
         return piece, 2.0 * (scaled - piece) - 1.0
 
 

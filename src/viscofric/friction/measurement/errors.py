@@ -57,7 +57,7 @@ class BetweenRuns:
         """Estimate them; `weights` (3,) are those of force, drift and changes of the zero."""
         scatters = [_scatters(fit, weights) for fit in fits]
         variance = np.array([[one.variance for one in several] for several in scatters])
-        freedom = np.array([[one.freedom for one in several] for several in scatters])
+        freedom = np.array([[one.freedom for one in several] for several in scatters], dtype=np.float64)
         sizes = np.array([_size(fit, weights) for fit in fits])
         alike: dict[tuple[object, ...], list[int]] = defaultdict(list)
         for place, fit in enumerate(fits):

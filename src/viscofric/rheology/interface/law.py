@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from viscofric.arguments import insist_on, number, numbers
+from viscofric.arguments import LARGEST, insist_on, number, numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.nominal import SAME_TEMPERATURE
@@ -150,9 +150,19 @@ class InterfaceLaw(Shown, ABC):
         Raises
         ------
         InputError
-            If a speed is not above zero, or the law is not known at a temperature.
+            If a speed is not above zero, the law is not known at a temperature, or the stress is too large for
+            computations.
         """
-        return in_shape(10.0 ** self._log10(*self._arguments(speed, temperature)))
+        return in_shape(self._in_pascal(self._log10(*self._arguments(speed, temperature))))
+
+    def _in_pascal(self, decades: Array) -> Array:
+        if np.any(decades > np.log10(LARGEST)):
+            raise InputError(
+                f"this {self.title} law gives a shear stress beyond {LARGEST:g} Pa: its speed or temperature is far "
+                "from those that the law describes; leave it out.",
+                code="too-large",
+            )
+        return np.asarray(10.0**decades)
 
     def standard_error(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
         """Return the standard error of log10 τ_s, by the delta method.
@@ -210,9 +220,9 @@ class InterfaceLaw(Shown, ABC):
             As `standard_error` raises it, or if the level is not between 0 and 1.
         """
         half = NormalDist().inv_cdf(0.5 + 0.5 * share(level, "level", example=0.95))
-        factor = 10.0 ** (half * self.standard_error(speed, temperature))
-        value = self(speed, temperature)
-        return value / factor, value * factor
+        middle = self._log10(*self._arguments(speed, temperature))
+        away = half * self.standard_error(speed, temperature)
+        return in_shape(self._in_pascal(middle - away)), in_shape(self._in_pascal(middle + away))
 
     def extrapolates(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
         """Return whether reduced speed or temperature lie outside those of the fit.

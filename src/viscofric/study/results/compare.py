@@ -165,7 +165,9 @@ def compare_tables(one: CaseTable, other: CaseTable, tolerance: float | None) ->
     """Compare two tables case by case; see `viscofric.compare_results`."""
     pairs = common_cases(one, other)
     accuracy = max(table.accuracy or 0.0 for table in (one, other)) or _USUAL_ACCURACY
-    names = [name for name in COMPARED if name in one.columns and name in other.columns]
+    shared = [name for name in COMPARED if name in one.columns and name in other.columns]
+    # A line contact has no end across the motion.
+    names = [name for name in shared if any(np.isfinite(table.columns[name]).any() for table in (one, other))]
     solved = one.solved[pairs.first], other.solved[pairs.second]
     both = solved[0] & solved[1]
     rows = pairs.first[both], pairs.second[both]
@@ -193,14 +195,15 @@ def _difference(
     """Compare one variable over the cases that both have solved."""
     a, b = (table.columns[name][row] for table, row in zip(tables, rows, strict=True))
     gap, scale = np.abs(a - b), np.maximum(np.abs(a), np.abs(b))
-    relative = np.divide(gap, scale, out=np.zeros_like(gap), where=scale > 0.0)
+    # Of a half-width with an end and one without, the difference is the whole.
+    relative = np.divide(gap, scale, out=np.minimum(gap, 1.0), where=(scale > 0.0) & np.isfinite(scale))
     errors = _combined_error(name, tables, rows)
     if tolerance is not None:
         within = relative <= tolerance
     elif errors is None:
         within = relative <= _WITHIN * accuracy
     else:
-        within = gap <= _WITHIN * errors + _LAST_DIGITS * scale
+        within = np.isfinite(gap) & (gap <= _WITHIN * errors + _LAST_DIGITS * scale)
     # The largest difference among those beyond the limit, if there are any.
     worst = int(np.argmax(relative if within.all() else np.where(within, -1.0, relative)))
     return VariableDifference(

@@ -162,7 +162,7 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
     if tables.get("surface") is not None:
         yield "measurement", "needs a ball, but there is a rough [surface]"
     if indenter is not None and not isinstance(indenter, BallTable):
-        yield "measurement", f"needs a ball, but the indenter is a {indenter.shape}"
+        yield "measurement", f"needs a ball, but the shape of the indenter is {indenter.shape}"
     elif indenter is not None and len(indenter.radius) > 1:
         yield "measurement", f"needs one ball, but indenter.radius has {len(indenter.radius)} values"
     if tables.get("layer") is not None:
@@ -183,7 +183,7 @@ def _history(tables: Tables) -> Iterator[Problem]:
     if tables.get("surface") is not None:
         yield "impact", "needs an [indenter], but there is a rough [surface]"
     elif indenter is not None and indenter.shape not in ("ball", "cone"):
-        yield "impact", f"needs a ball or a cone, but the indenter is a {indenter.shape}"
+        yield "impact", f"needs a ball or a cone, but the shape of the indenter is {indenter.shape}"
     if tables.get("layer") is not None:
         yield "impact", "needs a half-space, but there is a [layer]"
 
