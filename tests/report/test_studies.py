@@ -155,9 +155,12 @@ def test_tables_of_large_studies_end_and_name_the_file_with_all_rows(
 ) -> None:
     monkeypatch.setattr(html, "figure_images", lambda *_: {})
     monkeypatch.setattr(friction_tables, "_LONGEST", 50)
-    page = write_report(make_study(STUDIES["loads"]), tmp_path).read_text("utf-8")
+    tree = make_study(STUDIES["loads"])
+    page = write_report(tree, tmp_path).read_text("utf-8")
+    (shown,) = (one for one in detail_tables(tree) if one.key == "prediction")
+    assert shown.left_out == 34
+    assert "results.nc" in shown.note
     assert "First 50 of 84 rows" in page
-    assert "All rows are in results.nc" in page
     table = page[page.index('id="table-prediction"') :]
     assert table[: table.index("</table>")].count("<tr>") == 51
 
