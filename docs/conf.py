@@ -11,7 +11,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "_extensions"))
 
 project = "viscofric"
-author = "the viscofric authors"
+author = "viscofric developers"
 copyright = f"{date.today().year}, {author}"  # noqa: A001 - Sphinx's name
 release = version = installed("viscofric")
 

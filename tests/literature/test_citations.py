@@ -177,7 +177,7 @@ def test_what_is_no_result_is_said_in_a_sentence(wrong: tuple[object, ...]) -> N
 
 def test_printed_list_is_readable() -> None:
     lines = str(vf.citations(vf.synthetic_fluoroelastomer(), curves())).splitlines()
-    assert lines[0].startswith(f"[1] the viscofric authors, “viscofric”, version {vf.__version__}")
+    assert lines[0].startswith(f"[1] viscofric developers, “viscofric”, version {vf.__version__}")
     assert max(map(len, lines)) <= 120
     heads = [int(line[1 : line.index("]")]) for line in lines if line.startswith("[")]
     assert heads == list(range(1, len(heads) + 1))
