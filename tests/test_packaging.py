@@ -15,6 +15,7 @@ from email import message_from_string
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[1]
 #: Not of the project: what tools make in a checkout.
@@ -114,6 +115,28 @@ def test_text_for_the_package_index_stands_alone() -> None:
     text = (ROOT / project["readme"]).read_text(encoding="utf-8")
     targets = re.findall(r"\]\(([^)\s]+)|(?:src|href)=\"([^\"]+)", text)
     assert all(one.startswith("https://") for pair in targets for one in pair if one)
+
+
+def test_recipe_for_conda_has_version_and_dependencies_of_the_package() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
+    assert f'{{% set version = "{project["version"]}" %}}' in recipe
+    needed = re.findall(r"(?m)^    - ([\w-]+) (>=\S+)$", recipe.split("  run:\n")[1].split("\ntest:")[0])
+    wanted = [("python", project["requires-python"])]
+    wanted += [re.fullmatch(r"([\w-]+)(>=\S+)", one.lower()).groups() for one in project["dependencies"]]
+    assert needed == [("matplotlib-base" if name == "matplotlib" else name, least) for name, least in wanted]
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / ".github" / "workflows").glob("*.yml")), ids=lambda path: path.name)
+def test_workflows_call_what_there_is(path: Path) -> None:
+    """Steps that call `run` name commands of it, and Pythons are those that the package supports."""
+    workflow = yaml.safe_load(path.read_text(encoding="utf-8"))
+    steps = [step.get("run", "") for job in workflow["jobs"].values() for step in job["steps"]]
+    called = {words[2] for words in map(str.split, steps) if words[:2] == ["python", "run"]}
+    assert called <= {"test", "docs", "verify", "--version"}
+    assert any("python -m build" in step for step in steps)
+    for script in re.findall(r"(?m)^(\.ci/\S+)", "\n".join(steps)):
+        assert os.access(ROOT / script, os.X_OK)
 
 
 def members(sdist: Path) -> set[str]:
