@@ -83,7 +83,9 @@ html_theme_options = {
     "pygments_dark_style": "a11y-high-contrast-dark",
 }
 html_favicon = "_static/mark.svg"
-html_sidebars = {page: [] for page in ("index", "changes", "glossary", "installation", "limits", "verification")}
+html_sidebars = {
+    page: [] for page in ("index", "changes", "faq", "glossary", "installation", "limits", "stability", "verification")
+}
 
 # the examples at the root of the checkout, with what they draw
 exclude_patterns += ["auto_examples/**/*.py", "auto_examples/**/*.ipynb", "auto_examples/**/*.md5"]
