@@ -464,7 +464,8 @@ CALLS: dict[str, Any] = {
     "Identified.standard_error": lambda: (from_indentation(), {"angular_frequency": np.array([1.0]), "relative": None}),
     "Identified.to_dataset": lambda: (from_indentation(), {"angular_frequency": np.array([1.0])}),
     "predict_friction": lambda: {"material": shifted(), "indenter": CYLINDER, "speeds": [0.1, 1.0], "temperatures":
-        [300.0], "load": 1e3, "samples": None, "interface": eyring(), "slip": 0.1, "accuracy": 3e-2, "workers": 1,
+        [300.0], "load": 1e3, "loads": None,
+        "samples": None, "interface": eyring(), "slip": 0.1, "accuracy": 3e-2, "workers": 1,
         "progress": None, "finest": 2048, "heating": None, "exact": False},
     "shear_stress": lambda: {"curves": rubbed(), "contacts": rubbed(), "shift": None, "reference": 300.0,
         "level_error": 0.0, "area_error": 0.0},
@@ -679,6 +680,7 @@ KINDS = {
     "progress": "function", "value": "function", "spacing": "pair", "zero": "pair",
     "coulomb": "pair", "covariance": "numbers", "window": "numbers", "y of Topography.crop": "numbers",
     "temperature of ParametricLaw": "numbers", "parameters": "numbers", "tolerance of predict_rough_friction": "number",
+    "layer": "number",
     "finest of predict_friction": "number", "scheduler": "text", "notes": "texts", "history": "texts",
 }  # fmt: skip
 #: Columns in which NaN stands for what was not measured.

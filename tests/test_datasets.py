@@ -80,10 +80,9 @@ INPUTS = {
     "ContactAnchor",
     "History",
     "Layer",
-    "Material",
     "ModulusAnchor",
 }
-INPUTS |= {"Heating", "MovingHeatSource", "PeriodicSurface", "Study", "StudyResults", "ThermalProperties"}
+INPUTS |= {"Heating", "MovingHeatSource", "PeriodicSurface", "Study", "ThermalProperties"}
 #: Parts of results, whose numbers lie in the data set of the whole.
 PARTS = {
     "Diagnostics": "ContactSolution",

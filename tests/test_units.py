@@ -7,11 +7,13 @@ import math
 import numpy as np
 import pytest
 
+import viscofric as vf
 from refusals import refused
 from viscofric.errors import InputError
 from viscofric.units import (
     angular_frequency,
     conversion,
+    in_si,
     kelvin_hint,
     positive,
     registry,
@@ -186,3 +188,37 @@ def test_a_hertz_is_two_pi_radians_per_second_whoever_says_it(as_text: bool) -> 
     assert to_si(given("60 rpm"), "rad/s") == pytest.approx(2.0 * math.pi)
     with refused("wrong-unit"):
         angular_frequency(given("2 1/s"), "f")
+
+
+@pytest.mark.parametrize("values", [["1 Hz", "10 Hz"], ("1 Hz", 20.0 * math.pi), np.array(["1 Hz", "10 Hz"])])
+def test_a_column_takes_text_with_units_among_numbers(values: object) -> None:
+    np.testing.assert_allclose(in_si(values, "rad/s", "omega"), [2.0 * math.pi, 20.0 * math.pi])
+
+
+def test_plain_columns_stay_as_they_are_and_wrong_units_are_refused() -> None:
+    plain = np.array([1.0, np.inf])
+    assert in_si(plain, "s", "time", infinite=True) is plain
+    for wrong, code in ((["1 m", "2 m"], "wrong-unit"), ("1", "no-unit"), (["1 s", None], "not-a-number")):
+        with refused(code):
+            in_si(wrong, "s", "time")
+
+
+def test_measurements_take_text_with_units() -> None:
+    hertz, moduli, loss = ["1 Hz", "10 Hz"], ["1 MPa", "2 MPa"], ["0.1 MPa", "0.2 MPa"]
+    omega = 2.0 * math.pi * np.array([1.0, 10.0])
+    isotherm = vf.Isotherm("30 degC", hertz, moduli, loss)
+    assert isotherm.storage_modulus.tolist() == [1e6, 2e6]
+    master = vf.MasterCurve(hertz, moduli, loss, ["30 degC"] * 2, "30 degC")
+    np.testing.assert_allclose(master.angular_frequency, omega)
+    table = vf.ModulusTable(["1 Hz", "10 Hz", "100 Hz", "1 kHz"], ["1 MPa", *moduli, "3 MPa"], ["0.1 MPa"] * 4)
+    np.testing.assert_allclose(table.loss_modulus_values, 1e5)
+    spectrum = vf.RelaxationSpectrum("1 MPa", ["9 MPa"], ["1 ms"])
+    assert spectrum.E.tolist() == [9e6]
+    assert spectrum.complex_modulus("1 Hz") == pytest.approx(complex(spectrum.complex_modulus(2.0 * math.pi)))
+    assert float(spectrum.relaxation_modulus("1 ms")) == pytest.approx(float(spectrum.relaxation_modulus(1e-3)))
+    curves = vf.FrictionCurves(["10 mm/s"], ["30 degC"], ["2 N/mm"], [0.1], [0.0], [0.0], [1], load_unit="N/m")
+    assert (curves.speed[0], curves.load[0]) == (0.01, 2000.0)
+    law = vf.KrausLaw("6 MPa", "1.5 MPa", 0.02, 0.6, "0.9 MPa", "0.2 MPa", "10 Hz", "60 degC")
+    assert (law.critical_strain, law.storage_linear) == (0.02, 6e6)
+    heights = vf.Topography([["1 um", "2 um"], ["1 um", "2 um"]], "10 um").heights
+    np.testing.assert_allclose(heights, [[1e-6, 2e-6]] * 2)

@@ -11,16 +11,18 @@ from viscofric.arguments import sentences, text
 from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
+from viscofric.showing import Plotted
 from viscofric.units import angular_frequency, positive, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class AmplitudeSweep:
+class AmplitudeSweep(Plotted):
     """Moduli of one specimen at growing amplitudes of the strain.
 
     Parameters
@@ -77,12 +79,21 @@ class AmplitudeSweep:
     def __len__(self) -> int:
         return len(self.strain_amplitude)
 
-    def __repr__(self) -> str:
-        low, high = 100.0 * self.strain_amplitude[[0, -1]]
+    def _shown(self) -> Rows:
         return (
-            f"AmplitudeSweep({low:.3g} to {high:.3g} % at {self.angular_frequency / (2.0 * np.pi):.3g} Hz, "
-            f"{shown_celsius(self.temperature)} °C, {self.deformation})"
+            ("strain amplitude", self.strain_amplitude, "%"),
+            ("storage modulus", self.storage_modulus, "Pa"),
+            ("frequency", self.angular_frequency / (2.0 * np.pi), "Hz"),
+            ("temperature", self.temperature, "°C"),
+            ("deformation", self.deformation),
+            ("notes", self.notes),
         )
+
+    def __str__(self) -> str:
+        """Return amplitudes, frequency, temperature and deformation as a line of text."""
+        low, high = 100.0 * self.strain_amplitude[[0, -1]]
+        hertz = self.angular_frequency / (2.0 * np.pi)
+        return f"{low:.3g} to {high:.3g} % at {hertz:.3g} Hz, {shown_celsius(self.temperature)} °C, {self.deformation}"
 
     def in_tension(self, poisson_ratio: float) -> AmplitudeSweep:
         """Return the sweep as tensile moduli and strains of tension, E = 2(1+ν)G and ε = γ/√3, if it was in shear.

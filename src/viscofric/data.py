@@ -11,12 +11,16 @@ from viscofric.arguments import insist_on, numbers, sentences, text
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
-from viscofric.units import checked_poisson_ratio, positive
+from viscofric.showing import Items, Plotted, rows_of
+from viscofric.units import checked_poisson_ratio, in_si, positive
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
 
     from viscofric.arrays import Array, ComplexArray, Integers
+    from viscofric.showing import Rows
 
 
 #: How a dynamic mechanical analyser deformed its sample.
@@ -35,9 +39,37 @@ def tensile_from_shear(poisson_ratio: float, what: str = "moduli", more: str = "
 _LARGEST_WHOLE = 2**53
 
 
-def read_only(values: object, name: str = "a column of measurements") -> Array:
-    """Return a read-only float copy, so that frozen measurements stay frozen; errors use the name."""
-    column = np.array(numbers(values, name, infinite=True, missing=True))
+#: Quantity that the name of a column begins with -> its unit, in which text and quantities are converted.
+_UNITS = {
+    "angular_frequency": "rad/s",
+    "storage_modulus": "Pa",
+    "loss_modulus": "Pa",
+    "temperature": "K",
+    "time": "s",
+    "speed": "m/s",
+    "disc_speed": "m/s",
+    "ball_speed": "m/s",
+    "slip": "m/s",
+    "load": "N",
+    "traction_force": "N",
+    "zero_force": "N",
+    "offset": "N",
+    "track_radius": "m",
+    "mean_pressure": "Pa",
+}
+
+
+def read_only(values: object, name: str = "a column of measurements", unit: str = "") -> Array:
+    """Return a read-only float copy, so that frozen measurements stay frozen; errors use the name.
+
+    Text and quantities are converted to the unit, or that of the quantity that the name begins with.
+    """
+    unit = unit or _UNITS.get(name.split(maxsplit=1)[0], "")
+    column = np.array(
+        in_si(values, unit, name, infinite=True, missing=True)
+        if unit
+        else numbers(values, name, infinite=True, missing=True)
+    )
     column.flags.writeable = False
     return column
 
@@ -81,7 +113,7 @@ def picked(rows: object, count: int, noun: str) -> Integers:
 
 
 @dataclass(frozen=True, eq=False)
-class Isotherm:
+class Isotherm(Plotted, Items[tuple[float, float, float]]):
     """One frequency sweep at one temperature.
 
     Parameters
@@ -126,8 +158,17 @@ class Isotherm:
                 )
             object.__setattr__(self, "strain_amplitude", amplitude)
 
-    def __len__(self) -> int:
-        return len(self.angular_frequency)
+    def _items(self) -> Sequence[tuple[float, float, float]]:
+        return rows_of(self.angular_frequency, self.storage_modulus, self.loss_modulus)
+
+    def _shown(self) -> Rows:
+        return (
+            ("temperature", self.temperature, "°C"),
+            ("angular frequency", self.angular_frequency, "rad/s"),
+            ("storage modulus", self.storage_modulus, "Pa"),
+            ("loss modulus", self.loss_modulus, "Pa"),
+            ("strain amplitude", self.strain_amplitude, "%"),
+        )
 
     @property
     def loss_tangent(self) -> Array:
@@ -158,7 +199,7 @@ class Isotherm:
 
 
 @dataclass(frozen=True, eq=False)
-class IsothermalSweeps:
+class IsothermalSweeps(Plotted, Items[Isotherm]):
     """Frequency sweeps of a dynamic mechanical analyser at several temperatures.
 
     Parameters
@@ -201,8 +242,19 @@ class IsothermalSweeps:
         object.__setattr__(self, "notes", sentences(self.notes, "notes of the sweeps"))
         object.__setattr__(self, "isotherms", tuple(sorted(self.isotherms, key=lambda sweep: sweep.temperature)))
 
-    def __len__(self) -> int:
-        return len(self.isotherms)
+    def _items(self) -> Sequence[Isotherm]:
+        return self.isotherms
+
+    def _shown(self) -> Rows:
+        return (
+            ("isotherms", self.isotherms),
+            ("readings", sum(map(len, self.isotherms))),
+            ("temperature", self.temperatures, "°C"),
+            ("deformation", self.deformation),
+            ("format", self.format or None),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
 
     @property
     def temperatures(self) -> Array:
@@ -252,7 +304,7 @@ class IsothermalSweeps:
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve:
+class MasterCurve(Plotted, Items[tuple[float, float, float]]):
     """Tensile modulus at one reference temperature, every measured point shifted by its isotherm's shift factor.
 
     Parameters
@@ -282,7 +334,7 @@ class MasterCurve:
     reference: float
 
     def __post_init__(self) -> None:
-        shape = numbers(self.angular_frequency, "angular_frequency of a master curve").shape
+        shape = read_only(self.angular_frequency, "angular_frequency of a master curve").shape
         for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
             column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
             object.__setattr__(self, name, column)
@@ -290,8 +342,17 @@ class MasterCurve:
         if np.any(np.diff(self.angular_frequency) < 0):
             raise InputError("the frequencies of a master curve must ascend.", code="not-ascending")
 
-    def __len__(self) -> int:
-        return len(self.angular_frequency)
+    def _items(self) -> Sequence[tuple[float, float, float]]:
+        return rows_of(self.angular_frequency, self.storage_modulus, self.loss_modulus)
+
+    def _shown(self) -> Rows:
+        return (
+            ("angular frequency", self.angular_frequency, "rad/s"),
+            ("storage modulus", self.storage_modulus, "Pa"),
+            ("loss modulus", self.loss_modulus, "Pa"),
+            ("measured at", self.temperature, "°C"),
+            ("reference", self.reference, "°C"),
+        )
 
     @property
     def complex_modulus(self) -> ComplexArray:

@@ -52,6 +52,27 @@ def dataset(
     )
 
 
+def on_grid(points: xarray.Dataset, *names: str) -> xarray.Dataset | None:
+    """Return points along one dimension on the grid of some of their coordinates; None if they do not fill one."""
+    import numpy as np
+
+    (dimension,), count = points.sizes, next(iter(points.sizes.values()))
+    axes, places = zip(*(np.unique(points[name].values, return_inverse=True) for name in names), strict=True)
+    shape = tuple(map(len, axes))
+    place = np.ravel_multi_index(places, shape) if count else np.empty(0, dtype=int)
+    if math.prod(shape) != count or len(np.unique(place)) < count:
+        return None
+    ordered = points.isel({dimension: np.argsort(place)})
+    variables = {
+        name: (names, column.values.reshape(shape), column.attrs)
+        for name, column in ordered.variables.items()
+        if name not in names
+    }
+    kept = {name: (name, axis, points[name].attrs) for name, axis in zip(names, axes, strict=True)}
+    found = {name: variables.pop(name) for name in points.coords if name in variables}
+    return type(points)(variables, kept | found, points.attrs)
+
+
 def record(data: xarray.Dataset, digits: int | None = None) -> dict[str, Any]:
     """Return a data set as JSON can hold it: its attributes, each variable as a list, and ``units`` by name.
 

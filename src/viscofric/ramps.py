@@ -11,17 +11,21 @@ from viscofric.arguments import insist_on, number, sentences, text
 from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
+from viscofric.showing import Items, Plotted
 from viscofric.units import angular_frequency, positive, shown_celsius
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
 @dataclass(frozen=True, eq=False)
-class TemperatureRamp:
+class TemperatureRamp(Plotted):
     """Moduli at one frequency while the temperature changes.
 
     Parameters
@@ -60,6 +64,14 @@ class TemperatureRamp:
     def __len__(self) -> int:
         return len(self.temperature)
 
+    def _shown(self) -> Rows:
+        return (
+            ("frequency", self.angular_frequency / (2.0 * np.pi), "Hz"),
+            ("temperature", self.temperature, "°C"),
+            ("storage modulus", self.storage_modulus, "Pa"),
+            ("loss modulus", self.loss_modulus, "Pa"),
+        )
+
     @property
     def loss_tangent(self) -> Array:
         """E''/E' (or G''/G')."""
@@ -91,7 +103,7 @@ def _rad_per_second(value: Quantity) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class TemperatureRamps:
+class TemperatureRamps(Plotted, Items[TemperatureRamp]):
     """Temperature ramps of one specimen, one for each frequency.
 
     Parameters
@@ -140,13 +152,20 @@ class TemperatureRamps:
         if np.any(np.diff(self.angular_frequencies) <= 0.0):
             raise InputError("two ramps have the same frequency; join them to one.")
 
-    def __len__(self) -> int:
-        return len(self.ramps)
+    def _items(self) -> Sequence[TemperatureRamp]:
+        return self.ramps
 
-    def __repr__(self) -> str:
-        low, high = self.temperature_range
-        hertz = ", ".join(f"{one / (2 * np.pi):.3g}" for one in self.angular_frequencies)
-        return f"TemperatureRamps({shown_celsius(low)} to {shown_celsius(high)} °C at {hertz} Hz, {self.deformation})"
+    def _shown(self) -> Rows:
+        return (
+            ("ramps", self.ramps),
+            ("frequency", self.angular_frequencies / (2.0 * np.pi), "Hz"),
+            ("temperature", self.temperature_range, "°C"),
+            ("readings", sum(map(len, self.ramps))),
+            ("deformation", self.deformation),
+            ("format", self.format or None),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
 
     @property
     def angular_frequencies(self) -> Array:

@@ -7,16 +7,20 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import insist_on, numbers, sentences, text, whole_number
+from viscofric.arguments import insist_on, sentences, text, whole_number
 from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
+from viscofric.showing import Items, Plotted, Shown
 from viscofric.units import positive
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 #: What was held: the stress (creep) or the strain (relaxation).
 StepKind: TypeAlias = Literal["creep", "relaxation"]
@@ -28,7 +32,7 @@ _RESPONSE = {
 
 
 @dataclass(frozen=True, eq=False)
-class StepTest:
+class StepTest(Shown):
     """The response to one step of stress (creep) or of strain (relaxation) at one temperature.
 
     Parameters
@@ -69,6 +73,13 @@ class StepTest:
     def __len__(self) -> int:
         return len(self.time)
 
+    def _shown(self) -> Rows:
+        return (
+            ("temperature", self.temperature, "°C"),
+            ("time", self.time, "s"),
+            ("response", self.response),
+        )
+
     def thinned(self, per_decade: int) -> StepTest:
         """Return the test with the points in each of so many equal parts of a decade of time averaged.
 
@@ -84,7 +95,7 @@ class StepTest:
 
 
 @dataclass(frozen=True, eq=False)
-class StepTests:
+class StepTests(Plotted, Items[StepTest]):
     """Creep tests, or relaxation tests, of one material at several temperatures.
 
     Parameters
@@ -135,8 +146,20 @@ class StepTests:
         object.__setattr__(self, "notes", sentences(self.notes, "notes of the step tests"))
         object.__setattr__(self, "tests", tuple(sorted(self.tests, key=lambda one: one.temperature)))
 
-    def __len__(self) -> int:
-        return len(self.tests)
+    def _items(self) -> Sequence[StepTest]:
+        return self.tests
+
+    def _shown(self) -> Rows:
+        return (
+            ("kind", self.kind),
+            ("tests", self.tests),
+            ("readings", sum(map(len, self.tests))),
+            ("temperature", self.temperatures, "°C"),
+            ("deformation", self.deformation),
+            ("format", self.format or None),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
 
     @property
     def temperatures(self) -> Array:
@@ -187,7 +210,7 @@ class StepTests:
 
 
 @dataclass(frozen=True, eq=False)
-class StepMasterCurve:
+class StepMasterCurve(Plotted):
     """Tensile creep compliance or relaxation modulus over reduced time, at one reference temperature.
 
     Parameters
@@ -223,7 +246,7 @@ class StepMasterCurve:
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")
-        shape = numbers(self.time, "time of a master curve").shape
+        shape = read_only(self.time, "time of a master curve").shape
         for name in ("time", "response", "temperature"):
             column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
             object.__setattr__(self, name, column)
@@ -233,6 +256,19 @@ class StepMasterCurve:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def _shown(self) -> Rows:
+        return (
+            ("kind", self.kind),
+            ("reduced time", self.time, "s"),
+            (
+                "compliance" if self.kind == "creep" else "modulus",
+                self.response,
+                "1/Pa" if self.kind == "creep" else "Pa",
+            ),
+            ("measured at", self.temperature, "°C"),
+            ("reference", self.reference, "°C"),
+        )
 
     @property
     def modulus(self) -> Array:

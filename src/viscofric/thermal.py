@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from viscofric.arguments import text
 from viscofric.errors import InputError, brief
+from viscofric.showing import Rows, Shown
 from viscofric.units import Quantity, positive, to_si
 
 
 @dataclass(frozen=True)
-class ThermalProperties:
+class ThermalProperties(Shown):
     """Thermal properties of a body.
 
     Parameters
@@ -46,6 +47,14 @@ class ThermalProperties:
         for name, unit in (("conductivity", "W/m/K"), ("density", "kg/m**3"), ("heat_capacity", "J/kg/K")):
             object.__setattr__(self, name, positive(getattr(self, name), unit, name))
         text(self.name, "name")
+
+    def _shown(self) -> Rows:
+        return (
+            ("name", self.name),
+            ("conductivity", self.conductivity, "W/(m K)"),
+            ("density", self.density, "kg/m³"),
+            ("heat capacity", self.heat_capacity, "J/(kg K)"),
+        )
 
     @property
     def volume_heat(self) -> float:

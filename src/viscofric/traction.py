@@ -13,6 +13,7 @@ from viscofric.data import picked, read_only, whole_numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, Remedy, setting
+from viscofric.showing import Plotted, Shown
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -22,10 +23,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, Integers, Mask
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)
-class TractionStep:
+class TractionStep(Shown):
     """One step of a traction test.
 
     Attributes
@@ -54,6 +56,18 @@ class TractionStep:
     temperature: float = math.nan
     speed: float = math.nan
     slip_ratio: float = math.nan
+
+    def _shown(self) -> Rows:
+        return (
+            ("number", self.number),
+            ("kind", self.kind or None),
+            ("description", self.description or None),
+            ("readings", self.readings),
+            ("load", self.load, "N"),
+            ("temperature", self.temperature, "°C"),
+            ("speed", self.speed, "m/s"),
+            ("slip", self.slip_ratio, "%"),
+        )
 
     def __str__(self) -> str:
         words = ", ".join(word for word in (self.kind, self.description and repr(self.description)) if word)
@@ -91,7 +105,7 @@ def notes_on_friction(friction: ArrayLike) -> tuple[Note, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class TractionRuns:
+class TractionRuns(Plotted):
     """Traction measurements of a mini-traction machine, one row per reading.
 
     Velocities are signed: the sign of `disc_speed` is the direction in which the rubber is deformed, the
@@ -191,6 +205,20 @@ class TractionRuns:
 
     def __len__(self) -> int:
         return len(self.disc_speed)
+
+    def _shown(self) -> Rows:
+        return (
+            ("readings", len(self)),
+            ("disc speed", self.disc_speed, "m/s"),
+            ("ball speed", self.ball_speed, "m/s"),
+            ("load", self.load, "N"),
+            ("temperature", self.temperature, "°C"),
+            ("traction force", self.traction_force, "N"),
+            ("replicates", len(np.unique(self.replicate))),
+            ("steps", self.steps),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
 
     def select(
         self,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 
@@ -281,6 +281,24 @@ def to_si_in_shape(values: Quantities, unit: str, name: str) -> Array:
             raise _wrong("row-length", name, values, unit, "has rows of different lengths")
         return np.array(rows, dtype=float)
     return np.asarray(to_si(values, unit, name))  # type: ignore[arg-type]
+
+
+def in_si(values: object, unit: str, name: str, *, infinite: bool = False, missing: bool = False) -> Array:
+    """Return one number or many in their shape: plain ones as they are, text and quantities in an SI unit.
+
+    `infinite` and `missing` allow infinite numbers and NaN among plain ones; see `viscofric.arguments.numbers`.
+    """
+    if _has_units(values):
+        return to_si_in_shape(cast("Quantities", values), unit, name)
+    return numbers(values, name, infinite=infinite, missing=missing)
+
+
+def _has_units(values: object) -> bool:
+    if isinstance(values, np.ndarray):
+        return values.dtype.kind == "U" or (values.dtype.kind == "O" and any(map(_has_units, values.flat)))
+    if isinstance(values, (list, tuple)):
+        return any(map(_has_units, values))
+    return isinstance(values, str) or (hasattr(values, "to") and hasattr(values, "magnitude"))
 
 
 def positive(value: Quantity, unit: str, name: str) -> float:

@@ -229,6 +229,14 @@ def test_surface_of_a_layer_needs_cells_that_resolve_it() -> None:
         )
 
 
-def test_layer_must_be_a_layer() -> None:
-    with refused("layer"):
-        vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), speed=1.0, load=1.0, layer=1e-3)  # type: ignore[arg-type]
+def test_layer_must_be_a_layer_or_a_thickness() -> None:
+    for wrong, code in ((["1 mm"], "wrong-type"), ("1 N", "wrong-unit"), (0.0, "not-positive")):
+        with refused(code):
+            vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), speed=1.0, load=1.0, layer=wrong)  # type: ignore[arg-type]
+    assert vf.Layer.of("2 mm") == vf.Layer.of(2e-3) == vf.Layer("2 mm", bonded=True)
+    assert vf.Layer.of(None) is None
+    thin = {"speed": "1 m/s", "load": "10 N/m", "accuracy": 1e-2}
+    by_text, by_layer = (
+        vf.solve_steady(rubber(0.3), vf.Cylinder(RADIUS), **thin, layer=layer) for layer in ("1 mm", vf.Layer("1 mm"))
+    )
+    assert by_text.friction_coefficient == by_layer.friction_coefficient

@@ -194,7 +194,7 @@ def test_one_temperature_is_picked_in_ascending_speed() -> None:
 def test_data_set_is_labelled() -> None:
     """Units and names on every column, notes in the attributes, and nothing that netCDF cannot hold."""
     curves = separate(traction_runs(viscoelastic=lambda v, T: -0.03, replicates=3, noise=0.01))
-    data = curves.to_dataset()
+    data = curves.points_dataset()
     assert dict(data.sizes) == {"point": 6}
     assert set(data.coords) == {"speed", "temperature", "load", "slip"}
     for name in (*data.coords, *data.data_vars):
@@ -206,6 +206,34 @@ def test_data_set_is_labelled() -> None:
     assert data["load"].attrs == {"units": "N", "long_name": "normal load"}
     assert data.attrs["notes"] == "\n".join(curves.notes)
     assert "negative-friction" in codes(curves.notes)
+
+
+def test_a_grid_of_points_is_a_data_set_over_temperature_and_speed() -> None:
+    speed, kelvin = np.array([1.0, 0.1, 0.1, 1.0]), np.array([303.15, 333.15, 303.15, 333.15])
+    curves = friction_curves(speed, kelvin, np.array([0.01, 0.02, 0.03, 0.04]))
+    data = curves.to_dataset()
+    assert dict(data.sizes) == {"temperature": 2, "speed": 2}
+    assert data["viscoelastic"].values.tolist() == [[0.03, 0.01], [0.02, 0.04]]
+    assert data["viscoelastic"].attrs == curves.points_dataset()["viscoelastic"].attrs
+    assert float(data["viscoelastic"].sel(temperature=333.15, speed=1.0)) == 0.04
+    assert curves.select([0, 1, 2]).to_dataset().sizes == {"point": 3}
+    twice = friction_curves(speed[[0, 0, 1, 1]], kelvin[[0, 0, 1, 1]], np.full(4, 0.01))
+    assert twice.to_dataset().sizes == {"point": 4}
+    several = replace(
+        friction_curves(np.tile(speed, 2), np.tile(kelvin, 2), np.arange(1.0, 9.0)), load=np.repeat([10.0, 5.0], 4)
+    )
+    assert several.to_dataset()["viscoelastic"].dims == ("load", "temperature", "speed")
+    assert float(several.to_dataset()["viscoelastic"].sel(load=5.0, temperature=303.15, speed=1.0)) == 5.0
+    assert curves.to_dataframe().shape == (4, len(data.data_vars) + len(data.coords) - 2)
+
+
+def test_curves_have_items_and_indices() -> None:
+    curves = friction_curves(np.array([0.1, 1.0, 2.0]), np.full(3, 303.15), np.array([0.01, 0.02, 0.03]))
+    assert [float(one.viscoelastic[0]) for one in curves] == [0.01, 0.02, 0.03]
+    assert curves[-1].viscoelastic.tolist() == [0.03]
+    assert curves[:2].viscoelastic.tolist() == curves[curves.speed < 1.5].viscoelastic.tolist() == [0.01, 0.02]
+    with pytest.raises(IndexError):
+        curves[3]
 
 
 def test_columns_are_checked_and_frozen() -> None:

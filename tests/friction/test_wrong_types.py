@@ -75,7 +75,7 @@ _VERBS: dict[Callable[..., object], tuple[str, str]] = {
     _write: ("curves path", ""),
     vf.read_friction_curves: ("path", ""),
     _check: ("material indenter curves rubber counterbody", "thickness contact_radius"),
-    _predict: ("material indenter speeds temperatures load accuracy workers", "samples layer window"),
+    _predict: ("material indenter speeds load accuracy workers", "temperatures samples layer window"),
     _shift: ("curves level_error", "shift reference vertical_shift indenter load"),
     _compare_factors: ("found other", ""),
     _compare: ("measured predicted", ""),

@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
 from viscofric.report import html
 from viscofric.report.captions import captions
 from viscofric.report.figures import saving
 from viscofric.report.figures import study as drawing
+from viscofric.report.figures.convergence import plot_errors
 from viscofric.report.figures.study import contacts, figure_images, recovery_trail
 from viscofric.report.html import write_report
+from viscofric.report.texts import friction_tables
 from viscofric.report.texts.checks import all_checks, counted, friction_checks
 from viscofric.report.texts.friction_tables import detail_tables, friction_at_a_glance
 from viscofric.report.texts.study import inputs, scope
@@ -145,6 +148,29 @@ def test_long_tables_are_folded_behind_their_first_rows(
     first, folded = page.index('id="first-of-prediction"'), page.index('id="table-prediction"')
     assert first < page.index("<details", first) < folded
     assert "All 84 rows" in page
+
+
+def test_tables_of_large_studies_end_and_name_the_file_with_all_rows(
+    make_study: Callable[..., xr.DataTree], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(html, "figure_images", lambda *_: {})
+    monkeypatch.setattr(friction_tables, "_LONGEST", 50)
+    page = write_report(make_study(STUDIES["loads"]), tmp_path).read_text("utf-8")
+    assert "First 50 of 84 rows" in page
+    assert "All rows are in results.nc" in page
+    table = page[page.index('id="table-prediction"') :]
+    assert table[: table.index("</table>")].count("<tr>") == 51
+
+
+def test_errors_of_many_cases_are_drawn_as_an_image() -> None:
+    for count, drawn in ((100, False), (3_000, True)):
+        speed = np.geomspace(1e-3, 1.0, count)
+        errors = {"friction_coefficient": 0.1, "friction_error": 1e-5}
+        columns = {name: ("case", np.full(count, value)) for name, value in errors.items()}
+        cases = xr.Dataset({**columns, "speed": ("case", speed)})
+        axes = Figure().subplots()
+        plot_errors(axes, cases)
+        assert [line.get_rasterized() for line in axes.lines] == [drawn]
 
 
 def rough(make_sweep: Callable[..., xr.Dataset], tree: xr.DataTree, error: float) -> xr.DataTree:

@@ -210,7 +210,7 @@ def test_what_is_no_measurement_is_named():
 
 
 @pytest.mark.slow
-def test_every_result_is_shown_in_one_line():
+def test_every_result_is_shown_in_a_few_lines():
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC", vertical="free")
     spectrum = fit_retardation_spectrum(fit)
     samples = sample_materials(fit, spectrum, samples=20)
@@ -231,5 +231,5 @@ def test_every_result_is_shown_in_one_line():
             table,
         )
     ]
-    assert all("\n" not in line and "array" not in line and len(line) < 160 for line in shown), shown
-    assert shown[0].startswith("Superposition(26 isotherms, −20.0 °C to 200.0 °C, reference 30.0 °C")
+    assert all("array" not in text and len(text) < 400 for text in shown), shown
+    assert shown[0].startswith("Superposition\n  isotherms       26\n  temperature     26 from −20 to 200 °C")

@@ -55,8 +55,6 @@ def test_wrong_parts_are_refused():
     with refused("wrong-type"):
         vf.Material(solid.spectrum, shift=1.0)
     with refused("wrong-type"):
-        vf.Material(solid.spectrum.to_relaxation())
-    with refused("wrong-type"):
         vf.Material(solid.spectrum, shift=LAW, vertical_shift=1.1)
     with refused("no-shift"):
         vf.Material(solid.spectrum, vertical_shift=DensityShift("30 degC"))
@@ -132,3 +130,10 @@ def test_the_measured_frequencies_move_with_the_temperature():
     alpha = material.shift(333.15)
     assert moved.spectrum.fit.frequency_range == pytest.approx((1e-3 / alpha, 1e6 / alpha), rel=1e-12)
     assert moved.at_reference(293.15).spectrum.fit.frequency_range == pytest.approx((1e-3, 1e6), rel=1e-9)
+
+
+def test_a_material_of_a_relaxation_spectrum_is_that_of_its_retardation_spectrum() -> None:
+    series = vf.RelaxationSpectrum("1 MPa", [9e6, 1e6], [1e-4, 1e-2])
+    found, omega = vf.Material(series), np.geomspace(1.0, 1e6, 20)
+    assert isinstance(found.spectrum, vf.RetardationSpectrum)
+    np.testing.assert_allclose(found.complex_modulus(omega), series.complex_modulus(omega), rtol=1e-9)

@@ -189,12 +189,9 @@ SAID = [
         ),
     ),
     (
-        lambda: vf.Material(vf.RelaxationSpectrum("1 MPa", [9e6], [1e-4])),
+        lambda: vf.Material(3e6),  # type: ignore[arg-type]
         "wrong-type",
-        (
-            "spectrum of a material must be a RetardationSpectrum or a ModulusTable, not RelaxationSpectrum; a "
-            "Prony series is turned into one by its to_retardation()."
-        ),
+        "spectrum of a material must be a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable, not float.",
     ),
     (
         lambda: vf.Material(SOLID.spectrum, vertical_shift=vf.DensityShift(303.15)),

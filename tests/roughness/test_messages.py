@@ -31,7 +31,7 @@ SENTENCES = [
     (
         lambda: LINE.to_indenter(vf.Ball("5 mm")),
         "line-or-map",
-        "shape = Ball(radius=0.005): a line scan is roughness on a shape such as a Cylinder.",
+        "shape = Ball(radius: 5 mm): a line scan is roughness on a shape such as a Cylinder.",
     ),
     (
         lambda: vf.power_spectrum(LINE),

@@ -250,3 +250,13 @@ def test_roughness_of_no_height_on_a_ball_rubs_as_the_ball_and_waves_rub_more():
     rough = vf.solve_steady(rubber, waves.to_indenter(vf.Ball("5 mm")), **asked)
     assert rough.friction_coefficient > 1.1 * smooth.friction_coefficient
     assert rough.contact_area < smooth.contact_area
+
+
+def test_a_topography_is_solved_as_its_surface() -> None:
+    road = vf.self_affine(0.8, shape=(16, 16), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    case = {"speed": "0.1 m/s", "pressure": "5 kPa"}
+    found, same = (vf.solve_periodic(rubber, one, **case) for one in (road, road.to_surface()))
+    assert found.friction_coefficient == same.friction_coefficient
+    with refused("not-periodic"):
+        vf.solve_periodic(rubber, vf.Topography(road.heights, "10 um"), **case)

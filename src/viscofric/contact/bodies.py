@@ -51,6 +51,7 @@ import numpy as np
 from viscofric.arguments import flag, number, numbers, real
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note
+from viscofric.showing import Shown
 from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 MOST_COULOMB = 10.0  # largest friction coefficient that is accepted
@@ -66,7 +68,7 @@ LARGE_COMPRESSION = 0.3  # indentation over thickness beyond which small strain 
 
 
 @dataclass(frozen=True)
-class Layer:
+class Layer(Shown):
     """A viscoelastic layer on a rigid base.
 
     Parameters
@@ -94,6 +96,21 @@ class Layer:
     def __post_init__(self) -> None:
         object.__setattr__(self, "thickness", positive(self.thickness, "m", "thickness of the layer"))
         flag(self.bonded, "bonded")
+
+    @classmethod
+    def of(cls, layer: Layer | Quantity | None) -> Layer | None:
+        """Return a layer as it is, or a bonded one of a thickness such as "2 mm"; None: a half-space."""
+        if layer is None or isinstance(layer, Layer):
+            return layer
+        if isinstance(layer, (str, int, float)) or hasattr(layer, "magnitude"):
+            return cls(layer)
+        raise InputError(f"layer = {brief(layer)}: must be a Layer, or a thickness such as '2 mm'.", code="wrong-type")
+
+    def _shown(self) -> Rows:
+        return (
+            ("thickness", self.thickness, "m"),
+            ("bonded", self.bonded),
+        )
 
     def yielding(self, wave_number: ArrayLike, poisson_ratio: float) -> Array:
         """Return Θ(qH): displacement under a wave of pressure over that of the half-space.

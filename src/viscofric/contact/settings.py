@@ -23,7 +23,7 @@ TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relativ
 class ContactOptions(TypedDict, total=False):
     """Settings of `viscofric.contact.steady.solve_steady` that may be passed on, by the same names."""
 
-    layer: Layer | None
+    layer: Layer | Quantity | None
     direction: Sequence[float]
     indenter_modulus: Quantity | None
     indenter_poisson_ratio: float
@@ -72,10 +72,7 @@ class ContactSettings:
         if self.grid is not None:
             right = f"the number of cells along the window's longer edge, {LEAST_FINEST} or more"
             whole_number(self.grid, "grid", LEAST_FINEST, right=right)
-        if not (self.layer is None or isinstance(self.layer, Layer)):
-            raise InputError(
-                f"layer = {brief(self.layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
-            )
+        object.__setattr__(self, "layer", Layer.of(self.layer))
         checked_coulomb(self.coulomb)
         self._derived  # noqa: B018  raises where indenter, direction or backend cannot be used
 

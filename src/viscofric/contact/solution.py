@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from viscofric.datasets import dataset
+from viscofric.showing import Plotted, Shown
 
 if TYPE_CHECKING:
     import xarray
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.derivatives.friction import FrictionDerivatives
     from viscofric.heat.result import ContactHeating
+    from viscofric.showing import Rows
 
 #: Unit and long name of a number.
 Meaning: TypeAlias = tuple[str, str]
@@ -113,7 +115,7 @@ class Level(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Diagnostics:
+class Diagnostics(Shown):
     """Work, convergence and error estimates of a contact.
 
     Attributes
@@ -177,9 +179,21 @@ class Diagnostics:
     products: int
     ffts: int
 
+    def _shown(self) -> Rows:
+        return (
+            ("cells", " × ".join(map(str, self.shape))),
+            ("length of a cell", self.spacing, "m"),
+            ("error of the friction", self.friction_error),
+            ("energy balance", self.energy),
+            ("complementarity", self.complementarity),
+            ("largest pressure resolved", self.peak_resolved),
+            ("nested grids", self.levels),
+            ("products", self.products),
+        )
+
 
 @dataclass(frozen=True, eq=False)
-class ContactSolution:
+class ContactSolution(Plotted):
     """Steady contact of an indenter moving at a constant velocity over a viscoelastic half-space or layer.
 
     All in SI units.  Here x is along `direction`, and y to the left of it: the indenter moves towards +x for a positive
@@ -261,6 +275,20 @@ class ContactSolution:
     derivatives: FrictionDerivatives | None = None
     coulomb: float = 0.0
     heating: ContactHeating | None = None
+
+    def _shown(self) -> Rows:
+        return (
+            ("friction coefficient", self.friction_coefficient, "", self.diagnostics.friction_error),
+            ("speed", self.speed, "m/s"),
+            ("load", self.load, "N/m" if self.geometry == "line" else "N", self.diagnostics.load_error),
+            ("temperature", self.temperature, "°C"),
+            ("rise of temperature", None if self.heating is None else self.heating.temperature_rise, "K"),
+            ("indentation", self.indentation, "m", self.diagnostics.indentation_error),
+            ("contact length", self.front + self.rear, "m", 2.0 * self.diagnostics.edge_error),
+            ("largest pressure", self.max_pressure, "Pa", self.diagnostics.max_pressure_error),
+            ("cells", " × ".join(map(str, self.pressure.shape))),
+            ("warnings", self.warnings),
+        )
 
     @property
     def temperature_rise(self) -> float:

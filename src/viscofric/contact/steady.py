@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.arguments import flag, insist_on
-from viscofric.contact.bodies import half_space_coupling
+from viscofric.contact.bodies import Layer, half_space_coupling
 from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.estimates import friction_estimate
@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.contact.arrays.backend import Backend
-    from viscofric.contact.bodies import Layer
     from viscofric.contact.derivatives.friction import FrictionDerivatives
     from viscofric.contact.free.grids import Extent
     from viscofric.contact.free.stage import Stage
@@ -70,7 +69,7 @@ def solve_steady(
     grid: int | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
-    layer: Layer | None = None,
+    layer: Layer | Quantity | None = None,
     backend: Backend | str = "scipy",
     direction: Sequence[float] = (1.0, 0.0),
     coulomb: float = 0.0,
@@ -115,8 +114,9 @@ def solve_steady(
         Young's modulus of an elastic indenter, Pa; rigid without it.
     indenter_poisson_ratio : float
         Of an elastic indenter.
-    layer : Layer, optional
-        Thickness and base of the material; a half-space without.
+    layer : Layer, float, str or pint.Quantity, optional
+        Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space
+        without.
     backend : Backend or str
         Arrays and FFTs to solve with, such as "ducc0" or "torch:cuda"; see `Backend`.
     direction : (float, float)
@@ -173,7 +173,7 @@ def solve_steady(
     """
     settings = ContactSettings(
         accuracy=accuracy, tolerance=tolerance, finest=finest, window=window, grid=grid,
-        indenter_modulus=indenter_modulus, indenter_poisson_ratio=indenter_poisson_ratio, layer=layer,
+        indenter_modulus=indenter_modulus, indenter_poisson_ratio=indenter_poisson_ratio, layer=Layer.of(layer),
         backend=backend, direction=direction, coulomb=coulomb,
     )  # fmt: skip
     differentiated = flag(derivatives, "derivatives")

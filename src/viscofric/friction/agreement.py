@@ -14,16 +14,18 @@ from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.pairing import Pairs, along_reduced_speed, point_by_point
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.notes import Remedy
+from viscofric.showing import Plotted
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array, Integers, Mask
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class Agreement:
+class Agreement(Plotted):
     """Agreement of a prediction with a measurement, over all points and temperature by temperature.
 
     With d = (predicted − measured) / measured at each measured point:
@@ -88,6 +90,16 @@ class Agreement:
     along_reduced_speed: bool = False
     not_covered: int = 0
     with_error: int = 0
+
+    def _shown(self) -> Rows:
+        return (
+            ("points", self.points),
+            ("bias", self.bias, "%", self.bias_error),
+            ("rms difference", self.rms, "%"),
+            ("share within twice the error", self.share_within_error, "%"),
+            ("share within the scatter", self.share_within_scatter, "%"),
+            ("temperature", self.temperature, "°C"),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the numbers of each temperature as a labelled data set along ``temperature``.

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from viscofric.checks import Check
 from viscofric.contact.free.scale import Scale
 from viscofric.notes import note_of
+from viscofric.showing import Shown
 from viscofric.units import plain, shown_celsius, shown_speed
 
 if TYPE_CHECKING:
@@ -16,15 +18,17 @@ if TYPE_CHECKING:
 
     import xarray
 
+    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
     from viscofric.notes import Reader
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)
-class AssumptionCheck(Check):
+class AssumptionCheck(Shown, Check):
     """One assumption behind predicted friction, checked.
 
     Attributes
@@ -46,6 +50,14 @@ class AssumptionCheck(Check):
     values : mapping
         Numbers of the sentence by name, in SI units, with the temperature, speed and load where it is worst.
     """
+
+    def _shown(self) -> Rows:
+        return (
+            ("assumption", self.name),
+            ("holds", "unknown" if self.holds is None else self.holds),
+            ("value", self.value),
+            ("limit", self.limit),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the check as a labelled data set along ``assumption``; see `assumptions_dataset`."""
@@ -137,21 +149,33 @@ class ContactSize:
     where: Place
 
     @classmethod
-    def of(
-        cls, material: Material, indenter: Indenter, curves: FrictionCurves, row: int, solved: float | None
-    ) -> ContactSize:
-        """Return the size at a point of friction curves, given the solved radius, if there is one."""
-        spectrum = modes_of(material, float(curves.temperature[row]))
+    def all_of(
+        cls, material: Material, indenter: Indenter, curves: FrictionCurves, solved: Array | None = None
+    ) -> list[ContactSize]:
+        """Return the sizes at the points of friction curves, given the solved radii, m, if there are any."""
         plane_strain = 1.0 - material.poisson_ratio**2
-        scale = Scale.for_load(indenter, spectrum.E0 / plane_strain, float(curves.load[row]))
-        curvature, where = scale.slope / scale.length, Place.of(curves, row)
+        spectrum_at = cache(partial(modes_of, material))
+        scale_at = cache(partial(Scale.for_load, indenter))
+        found = []
+        for row, kelvin in enumerate(curves.temperature.tolist()):
+            spectrum = spectrum_at(kelvin)
+            scale = scale_at(spectrum.E0 / plane_strain, float(curves.load[row]))
+            known = None if solved is None else float(solved[row])
+            found.append(cls._of(spectrum, scale, float(curves.speed[row]), Place.of(curves, row), known))
+        return found
+
+    @classmethod
+    def _of(
+        cls, spectrum: RetardationSpectrum, scale: Scale, speed: float, where: Place, solved: float | None
+    ) -> ContactSize:
+        curvature = scale.slope / scale.length
         if solved is not None:
             return cls(solved, solved, scale.length, curvature, where)
         # Hertz: a³ ~ F R/E of a ball, a² ~ F R/E of a cylinder.
         power = 1.0 / (1.0 + scale.geometry.dimension)
         radius = scale.length
         for _ in range(50):
-            modulus = abs(complex(spectrum.complex_modulus(curves.speed[row] / radius)))
+            modulus = abs(complex(spectrum.complex_modulus(speed / radius)))
             before, radius = radius, scale.length * (spectrum.E0 / modulus) ** power
             if abs(radius - before) <= 1e-3 * radius:
                 break

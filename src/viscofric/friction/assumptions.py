@@ -136,10 +136,7 @@ def check_assumptions(
     insist_on(layer, "layer", Layer, type(None), right="a Layer, such as Layer(thickness='2 mm')")
     thick = None if thickness is None else positive(thickness, "m", "thickness")
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))
-    sizes = [
-        ContactSize.of(material, indenter, curves, row, None if radii is None else float(radii[row]))
-        for row in range(len(curves))
-    ]
+    sizes = ContactSize.all_of(material, indenter, curves, radii)
     # By both bounds, as the widest of `check_half_space`.
     steepest = max(sizes, key=lambda size: size.largest * size.smallest * size.curvature**2)
     if isinstance(curves, HeatColumns):

@@ -15,11 +15,13 @@ from viscofric.errors import ConvergenceError
 from viscofric.rheology.material import Material
 from viscofric.rheology.payne.at_strain import contact_strain, material_at_strain, on_strain
 from viscofric.rheology.payne.kraus import KrausLaw
+from viscofric.showing import Plotted
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.contact.solution import ContactSolution
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
@@ -30,7 +32,7 @@ TURNS = 15
 
 
 @dataclass(frozen=True, eq=False)
-class ContactAtStrain:
+class ContactAtStrain(Plotted):
     """A contact with the moduli of its own strain, and the linear one.
 
     Parameters
@@ -53,10 +55,12 @@ class ContactAtStrain:
     material: Material
     notes: tuple[str, ...] = ()
 
-    def __repr__(self) -> str:
+    def _shown(self) -> Rows:
         return (
-            f"ContactAtStrain({100 * self.strain:.2g} % strain, friction {self.scaled.friction_coefficient:.4g}; "
-            f"linear {self.linear.friction_coefficient:.4g})"
+            ("strain", self.strain, "%"),
+            ("friction coefficient", self.scaled.friction_coefficient, "", self.scaled.diagnostics.friction_error),
+            ("of linear moduli", self.linear.friction_coefficient, "", self.linear.diagnostics.friction_error),
+            ("notes", self.notes),
         )
 
     def to_dataset(self) -> xarray.Dataset:

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 
 from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
+from viscofric.datasets import dataset, on_grid
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
 from viscofric.friction.solved_columns import columns_of
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
+from viscofric.showing import Plotted
 from viscofric.units import Quantity, positive, share, shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
+    from typing import Self
 
     import xarray
 
     from viscofric.arrays import Array, Integers, Mask
     from viscofric.checks import Check
     from viscofric.contact.solution import ContactSolution
+    from viscofric.showing import Rows
 
 
 _REQUIRED = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
@@ -48,7 +52,7 @@ _COORDINATES = ("speed", "temperature", "load", "slip")
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionCurves:
+class FrictionCurves(Plotted):
     """Viscoelastic (and Coulomb) friction coefficients, one entry per speed and temperature.
 
     An infinite standard error means that the number could not be found from the data.
@@ -148,15 +152,16 @@ class FrictionCurves:
     mean_pressure_error: Array | None = None
 
     def __post_init__(self) -> None:
+        check_choice(self.load_unit, "load_unit", "N", "N/m")
         shape = (read_only(self.speed, "speed of friction curves").size,)
         for name in (*_REQUIRED, *_OPTIONAL):
             if name in _REQUIRED or getattr(self, name) is not None:
-                object.__setattr__(self, name, _column(getattr(self, name), name, shape))
+                unit = self.load_unit if name == "load" else ""
+                object.__setattr__(self, name, _column(getattr(self, name), name, shape, unit))
         replicates = whole_numbers(self.replicates, "replicates of friction curves")
         if replicates.shape != shape:
             raise InputError("replicates of friction curves must hold one whole number per speed.", code="wrong-length")
         object.__setattr__(self, "replicates", replicates)
-        check_choice(self.load_unit, "load_unit", "N", "N/m")
         for name in ("source", "assumption"):
             text(getattr(self, name), f"{name} of friction curves")
         object.__setattr__(self, "notes", sentences(self.notes, "notes of friction curves"))
@@ -167,6 +172,20 @@ class FrictionCurves:
     def __len__(self) -> int:
         return len(self.speed)
 
+    def _shown(self) -> Rows:
+        return (
+            ("speed", self.speed, "m/s"),
+            ("temperature", self.temperatures, "°C"),
+            ("load", self.load, self.load_unit),
+            ("viscoelastic friction", self.viscoelastic),
+            ("its error", self.viscoelastic_error),
+            ("Coulomb friction", self.coulomb),
+            ("error by the material", self.material_error),
+            ("replicates", self.replicates),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
+
     @property
     def temperatures(self) -> Array:
         """The different temperatures, K, ascending."""
@@ -176,6 +195,26 @@ class FrictionCurves:
     def speeds(self) -> Array:
         """The different speeds, m/s, ascending."""
         return np.unique(self.speed)
+
+    @property
+    def friction_coefficient(self) -> Array:
+        """`viscoelastic`, (n,): the friction coefficient under the name that it has in single contacts."""
+        return self.viscoelastic
+
+    @property
+    def friction_error(self) -> Array:
+        """`viscoelastic_error`, (n,), under the name that it has in single contacts."""
+        return self.viscoelastic_error
+
+    @property
+    def interface_friction(self) -> Array | None:
+        """`coulomb`, (n,): the part of the interface under the name that it has on rough surfaces."""
+        return self.coulomb
+
+    @property
+    def interface_error(self) -> Array | None:
+        """`coulomb_error`, (n,), under the name that it has on rough surfaces."""
+        return self.coulomb_error
 
     @property
     def total(self) -> Array:
@@ -334,13 +373,32 @@ class FrictionCurves:
             )
         return self.select(keep)
 
+    def __iter__(self) -> Iterator[Self]:
+        """Iterate over the entries, each as curves of one point."""
+        return (self[place] for place in range(len(self)))
+
+    def __getitem__(self, keep: int | slice | Mask | Integers) -> Self:
+        """Return some of the entries: ``curves[0]``, ``curves[:5]``, ``curves[curves.speed > 0.05]``; see `select`."""
+        return cast("Self", self.select(np.atleast_1d(np.arange(len(self))[keep])))
+
     def to_dataset(self) -> xarray.Dataset:
-        """Return the curves as a labelled data set along ``point``, with units and long names.
+        """Return the curves as a labelled data set, with units and long names.
 
-        Speed, temperature, load and slip are coordinates; source, notes and assumption are attributes.
+        Returns
+        -------
+        xarray.Dataset
+            Over ``temperature`` and ``speed`` where there is one entry for each pair of them, over ``load``,
+            ``temperature`` and ``speed`` where there is one for each three, and else along ``point``, as
+            `points_dataset` returns it.  Speed, temperature, load and slip are coordinates; source, notes and
+            assumption are attributes.
         """
-        from viscofric.datasets import dataset
+        points = self.points_dataset()
+        found = on_grid(points, "temperature", "speed")
+        found = on_grid(points, "load", "temperature", "speed") if found is None else found
+        return points if found is None else found
 
+    def points_dataset(self) -> xarray.Dataset:
+        """Return the curves as a labelled data set along ``point``, one for each entry, in their order."""
         labels = LABELS | {"load": (self.load_unit, LOADS[self.load_unit])}
         columns = {
             name: (getattr(self, name), *label) for name, label in labels.items() if getattr(self, name) is not None
@@ -363,8 +421,8 @@ def insist_on_curves(given: object, name: str) -> FrictionCurves:
     return given
 
 
-def _column(values: object, name: str, shape: tuple[int, ...]) -> Array:
-    column = read_only(values, f"{name} of friction curves")
+def _column(values: object, name: str, shape: tuple[int, ...], unit: str) -> Array:
+    column = read_only(values, f"{name} of friction curves", unit)
     if column.shape != shape:
         raise InputError(f"{name} of friction curves must hold one value per speed.", code="wrong-length")
     if name.endswith(("_error", "_scatter", "_freedom")):

@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.contact.bodies import Layer
-from viscofric.friction.assumption_check import AssumptionCheck, verdict
+from viscofric.friction.assumption_check import AssumptionCheck, modes_of, verdict
 from viscofric.notes import Note, Remedy
 from viscofric.units import plain, positive
 
@@ -196,10 +196,12 @@ class _OnLayers:
     where: Place
 
     @classmethod
-    def of(cls, material: Material, curves: FrictionCurves, row: int, size: ContactSize) -> _OnLayers:
+    def of(
+        cls, spectrum: RetardationSpectrum, poisson_ratio: float, curves: FrictionCurves, row: int, size: ContactSize
+    ) -> _OnLayers:
         contact = ContactOnLayers(
-            material.modes_at(float(curves.temperature[row])),
-            material.poisson_ratio,
+            spectrum,
+            poisson_ratio,
             # far away a long ellipse acts as a circle no larger than this
             min(size.smallest, size.relaxed),
             size.curvature,
@@ -227,8 +229,14 @@ def check_half_space(
     widest = max(sizes, key=lambda size: size.largest * size.smallest)
     given = None if thickness is None else positive(thickness, "m", "thickness")
     layer = Layer(THICK * widest.smallest if given is None else given)
-    contacts = (_OnLayers.of(material, curves, row, size) for row, size in enumerate(sizes))
-    worst, effect = max(((one, one.contact.on(layer)) for one in contacts), key=lambda pair: abs(pair[1].friction))
+    modes = {kelvin: modes_of(material, kelvin) for kelvin in set(curves.temperature.tolist())}
+
+    def effect_at(row: int) -> tuple[_OnLayers, ThicknessEffect]:
+        spectrum = modes[float(curves.temperature[row])]
+        one = _OnLayers.of(spectrum, material.poisson_ratio, curves, row, sizes[row])
+        return one, one.contact.on(layer)
+
+    worst, effect = max(map(effect_at, range(len(curves))), key=lambda pair: abs(pair[1].friction))
     enough = worst.contact.thickness_for(passes)
     limit = min(1.0 / THICK, widest.largest / enough)
     there = "" if str(worst.where) == str(widest.where) else f" ({worst.where})"

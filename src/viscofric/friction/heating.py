@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from viscofric.heat.heating import Heating
     from viscofric.processes import Workers
     from viscofric.rheology.interface.law import InterfaceLaw
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,9 +61,15 @@ class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
         super().__post_init__()
         self.keep_heat(self.speed.shape)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def _shown(self) -> Rows:
+        return (
+            *(row for row in super()._shown() if row[0] not in ("source", "replicates", "error by the material")),
+            ("rise of temperature", self.temperature_rise, "K"),
+        )
+
+    def points_dataset(self) -> xarray.Dataset:
         """Return the curves as `FrictionCurves` do, with the columns of the heat."""
-        return super().to_dataset().assign(self.heat_variables("point"))
+        return super().points_dataset().assign(self.heat_variables("point"))
 
 
 def predict_heated(

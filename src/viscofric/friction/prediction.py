@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
 from viscofric.arguments import flag, insist_on, insist_on_function
+from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
@@ -21,13 +23,13 @@ from viscofric.friction.planning.shared import shared_records
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.friction.solved_columns import columns_of_records
 from viscofric.heat.heating import Heating
-from viscofric.processes import Workers, call_all
+from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.material import insist_on_material
 from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_array
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from viscofric.arrays import Array
     from viscofric.rheology.interface.law import InterfaceLaw
@@ -40,8 +42,9 @@ def predict_friction(
     indenter: Indenter,
     *,
     speeds: Quantities,
-    temperatures: Quantities,
-    load: Quantity,
+    temperatures: Quantities | None = None,
+    load: Quantity | None = None,
+    loads: Quantities | None = None,
     samples: MaterialSamples | None = None,
     interface: InterfaceLaw | None = None,
     slip: Quantities | None = None,
@@ -66,9 +69,11 @@ def predict_friction(
     speeds : float, str, pint.Quantity, or an array or list of them
         Speeds at which the rubber is deformed, above zero; m/s if plain numbers.
     temperatures : float, str, pint.Quantity, or an array or list of them
-        K if plain numbers.
-    load : float, str or pint.Quantity
+        K if plain numbers; the reference of the material if left out.
+    load : float, str or pint.Quantity, optional
         Normal load, N if a plain number; of a line contact per length, N/m.
+    loads : float, str, pint.Quantity, or an array or list of them, optional
+        Several loads instead: the curves of one load after those of another.
     samples : MaterialSamples, optional
         The material as other measurements might have given it, from `sample_materials` or `identify_material`: the
         curves then hold the standard error that this leaves on friction and the limits of its 95 % band, found to
@@ -101,8 +106,8 @@ def predict_friction(
     Returns
     -------
     FrictionCurves
-        Temperature after temperature in the order given, each with all speeds; with samples also `material_error`,
-        `viscoelastic_lower` and `viscoelastic_upper`; with heating `HeatedFrictionCurves`.
+        Load after load and temperature after temperature in the order given, each with all speeds; with samples also
+        `material_error`, `viscoelastic_lower` and `viscoelastic_upper`; with heating `HeatedFrictionCurves`.
 
     Raises
     ------
@@ -126,7 +131,6 @@ def predict_friction(
     array([0.025, 0.016])
     """
     velocities = to_si_array(speeds, "m/s", "speeds")
-    kelvins = to_si_array(temperatures, "K", "temperatures")
     if unknown := settings.keys() - ContactOptions.__annotations__.keys():
         raise TypeError(f"predict_friction() got an unexpected keyword argument {min(unknown)!r}")
     insist_on_material(material)
@@ -134,7 +138,27 @@ def predict_friction(
     insist_on_round_edges(indenter)
     insist_on_function(progress, "progress")
     flag(exact, "exact")
-    force = positive(load, indenter.geometry.load_unit, "load")
+    kelvins = to_si_array(_reference(material) if temperatures is None else temperatures, "K", "temperatures")
+    layer = Layer.of(settings.get("layer"))
+    if layer is not None:
+        settings["layer"] = layer
+    unit = indenter.geometry.load_unit
+    if load is None or loads is not None:
+        if load is not None or loads is None:
+            both = "neither" if load is None else "both"
+            raise InputError(f"load and loads: {both} given; give exactly one of them.", code="give-one", field="load")
+        forces = to_si_array(loads, unit, "loads")
+        _insist_on_values(forces, "loads", unit)
+        with at_work(workers) as processes:
+            return _joined(
+                predict_friction(
+                    material, indenter, speeds=velocities, temperatures=kelvins, load=float(one), samples=samples,
+                    interface=interface, slip=slip, accuracy=accuracy, workers=processes, heating=heating, exact=exact,
+                    progress=None if progress is None else partial(_part_of, progress, place, len(forces)), **settings,
+                )
+                for place, one in enumerate(forces)
+            )  # fmt: skip
+    force = positive(load, unit, "load")
     _insist_on_values(velocities, "speeds", "m/s")
     _insist_on_values(kelvins, "temperatures", "K")
     check_interface(interface, slip)
@@ -170,9 +194,37 @@ def predict_friction(
         curves = with_interface(curves, interface, slip, rise=rise)
     if curves.coulomb is None or settings.get("coulomb"):
         return curves
-    bodies = [(material, settings.get("layer"))] * len(curves)
+    bodies = [(material, layer)] * len(curves)
     warmer = getattr(curves, "temperature_rise", None)
     return replace(curves, notes=(*curves.notes, *shear_notes(curves, curves.coulomb, bodies, warmer)))
+
+
+def _reference(material: Material) -> float:
+    """Return the temperature at which a material is known, K."""
+    if material.reference is None:
+        raise InputError(
+            "temperatures: this material has no shift, so that the temperature of its curves is unknown; give "
+            "Material(spectrum, shift=WLF(…)), or solve single contacts with solve_steady().",
+            code="no-shift",
+        )
+    return material.reference
+
+
+def _part_of(progress: Callable[[int, int], object], place: int, count: int, done: int, total: int) -> None:
+    """Report the progress of one of several predictions of equal length."""
+    progress(place * total + done, count * total)
+
+
+def _joined(each: Iterable[FrictionCurves]) -> FrictionCurves:
+    """Return curves of several loads as one."""
+    first, *others = each
+    every = (first, *others)
+    columns: dict[str, Any] = {
+        field.name: np.concatenate([getattr(one, field.name) for one in every])
+        for field in fields(first)
+        if isinstance(getattr(first, field.name), np.ndarray)
+    }
+    return replace(first, **columns, notes=tuple(dict.fromkeys(note for one in every for note in one.notes)))
 
 
 def _isothermal(

@@ -172,15 +172,16 @@ def _change(material: Material, indenter: Indenter, curves: FrictionCurves, deca
     """
     change = np.zeros(len(curves))
     same_load = np.round(np.log(curves.load) / _SAME_LOAD)
+    plane_strain, under_load = 1.0 - material.poisson_ratio**2, {}
     for kelvin, load in sorted(set(zip(curves.temperature.tolist(), same_load.tolist(), strict=True))):
         rows = np.flatnonzero((curves.temperature == kelvin) & (same_load == load))
         modes = material.modes_at(kelvin)
         if not np.any(modes.C > 0.0):
             continue
         lossy = modes.C > 0.0
-        first = FirstOrder(
-            indenter, float(np.exp(_SAME_LOAD * load)), 1.0 - material.poisson_ratio**2, modes.tau[lossy]
-        )
+        if load not in under_load:
+            under_load[load] = FirstOrder(indenter, float(np.exp(_SAME_LOAD * load)), plane_strain, modes.tau[lossy])
+        first = under_load[load].at_times(modes.tau[lossy])
         compliances = np.log([1.0 / modes.E_inf, *modes.C[lossy]])
         on_the_way = np.log(curves.speed[rows]) - LN10 * np.multiply.outer(_STEPS, decades[rows])
         friction = first(compliances, on_the_way.ravel()).log_friction.reshape(on_the_way.shape)

@@ -10,12 +10,13 @@ from viscofric.arguments import insist_on, number
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.means import disc_mean, face_resistance
 from viscofric.heat.track import track_temperature
+from viscofric.showing import Rows, Shown
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, positive, to_si
 
 
 @dataclass(frozen=True, kw_only=True)
-class Heating:
+class Heating(Shown):
     """How friction heats a contact.
 
     Parameters
@@ -88,6 +89,19 @@ class Heating:
             object.__setattr__(self, "track_radius", positive(self.track_radius, "m", "track_radius"))
         elif passes > 0.0:
             raise InputError("passes: need the track_radius.", code="give-one")
+
+    def _shown(self) -> Rows:
+        return (
+            ("rubber", self.rubber.name),
+            ("counterface", self.counterface.name),
+            ("Coulomb friction", self.coulomb),
+            ("slip", self.slip, "m/s"),
+            ("radius of the track", self.track_radius, "m"),
+            ("earlier passes", self.passes),
+            ("average", self.average),
+            ("branch", self.branch),
+            ("nominal radius", self.nominal_radius, "m"),
+        )
 
     def sliding(self, speed: float) -> float:
         """Return the sliding velocity, m/s, of a contact that moves at a speed, m/s."""

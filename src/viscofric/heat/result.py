@@ -10,11 +10,13 @@ import numpy as np
 from viscofric.data import read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: Rises of temperature of a steady contact, with unit and long name.
@@ -108,7 +110,7 @@ class SolvedHeatColumns(HeatColumns):
 
 
 @dataclass(frozen=True)
-class ContactHeating:
+class ContactHeating(Shown):
     """Heat and rise of temperature of a contact, and its friction without them.
 
     Heats are in W, of a line contact in W/m, of a rough surface in W/m² of its nominal area.
@@ -160,6 +162,17 @@ class ContactHeating:
     other_rise: float | None = None
     other_friction: float | None = None
 
+    def _shown(self) -> Rows:
+        return (
+            ("rise of temperature", self.temperature_rise, "K"),
+            ("by Coulomb friction", self.coulomb_rise, "K"),
+            ("by the loss", self.loss_rise, "K"),
+            ("by earlier passes", self.track_rise, "K"),
+            ("mean rise of the face", self.face_rise, "K"),
+            ("isothermal friction", self.isothermal_friction),
+            ("rise of the other state", self.other_rise, "K"),
+        )
+
     def to_dataset(self) -> xarray.Dataset:
         """Return all numbers with units and long names; those of the other state only where there is one."""
         heat = "(W/m of a line contact, W/m² of a rough surface)"
@@ -179,7 +192,7 @@ class ContactHeating:
 
 
 @dataclass(frozen=True, eq=False)
-class TransientHeating:
+class TransientHeating(Shown):
     """Heat and rise of temperature of a contact over time, and its friction without them; each (n,) along its times.
 
     Heats are since the start, J, of a line contact J/m.
@@ -217,6 +230,14 @@ class TransientHeating:
     isothermal_friction_force: Array
     residual: Array
     error: Array
+
+    def _shown(self) -> Rows:
+        return (
+            ("rise of temperature", self.temperature_rise, "K"),
+            ("by the loss", self.loss_rise, "K"),
+            ("mean rise of the face", self.face_rise, "K"),
+            ("error of the rise", self.error, "K"),
+        )
 
     @property
     def rubber_heat(self) -> Array:

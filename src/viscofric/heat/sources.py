@@ -13,11 +13,13 @@ from viscofric.arguments import insist_on
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.means import disc_mean, strip_mean
 from viscofric.heat.points import disc_points, strip_points
+from viscofric.showing import Shown
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, positive, to_si, to_si_in_shape
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
     from viscofric.units import Quantities
 
 
@@ -26,7 +28,7 @@ FASTEST = 1e6
 
 
 @dataclass(frozen=True)
-class MovingHeatSource:
+class MovingHeatSource(Shown):
     """A disc or strip of heat that moves at a constant velocity over a half-space, in the steady state.
 
     No heat leaves the surface elsewhere.  Temperatures are rises above that of the body far away.
@@ -84,6 +86,18 @@ class MovingHeatSource:
                 f"and va/(2κ) may not be above {FASTEST:g}.",
                 code="out-of-range",
             )
+
+    def _shown(self) -> Rows:
+        return (
+            ("power", self.power, "W/m" if self.shape == "strip" else "W"),
+            ("size", self.size, "m"),
+            ("speed", self.speed, "m/s"),
+            ("body", self.body.name),
+            ("shape", self.shape),
+            ("Péclet number", self.peclet_number),
+            ("mean rise", self.mean_temperature, "K"),
+            ("largest rise", self.max_temperature, "K"),
+        )
 
     @property
     def peclet_number(self) -> float:

@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING
 from viscofric.errors import InputError
 from viscofric.literature.basis import basis
 from viscofric.literature.reference import Reference
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from viscofric.showing import Rows
 
 _WIDTH = 118
 
@@ -36,7 +39,7 @@ class Citation:
 
 
 @dataclass(frozen=True)
-class Citations:
+class Citations(Shown):
     """References of results, the software first; printed as a list, or as BibTeX.
 
     Attributes
@@ -49,6 +52,9 @@ class Citations:
 
     def __len__(self) -> int:
         return len(self.entries)
+
+    def _shown(self) -> Rows:
+        return (("references", ", ".join(self.keys)),)
 
     def __iter__(self) -> Iterator[Citation]:
         return iter(self.entries)
@@ -64,9 +70,6 @@ class Citations:
             )
             for number, entry in enumerate(self.entries, 1)
         )
-
-    def __repr__(self) -> str:
-        return f"Citations({', '.join(self.keys)})"
 
     @property
     def keys(self) -> tuple[str, ...]:

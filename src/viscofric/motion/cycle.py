@@ -61,7 +61,7 @@ def solve_cycle(
     *,
     times: Quantities | None = None,
     accuracy: float = 1e-3,
-    layer: Layer | None = None,
+    layer: Layer | Quantity | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
     coulomb: float = 0.0,
@@ -82,8 +82,9 @@ def solve_cycle(
         Times to return, ascending, within the period, s, with their pressures.  All steps without pressures if omitted.
     accuracy : float
         As for `solve_transient`; also the accuracy of the periodic state, in stored energy.
-    layer : Layer, optional
-        Thickness and base of the material; a half-space if omitted.
+    layer : Layer, float, str or pint.Quantity, optional
+        Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space if
+        omitted.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of an elastic indenter, Pa; rigid if omitted.
     indenter_poisson_ratio : float

@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.showing import Plotted
+
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.motion.cycle_numbers import Estimate, Found
     from viscofric.motion.solution import TransientSolution
+    from viscofric.showing import Rows
 
 
 #: Numbers with errors.
@@ -21,7 +24,7 @@ _NUMBERS = (
 
 
 @dataclass(frozen=True, eq=False)
-class CycleSolution:
+class CycleSolution(Plotted):
     """One period of a contact in its periodic state.
 
     Attributes
@@ -61,6 +64,24 @@ mean_friction_coefficient_error : float or None
     periods: int
     change: float
     warnings: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        stiffness = {"line": "Pa", "periodic": "Pa/m"}.get(self.run.geometry, "N/m")
+        return (
+            (
+                "energy per cycle",
+                self.energy_per_cycle,
+                {"line": "J/m", "periodic": "J/m²"}.get(self.run.geometry, "J"),
+                self.energy_per_cycle_error,
+            ),
+            ("friction coefficient, mean", self.mean_friction_coefficient, "", self.mean_friction_coefficient_error),
+            ("loss tangent", self.loss_tangent, "", self.loss_tangent_error),
+            ("storage stiffness", self.storage_stiffness, stiffness, self.storage_stiffness_error),
+            ("loss stiffness", self.loss_stiffness, stiffness, self.loss_stiffness_error),
+            ("periods computed", self.periods),
+            ("times", self.run.time, "s"),
+            ("warnings", self.warnings),
+        )
 
     @classmethod
     def of(cls, run: TransientSolution, found: Found, control: str, periods: int) -> CycleSolution:

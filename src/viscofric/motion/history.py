@@ -13,12 +13,14 @@ from viscofric.errors import InputError, brief, check_choice
 from viscofric.motion.schedule import Schedule, make_schedule
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
+from viscofric.showing import Shown
 from viscofric.units import to_si_array, to_si_in_shape
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
     from viscofric.units import Quantities
 
 #: What may be prescribed normal to the surface, with its unit.
@@ -31,7 +33,7 @@ _CONTROLS_OF = {"point": ("load", "indentation"), "line": ("load", "indentation"
 
 
 @dataclass(frozen=True, eq=False)
-class History:
+class History(Shown):
     """Prescribed motion of an indenter, linear between the given times; a time given twice is a jump.
 
     Exactly one of load, indentation, pressure and gap is given.  Each of them, the speed and the temperature may be one
@@ -146,6 +148,19 @@ class History:
         }  # fmt: skip
         for name, value in fields.items():
             object.__setattr__(self, name, value)
+
+    def _shown(self) -> Rows:
+        return (
+            ("time", self.time, "s"),
+            ("load", self.load, self.load_unit),
+            ("indentation", self.indentation, "m"),
+            ("pressure", self.pressure, "Pa"),
+            ("gap", self.gap, "m"),
+            ("position", self.position, "m"),
+            ("speed", self.speed, "m/s"),
+            ("temperature", self.temperature, "°C"),
+            ("before", self.before),
+        )
 
     @property
     def control(self) -> str:

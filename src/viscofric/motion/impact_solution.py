@@ -6,12 +6,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 from viscofric.datasets import dataset
+from viscofric.showing import Plotted, shown_as_html, shown_as_text
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
     from viscofric.motion.solution import TransientSolution
+    from viscofric.showing import Rows
 
 
 class ImpactContact(NamedTuple):
@@ -47,9 +49,24 @@ class ImpactContact(NamedTuple):
     separation_indentation: float
     restitution_error: float
 
+    def _shown(self) -> Rows:
+        return (
+            ("speed", self.speed, "m/s"),
+            ("restitution", self.restitution, "", self.restitution_error),
+            ("contact time", self.contact_time, "s"),
+            ("largest force", self.peak_force, "N"),
+            ("largest indentation", self.largest_indentation, "m"),
+        )
+
+    def __repr__(self) -> str:
+        return shown_as_text("ImpactContact", self._shown())
+
+    def _repr_html_(self) -> str:
+        return shown_as_html("ImpactContact", self._shown())
+
 
 @dataclass(frozen=True, eq=False)
-class ImpactSolution:
+class ImpactSolution(Plotted):
     """Impact of an indenter of some mass.
 
     Attributes
@@ -77,6 +94,19 @@ class ImpactSolution:
     gravity: float
     temperature: float | None
     warnings: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("contacts", self.contacts),
+            ("speed", self.contacts[0].speed, "m/s"),
+            ("mass", self.mass, "kg"),
+            ("restitution", self.restitution, "", self.restitution_error),
+            ("contact time", self.contact_time, "s"),
+            ("largest force", self.peak_force, "N"),
+            ("largest indentation", self.largest_indentation, "m"),
+            ("temperature", self.temperature, "°C"),
+            ("warnings", self.warnings),
+        )
 
     @property
     def restitution(self) -> float:
@@ -112,7 +142,7 @@ class ImpactSolution:
 
 
 @dataclass(frozen=True, eq=False)
-class RestitutionCurve:
+class RestitutionCurve(Plotted):
     """Restitution against speed and temperature.
 
     Attributes
@@ -141,6 +171,18 @@ class RestitutionCurve:
     peak_force: Array
     largest_indentation: Array
     warnings: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("speed", self.speed, "m/s"),
+            ("temperature", self.temperature, "°C"),
+            ("restitution", self.restitution),
+            ("its error", self.restitution_error),
+            ("contact time", self.contact_time, "s"),
+            ("largest force", self.peak_force, "N"),
+            ("largest indentation", self.largest_indentation, "m"),
+            ("warnings", self.warnings),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return all columns along ``temperature`` (K, where known) and ``speed`` (m/s)."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
+from viscofric.showing import Plotted, Shown
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from viscofric.heat.result import TransientHeating
     from viscofric.motion.mover import Field
     from viscofric.motion.restart import Restart
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
@@ -28,7 +30,7 @@ _UNITS = {"point": ("N", "J", "m2"), "line": ("N/m", "J/m", "m"), "periodic": ("
 
 
 @dataclass(frozen=True, eq=False)
-class TransientErrors:
+class TransientErrors(Shown):
     """Estimated errors of a transient contact in time, absolute, each (n,) along its times.
 
     They include those of steps, springs or cells, merged modes and the tolerance of the contact conditions; contacts on
@@ -56,9 +58,18 @@ class TransientErrors:
     energy: Array
     balance: Array
 
+    def _shown(self) -> Rows:
+        return (
+            ("load", self.load),
+            ("indentation", self.indentation, "m"),
+            ("friction force", self.friction_force),
+            ("energy", self.energy),
+            ("balance", self.balance),
+        )
+
 
 @dataclass(frozen=True, eq=False)
-class TransientSolution:
+class TransientSolution(Plotted):
     """Contact over time.
 
     All in SI units and along the times, (n,).  Forces, areas and energies are per length in a line contact, and per
@@ -135,6 +146,21 @@ class TransientSolution:
     heating: TransientHeating | None = None
     _fields: tuple[Field | None, ...] = field(default=(), repr=False)
     _restart: Restart | None = field(default=None, repr=False)
+
+    def _shown(self) -> Rows:
+        unit = {"line": "N/m", "periodic": "Pa"}.get(self.geometry, "N")
+        return (
+            ("time", self.time, "s"),
+            ("load", self.load, unit),
+            ("friction force", self.friction_force, unit),
+            ("error of the friction", self.errors.friction_force, unit),
+            ("friction coefficient", self.friction_coefficient),
+            ("indentation", self.indentation, "m"),
+            ("temperature", self.temperature, "°C"),
+            ("solved with", f"{self.method}, {self.steps} steps"),
+            ("interrupted", self.interrupted or None),
+            ("warnings", self.warnings),
+        )
 
     @property
     def friction_coefficient(self) -> Array:

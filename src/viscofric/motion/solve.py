@@ -58,7 +58,7 @@ def solve_transient(
     *,
     times: Quantities | None = None,
     accuracy: float = 1e-3,
-    layer: Layer | None = None,
+    layer: Layer | Quantity | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
     progress: Callable[[float, float], object] | None = None,
@@ -77,8 +77,9 @@ def solve_transient(
         Times to return, ascending, within the history (to 1e-12 of it), s; they are met exactly.  All steps if omitted.
     accuracy : float
         Largest error of load, indentation, friction force and energy in time, relative to their largest values so far.
-    layer : Layer, optional
-        Thickness and base of the material; a half-space if omitted.
+    layer : Layer, float, str or pint.Quantity, optional
+        Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space if
+        omitted.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of an elastic indenter, Pa; rigid if omitted.
     indenter_poisson_ratio : float
@@ -229,7 +230,7 @@ def checked_problem(
     indenter: Indenter | PeriodicSurface,
     history: History,
     accuracy: float,
-    layer: Layer | None,
+    layer: Layer | Quantity | None,
     indenter_modulus: Quantity | None,
     indenter_poisson_ratio: float,
 ) -> Problem:
@@ -250,14 +251,10 @@ def checked_problem(
             f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-3.",
             code="out-of-range",
         )
-    if not (layer is None or isinstance(layer, Layer)):
-        raise InputError(
-            f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
-        )
     kind = "periodic" if isinstance(indenter, PeriodicSurface) else ("line", "point")[indenter.geometry.dimension - 1]
     schedule = history.schedule(material, kind)
     counterface = indenter_compliance(indenter_modulus, indenter_poisson_ratio)
-    return Problem(material, indenter, schedule, accuracy, layer, counterface)
+    return Problem(material, indenter, schedule, accuracy, Layer.of(layer), counterface)
 
 
 def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:

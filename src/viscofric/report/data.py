@@ -12,6 +12,7 @@ import numpy as np
 
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.datasets import dataset
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.report.results import is_extrapolated, number, values
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from viscofric.arrays import Array, Mask
-    from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
@@ -47,6 +47,10 @@ _SIDES = ("lower", "upper")
 
 def as_dataset(source: Any, *arguments: Any) -> xr.Dataset:
     """Return a data set as it is, or the one that a result makes of itself (with these arguments)."""
+    if isinstance(source, FrictionCurves):
+        return source.points_dataset()
+    if {"temperature", "speed"} <= set(getattr(source, "dims", ())) and "viscoelastic" in source:
+        source = source.stack(point=tuple(source.dims)).reset_index("point")  # friction curves on a grid
     found: xr.Dataset = source if hasattr(source, "data_vars") else source.to_dataset(*arguments)
     return found
 

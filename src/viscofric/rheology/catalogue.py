@@ -13,11 +13,13 @@ from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, WLFArrhenius
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: The half-Gaussians end this many standard deviations from their centres, where their compliance is negligible.
@@ -25,7 +27,7 @@ WIDTH = 4.5
 
 
 @dataclass(frozen=True)
-class CatalogueEntry:
+class CatalogueEntry(Shown):
     """One material of the catalogue.
 
     Parameters
@@ -50,6 +52,13 @@ class CatalogueEntry:
     citation: str
     remarks: str
     make: Callable[[], Material]
+
+    def _shown(self) -> Rows:
+        return (
+            ("name", self.name),
+            ("kind", self.kind),
+            ("holds", self.holds),
+        )
 
 
 def catalogue() -> tuple[CatalogueEntry, ...]:

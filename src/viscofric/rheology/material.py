@@ -11,20 +11,23 @@ from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.showing import Plotted
 from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
+    import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import ComplexArray
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 
 
 @dataclass(frozen=True, eq=False)
-class Material:
+class Material(Plotted):
     """A linear viscoelastic, incompressible or nearly incompressible rubber.
 
     E(ω, T) = b(T) E(α(T) ω, reference) (Eq. 4 of [1]_, with a vertical shift); the Poisson ratio is constant.
@@ -72,11 +75,13 @@ class Material:
     citation: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.spectrum, (RetardationSpectrum, ModulusTable)):
-            hint = "; a Prony series is turned into one by its to_retardation()"
+        given: object = self.spectrum
+        if isinstance(given, RelaxationSpectrum):
+            object.__setattr__(self, "spectrum", given.to_retardation())
+        elif not isinstance(given, (RetardationSpectrum, ModulusTable)):
             raise InputError(
-                "spectrum of a material must be a RetardationSpectrum or a ModulusTable, not "
-                f"{type(self.spectrum).__name__}{hint if hasattr(self.spectrum, 'to_retardation') else ''}.",
+                "spectrum of a material must be a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable, not "
+                f"{type(given).__name__}.",
                 code="wrong-type",
             )
         if not (self.shift is None or isinstance(self.shift, ShiftLaw)):
@@ -99,6 +104,16 @@ class Material:
         object.__setattr__(self, "poisson_ratio", checked_poisson_ratio(self.poisson_ratio))
         text(self.name, "name of a material")
         text(self.citation, "citation of a material")
+
+    def _shown(self) -> Rows:
+        return (
+            ("name", self.name or None),
+            ("spectrum", self.spectrum),
+            ("Poisson ratio", self.poisson_ratio),
+            ("shift", None if self.shift is None else self.shift),
+            ("reference", self.reference, "°C"),
+            ("vertical shift", None if self.vertical_shift is None else type(self.vertical_shift).__name__),
+        )
 
     @classmethod
     def standard_linear_solid(
@@ -146,6 +161,10 @@ class Material:
             If a temperature is given for a material without a shift, or one where a shift has no meaning.
         """
         return self._moved(self.spectrum, temperature)  # type: ignore[type-var]
+
+    def to_dataset(self, temperature: Quantity | None = None) -> xarray.Dataset:
+        """Return the modes, or the table of moduli, at a temperature as a labelled data set; see `at`."""
+        return self.at(temperature).to_dataset()
 
     def _moved(self, spectrum: Spectrum, temperature: Quantity | None) -> Spectrum:
         if temperature is None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 import numpy as np
 
 from viscofric.arguments import insist_on_function
+from viscofric.contact.bodies import Layer
 from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.contact.periodic.heating import MEAN_LEFT_OUT, insist_on_heatable
 from viscofric.contact.periodic.surface import PeriodicSurface
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import Backend
-    from viscofric.contact.bodies import Layer
     from viscofric.heat.heating import Heating
     from viscofric.notes import Note
     from viscofric.rheology.interface.law import InterfaceLaw
@@ -43,7 +43,7 @@ class PeriodicSettings(TypedDict, total=False):
 
     direction: Sequence[float]
     coulomb: float
-    layer: Layer | None
+    layer: Layer | Quantity | None
     indenter_modulus: Quantity | None
     indenter_poisson_ratio: float
     tolerance: float
@@ -126,13 +126,14 @@ def predict_rough_friction(
     load = positive(pressure, "Pa", "pressure")
     if interface is not None:
         insist_on_interface(interface)
-    call: dict[str, Any] = {"material": material, "pressure": load, "tolerance": _TOLERANCE, **settings}
+    layer = Layer.of(settings.get("layer"))
+    call: dict[str, Any] = {"material": material, "pressure": load, "tolerance": _TOLERANCE, **settings, "layer": layer}
     total = len(kelvins) * len(velocities) * len(named)
     if heating is not None:
         total *= 2
         for speed in velocities:
             known = None if temperatures is None else kelvins[0]
-            insist_on_heatable(heating, material, float(speed), known, call.get("layer"), call.get("coulomb", 0.0))
+            insist_on_heatable(heating, material, float(speed), known, layer, call.get("coulomb", 0.0))
         check_interface_heat(heating, interface)
 
     def report(done: int) -> None:
@@ -169,7 +170,7 @@ def predict_rough_friction(
         numbers["notes"] = (*numbers.get("notes", ()), *doubts, *left_out)
     coulomb = numbers.get("interface_friction", np.full(shape, 0.0 if heating is None else heating.coulomb))
     if not call.get("coulomb"):
-        shear = _shear_notes(coulomb, numbers, [one for _, one in named], velocities, load, material, call.get("layer"))
+        shear = _shear_notes(coulomb, numbers, [one for _, one in named], velocities, load, material, layer)
         numbers["notes"] = (*numbers.get("notes", ()), *shear)
     result = RoughFriction if heating is None else HeatedRoughFriction
     return result(

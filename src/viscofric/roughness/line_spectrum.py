@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: Weight of the second differences of the surface's density, which matter only where the lines leave it open.
@@ -52,6 +53,9 @@ class LineSpectrum(Density):
 
     _unit: ClassVar[str] = "m**3"
     _name: ClassVar[str] = "power spectral density of lines"
+
+    def _shown(self) -> Rows:
+        return *super()._shown(), ("rms height", self.rms_height(), "m"), ("rms slope", self.rms_slope())
 
     def moment(self, order: float) -> float:
         """Return 2 ∫ q^order C(q) dq: ⟨h²⟩ for 0, ⟨(dh/dx)²⟩ for 2, ⟨(d²h/dx²)²⟩ for 4."""

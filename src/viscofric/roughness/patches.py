@@ -12,12 +12,14 @@ from viscofric.arguments import numbers, whole_number
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, Mask
+    from viscofric.showing import Rows
 
 
 #: Of a distribution, where their number is given; edges may be as many as one likes.
@@ -26,7 +28,7 @@ _BORDER = (math.pi - 1.0 + math.log(2.0)) / 24.0
 
 
 @dataclass(frozen=True)
-class ContactStatistics:
+class ContactStatistics(Shown):
     """Numbers that describe a contact of rough surfaces.
 
     Attributes
@@ -67,6 +69,18 @@ class ContactStatistics:
     pressure_deviation: float
     gap_outside: float
     gap_deviation: float
+
+    def _shown(self) -> Rows:
+        return (
+            ("contact area", self.corrected_area_fraction, "%"),
+            ("points under pressure", self.area_fraction, "%"),
+            ("patches", self.patches),
+            ("chord along the motion", self.chord_along, "m"),
+            ("chord across", self.chord_across, "m"),
+            ("pressure in contact", self.pressure_in_contact, "Pa"),
+            ("its standard deviation", self.pressure_deviation, "Pa"),
+            ("gap outside", self.gap_outside, "m"),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return all numbers, each without a dimension."""

@@ -10,15 +10,17 @@ import numpy as np
 from viscofric.datasets import dataset
 from viscofric.heat.result import HeatColumns
 from viscofric.rheology.interface.friction import total_friction
+from viscofric.showing import Plotted
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class PerssonTheory:
+class PerssonTheory(Plotted):
     """Results of Persson's theory for a rubber that slides on a rough surface.
 
     Attributes
@@ -66,6 +68,19 @@ class PerssonTheory:
     interface_friction: Array | None = None
     interface_error: Array | None = None
     notes: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("temperature", self.temperature, "°C"),
+            ("speed", self.speed, "m/s"),
+            ("pressure", self.pressure, "Pa"),
+            ("friction coefficient", self.friction_coefficient),
+            ("interface friction", self.interface_friction),
+            ("contact area", self.contact_area_fraction, "%"),
+            ("wave numbers", self.wave_number, "rad/m"),
+            ("error of the integrals", self.error),
+            ("notes", self.notes),
+        )
 
     @property
     def total(self) -> Array:
@@ -128,6 +143,12 @@ class HeatedPerssonTheory(HeatColumns, PerssonTheory):
 
     def __post_init__(self) -> None:
         self.keep_heat(self.friction_coefficient.shape)
+
+    def _shown(self) -> Rows:
+        return (
+            *super()._shown(),
+            ("rise of temperature", self.temperature_rise, "K"),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return everything as `PerssonTheory` does, with the columns of the heat."""

@@ -13,16 +13,18 @@ from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.result import SolvedHeatColumns
 from viscofric.rheology.interface.friction import total_friction
+from viscofric.showing import Plotted
 from viscofric.units import share
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class RoughFriction:
+class RoughFriction(Plotted):
     """Friction and contact area on several rough surfaces, over temperatures and speeds.
 
     Attributes
@@ -63,6 +65,19 @@ class RoughFriction:
     interface_friction: Array | None = None
     interface_error: Array | None = None
     notes: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("surfaces", self.surfaces),
+            ("temperature", self.temperature, "°C"),
+            ("speed", self.speed, "m/s"),
+            ("pressure", self.pressure, "Pa"),
+            ("friction coefficient", self.friction_coefficient),
+            ("its error", self.friction_error),
+            ("interface friction", self.interface_friction),
+            ("contact area", self.corrected_area_fraction, "%"),
+            ("notes", self.notes),
+        )
 
     @property
     def total(self) -> Array:
@@ -161,6 +176,12 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
 
     def __post_init__(self) -> None:
         self.keep_heat(self.friction_coefficient.shape)
+
+    def _shown(self) -> Rows:
+        return (
+            *super()._shown(),
+            ("rise of temperature", self.temperature_rise, "K"),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return everything as `RoughFriction` does, with the columns of the heat."""

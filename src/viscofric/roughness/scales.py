@@ -14,12 +14,14 @@ from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
+from viscofric.showing import Plotted
 from viscofric.units import Quantities, to_si_array
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: A wave just at an edge belongs to the longer ones, whatever the rounding.
@@ -27,7 +29,7 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionByWavelength:
+class FrictionByWavelength(Plotted):
     """Friction coefficient of a contact, by wavelengths of the pressure.
 
     Attributes
@@ -40,6 +42,13 @@ class FrictionByWavelength:
 
     edges: Array
     contribution: Array
+
+    def _shown(self) -> Rows:
+        return (
+            ("friction coefficient", self.total),
+            ("wavelengths", self.edges, "m"),
+            ("contributions", self.contribution),
+        )
 
     @property
     def total(self) -> float:

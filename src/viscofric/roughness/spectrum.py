@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arguments import numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
+from viscofric.showing import Plotted
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: Nodes of the quadrature in each segment.
@@ -25,7 +27,7 @@ NODES = 12
 
 
 @dataclass(frozen=True, eq=False)
-class Density:
+class Density(Plotted):
     """A density that is a power law between its points, and zero beyond them."""
 
     _unit: ClassVar[str]
@@ -37,6 +39,12 @@ class Density:
         q, density = _checked(self.wave_number, self.density)
         object.__setattr__(self, "wave_number", q)
         object.__setattr__(self, "density", density)
+
+    def _shown(self) -> Rows:
+        return (
+            ("wave number", self.wave_number, "rad/m"),
+            ("density", self.density, self._unit.replace("**3", "³").replace("**4", "⁴")),
+        )
 
     def __call__(self, wave_number: ArrayLike) -> Array:
         """Return C at any wave numbers (rad/m), in its own unit; zero beyond the points."""
@@ -87,6 +95,9 @@ class PowerSpectrum(Density):
 
     _unit: ClassVar[str] = "m**4"
     _name: ClassVar[str] = "power spectral density of the surface"
+
+    def _shown(self) -> Rows:
+        return *super()._shown(), ("rms height", self.rms_height(), "m"), ("rms slope", self.rms_slope())
 
     @classmethod
     def self_affine(

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viscofric.arguments import check_cost, flag, numbers, sentences, text
+from viscofric.arguments import check_cost, flag, sentences, text
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.roughness import preparation, waves
-from viscofric.units import Quantity, two_lengths
+from viscofric.showing import Plotted
+from viscofric.units import Quantity, in_si, two_lengths
 
 if TYPE_CHECKING:
     import xarray
@@ -23,10 +24,11 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.height_map import HeightMap, Profile
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.periodic.surface import PeriodicSurface
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class Topography:
+class Topography(Plotted):
     """Heights of a rough surface on a rectangular grid, or along a line, with the steps that made them.
 
     Every method that changes heights returns a new topography with one more step in its history.
@@ -74,7 +76,7 @@ class Topography:
         name: str = "",
         history: tuple[str, ...] = (),
     ) -> None:
-        z = np.array(numbers(heights, "heights of a topography", infinite=True, missing=True))
+        z = np.array(in_si(heights, "m", "heights of a topography", infinite=True, missing=True))
         z = z[:, None] if z.ndim == 1 else z
         if z.ndim != 2 or z.shape[0] < 2 or z.size == 0:
             raise InputError(
@@ -93,6 +95,18 @@ class Topography:
         object.__setattr__(self, "periodic", flag(periodic, "periodic"))
         object.__setattr__(self, "name", text(name, "name of a topography"))
         object.__setattr__(self, "history", sentences(history, "history of a topography"))
+
+    def _shown(self) -> Rows:
+        return (
+            ("name", self.name or None),
+            ("heights", self.heights, "m"),
+            ("size", " × ".join(f"{1e3 * one:.4g}" for one in self.size) + " mm"),
+            ("rms height", None if self.missing else self.rms_height, "m"),
+            ("rms slope", None if self.missing else self.rms_slope),
+            ("missing points", self.missing),
+            ("periodic", self.periodic),
+            ("steps of preparation", self.history),
+        )
 
     @property
     def shape(self) -> tuple[int, int]:

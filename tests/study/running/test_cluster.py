@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import logging
+import shutil
+import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 import pytest
 
+import viscofric as vf
 from refusals import refused
 from study.running.tasks import TwoWaves
 from viscofric.study.run_file.settings import ClusterTable
@@ -78,9 +81,10 @@ def test_study_waits_for_workers_and_says_so(tmp_path: Path, monkeypatch: pytest
 
         with choose_executor(None, cluster.scheduler_address, None) as executor:
             run_plan(plan, CaseStore(tmp_path), executor, start_worker)
-        (said,) = (event.reason for event in heard if event.event == "waiting")
-        assert said is not None
-        assert said.count(cluster.scheduler_address) == 2  # what has no workers, and what to start
+        said = {event.reason for event in heard if event.event == "waiting"}  # again where the worker is slow to start
+        (reason,) = said
+        assert reason is not None
+        assert reason.count(cluster.scheduler_address) == 2  # what has no workers, and what to start
     assert len(plan.known) == 8
 
 
@@ -126,6 +130,42 @@ def test_jobs_are_those_of_the_run_file() -> None:
     assert "--nthreads 1 " in script
     assert "--nworkers 4 " in script
     assert jobs.jobs == 3
+
+
+def test_ctrl_c_stays_an_interruption_where_jobs_are_prepared() -> None:
+    pytest.importorskip("dask_jobqueue")
+    code = (
+        "import signal\n"
+        "from viscofric.study.running.cluster import BatchJobs, Dask\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # which a test in the background has not
+        "Dask(BatchJobs(1))\n"
+        "assert signal.getsignal(signal.SIGINT) is signal.default_int_handler"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
+
+
+@pytest.mark.apart
+def test_a_study_runs_as_jobs_of_slurm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("dask_jobqueue")
+    monkeypatch.chdir(tmp_path)  # where jobs write their messages
+    if shutil.which("sinfo") is None:
+        pytest.skip("there is no SLURM on this machine")
+    idle = subprocess.run(["sinfo", "-h", "-t", "idle", "-o", "%P"], capture_output=True, text=True, timeout=20).stdout
+    if not idle:
+        pytest.skip("SLURM has no idle machine")
+    conditions = 'load = "5 N"\nspeed = ["20 mm/s", "200 mm/s"]\ntemperature = "60 degC"'
+    text = (
+        '[material]\ncatalogue = "synthetic fluoroelastomer"\n[indenter]\nradius = "9.525 mm"\n'
+        f"[conditions]\n{conditions}\n[solver]\naccuracy = 1e-2\n"
+    )
+    queue = idle.split()[0].rstrip("*")
+    jobs = f'[cluster]\nqueue = "{queue}"\njobs = 1\ncores = 1\nmemory = "2 GB"\nwalltime = "1 h"\n'
+    found = []
+    for name, added in (("alone", ""), ("jobs", jobs)):
+        study = tmp_path / f"{name}.toml"
+        study.write_text(text + added)
+        found.append(vf.run_study(study).dataset["friction_coefficient"].values)
+    assert found[0].tolist() == found[1].tolist()
 
 
 def test_jobs_where_none_can_be_sent_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:

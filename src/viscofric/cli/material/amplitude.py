@@ -105,8 +105,8 @@ def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:
     from viscofric.datasets import plain
 
     found = fit.to_dataset()
-    record = {"sweep": repr(fit.sweep), **plain(dict(found.attrs))}
-    lines = [f"{fit.sweep.format}: {fit.sweep!r}", str(fit.law), *map(str, fit.linear_ranges)]
+    record = {"sweep": str(fit.sweep), **plain(dict(found.attrs))}
+    lines = [f"{fit.sweep.format}: {fit.sweep}", str(fit.law), *map(str, fit.linear_ranges)]
     return record, lines
 
 

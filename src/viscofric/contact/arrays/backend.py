@@ -20,6 +20,7 @@ import numpy as np
 from viscofric.arguments import whole_number
 from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
 from viscofric.errors import InputError, not_imported
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -43,7 +44,7 @@ _KNOWN = "'scipy', 'ducc0', 'pyfftw', 'cupy', or 'torch', which may name a devic
 
 
 @dataclass(frozen=True)
-class Backend:
+class Backend(Shown):
     """Arrays and FFTs with which contacts are solved.
 
     Parameters
@@ -69,7 +70,7 @@ class Backend:
     --------
     >>> import viscofric as vf
     >>> vf.Backend("scipy", threads=2)
-    Backend(name='scipy', threads=2)
+    Backend(name: scipy; threads: 2)
     """
 
     name: str = "scipy"

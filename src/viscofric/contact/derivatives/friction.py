@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.contact.derivatives.adjoint import Way, friction_way
 from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
 from viscofric.datasets import dataset
+from viscofric.showing import Plotted
 
 if TYPE_CHECKING:
     import xarray
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.free.stage import Stage
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.showing import Rows
 
 
 # Error as parts of the changes from grid to grid, and of the change by moving cells: with these, all of 111 random
@@ -50,7 +52,7 @@ class LogarithmicDerivatives:
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionDerivatives:
+class FrictionDerivatives(Plotted):
     """Derivatives of the friction coefficient, each with all else held, at the material's modes at that temperature.
 
     Attributes
@@ -94,6 +96,16 @@ class FrictionDerivatives:
     logarithmic: LogarithmicDerivatives
     way: Way
     error: float
+
+    def _shown(self) -> Rows:
+        return (
+            ("by ln v", self.logarithmic.speed, "", self.error),
+            ("by ln F", self.logarithmic.load, "", self.error),
+            ("by ln δ", self.logarithmic.indentation, "", self.error),
+            ("by ln E_inf", self.logarithmic.E_inf, "", self.error),
+            ("by ln C", self.logarithmic.C),
+            ("by ln τ", self.logarithmic.tau),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the derivatives along ``mode`` and as single numbers, those by logarithms as ``log_…``.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 # Directions over which an indenter's height at a distance is averaged.
 _DIRECTIONS = 16
-_BISECTIONS = 200
+_BRACKETS = 200
 
 
 @dataclass(frozen=True)
@@ -142,13 +143,15 @@ def _depth_at(indenter: Indenter, length: float) -> float:
 
 
 def _crossing(function: Callable[[float], float], target: float) -> float:
-    """Distance at which a function that grows from zero crosses a value, by bisection of its logarithm."""
+    """Distance at which a function that grows from zero crosses a value; it is nearly a power of the distance."""
+    from scipy.optimize import brentq
+
     low = high = 1.0
-    for _ in range(_BISECTIONS):
+    for _ in range(_BRACKETS):
         if function(low) < target:
             break
         low *= 0.125
-    for _ in range(_BISECTIONS):
+    for _ in range(_BRACKETS):
         if function(high) >= target:
             break
         high *= 8.0
@@ -156,9 +159,8 @@ def _crossing(function: Callable[[float], float], target: float) -> float:
         raise InputError(
             "the indenter's height does not rise from its lowest point; give a surface that does.", code="flat"
         )
-    for _ in range(_BISECTIONS):
-        middle = math.sqrt(low * high)
-        if not low < middle < high:
-            break
-        low, high = (middle, high) if function(middle) < target else (low, middle)
-    return low
+
+    def beyond(log_distance: float) -> float:
+        return math.log(max(function(math.exp(log_distance)), sys.float_info.min) / target)
+
+    return math.exp(brentq(beyond, math.log(low), math.log(high), xtol=1e-15, rtol=4.0 * sys.float_info.epsilon))

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask
     from viscofric.contact.free.grids import Extent
     from viscofric.notes import Note
+    from viscofric.showing import Rows
 
 
 _FEWEST = 4  # points that a cubic spline needs
@@ -73,6 +74,12 @@ class HeightMap(Indenter):
         object.__setattr__(self, "z", z)
         object.__setattr__(self, "spacing", spacing)
         object.__setattr__(self, "_origin", (spacing[0] * float(lowest[0]), spacing[1] * float(lowest[1])))
+
+    def _shown(self) -> Rows:
+        return (
+            ("heights", self.z, "m"),
+            ("spacing", self._steps[0], "m"),
+        )
 
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m; infinite beyond the map."""
@@ -179,6 +186,12 @@ class Profile(Indenter):
     def __post_init__(self) -> None:
         object.__setattr__(self, "z", _heights(self.z, 1))
         object.__setattr__(self, "spacing", positive(self.spacing, "m", "spacing"))
+
+    def _shown(self) -> Rows:
+        return (
+            ("heights", self.z, "m"),
+            ("spacing", self.spacing, "m"),
+        )
 
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m; infinite beyond the profile."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 from viscofric.contact.free.geometry import POINT, Geometry
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 SMALL_STRAIN = 0.3  # slope of the indenter within the contact beyond which linear contact is doubtful
 
 
-class Indenter(ABC):
+class Indenter(Shown, ABC):
     """A rigid surface that is pressed into the solid; its axis goes through the lowest point, the origin.
 
     Attributes

@@ -17,6 +17,7 @@ from viscofric.units import Quantity, positive
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.free.grids import Extent
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,9 @@ class Ball(Indenter):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
+
+    def _shown(self) -> Rows:
+        return (("radius", self.radius, "m"),)
 
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m."""
@@ -99,6 +103,9 @@ class Cylinder(Indenter):
     def __post_init__(self) -> None:
         object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
 
+    def _shown(self) -> Rows:
+        return (("radius", self.radius, "m"),)
+
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m."""
         return x**2 / (2.0 * float(self.radius)) + 0.0 * y
@@ -149,6 +156,12 @@ class Ellipsoid(Indenter):
     def __post_init__(self) -> None:
         for name in ("radius_x", "radius_y"):
             object.__setattr__(self, name, positive(getattr(self, name), "m", name))
+
+    def _shown(self) -> Rows:
+        return (
+            ("radius along x", self.radius_x, "m"),
+            ("radius along y", self.radius_y, "m"),
+        )
 
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the lowest point at (x, y), in m."""
@@ -206,6 +219,9 @@ class Cone(Indenter):
             )
         object.__setattr__(self, "angle", angle)
 
+    def _shown(self) -> Rows:
+        return (("angle", f"{math.degrees(float(self.angle)):.4g}°"),)
+
     def height(self, x: Array, y: Array) -> Array:
         """Height (m) above the tip at (x, y), in m."""
         return self._steepness * np.hypot(x, y)
@@ -260,6 +276,9 @@ class FlatPunch(Indenter):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
+
+    def _shown(self) -> Rows:
+        return (("radius", self.radius, "m"),)
 
     def height(self, x: Array, y: Array) -> Array:
         """Zero on the face, infinite beyond."""

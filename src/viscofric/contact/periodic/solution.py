@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 from viscofric.contact.solution import SHARED_NUMBERS, Meaning, labelled_numbers
 from viscofric.datasets import dataset
+from viscofric.showing import Plotted, Shown
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
     from viscofric.heat.result import ContactHeating
+    from viscofric.showing import Rows
 
 #: Numbers of a contact on a rough surface.
 NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
@@ -30,7 +32,7 @@ NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
 
 
 @dataclass(frozen=True)
-class PeriodicDiagnostics:
+class PeriodicDiagnostics(Shown):
     """Work, convergence and error estimates of a periodic contact.
 
     Attributes
@@ -75,9 +77,19 @@ class PeriodicDiagnostics:
     linear_iterations: int
     grids: tuple[tuple[int, int, int], ...]
 
+    def _shown(self) -> Rows:
+        return (
+            ("error of the friction", self.friction_error),
+            ("energy balance", self.energy),
+            ("complementarity", self.complementarity),
+            ("full contact", self.full_contact),
+            ("nested grids", self.grids),
+            ("products", self.products),
+        )
+
 
 @dataclass(frozen=True, eq=False)
-class PeriodicSolution:
+class PeriodicSolution(Plotted):
     """Steady contact of a periodic rough surface that slides over a viscoelastic half-space or layer.
 
     All in SI units.
@@ -143,6 +155,20 @@ class PeriodicSolution:
     warnings: tuple[str, ...] = ()
     coulomb: float = 0.0
     heating: ContactHeating | None = None
+
+    def _shown(self) -> Rows:
+        return (
+            ("friction coefficient", self.friction_coefficient, "", self.diagnostics.friction_error),
+            ("speed", self.speed, "m/s"),
+            ("mean pressure", self.mean_pressure, "Pa"),
+            ("temperature", self.temperature, "°C"),
+            ("rise of temperature", None if self.heating is None else self.heating.temperature_rise, "K"),
+            ("contact area", self.contact_area_fraction, "%"),
+            ("mean gap", self.mean_gap, "m"),
+            ("largest pressure", self.max_pressure, "Pa"),
+            ("points", " × ".join(map(str, self.pressure.shape))),
+            ("warnings", self.warnings),
+        )
 
     @property
     def temperature_rise(self) -> float:

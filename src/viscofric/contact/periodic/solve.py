@@ -24,7 +24,7 @@ from viscofric.contact.periodic.heating import PeriodicThermalContact, insist_on
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
-from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.contact.periodic.surface import PeriodicSurface, Topographic
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, brief
 from viscofric.threads import one_blas_thread
@@ -59,7 +59,7 @@ _FADING = 0.5**1.5
 @one_blas_thread
 def solve_periodic(
     material: Material,
-    surface: PeriodicSurface,
+    surface: PeriodicSurface | Topographic,
     *,
     speed: Quantity,
     pressure: Quantity | None = None,
@@ -67,7 +67,7 @@ def solve_periodic(
     temperature: Quantity | None = None,
     direction: Sequence[float] = (1.0, 0.0),
     coulomb: float = 0.0,
-    layer: Layer | None = None,
+    layer: Layer | Quantity | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
     tolerance: float = 1e-8,
@@ -81,7 +81,8 @@ def solve_periodic(
     ----------
     material : Material
         Its spectrum may be a table of moduli as well.
-    surface : PeriodicSurface
+    surface : PeriodicSurface or Topography
+        A topography must be periodic and complete.
     speed : float, str or pint.Quantity
         Velocity of the surface along `direction`, m/s; zero is the elastic contact at E0.  With an infinite one
         (``math.inf``), waves respond with E_inf but for those that lie across the motion and are at rest at any speed.
@@ -95,8 +96,9 @@ def solve_periodic(
         Of the motion in the plane; its length does not matter.
     coulomb : float
         Coulomb friction coefficient, whose shear changes the pressure, as of `solve_steady`.
-    layer : Layer, optional
-        Thickness and base of the material; a half-space without.
+    layer : Layer, float, str or pint.Quantity, optional
+        Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space
+        without.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of the rough body, Pa, whose compliance is added; rigid without.
     indenter_poisson_ratio : float
@@ -142,11 +144,10 @@ def solve_periodic(
             f"material = {brief(material)}: must be a Material, such as vf.read_card('rubber.json').", code="wrong-type"
         )
     whole_number(most_products, "most_products", 1)
-    if not hasattr(surface, "z"):  # of a topography, heights may be missing, or not repeat themselves
-        raise InputError(
-            f"surface = {brief(surface)}: must be a PeriodicSurface, such as that of Topography.to_surface().",
-            code="wrong-type",
-        )
+    if isinstance(surface, Topographic):  # of a topography, heights may be missing, or not repeat themselves
+        surface = surface.to_surface()
+    if not isinstance(surface, PeriodicSurface):
+        raise InputError(f"surface = {brief(surface)}: must be a Topography or a PeriodicSurface.", code="wrong-type")
     sliding, toward = velocity(speed), unit_direction(direction)
     if (pressure is None) == (gap is None):
         both = "neither" if pressure is None else "both"
@@ -157,10 +158,7 @@ def solve_periodic(
         raise InputError(
             f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.", code="out-of-range"
         )
-    if not (layer is None or isinstance(layer, Layer)):
-        raise InputError(
-            f"layer = {brief(layer)}: must be a Layer, such as Layer(thickness='2 mm').", code="wrong-type"
-        )
+    layer = Layer.of(layer)
     where = Backend.of(backend)
     modulus = material.at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")

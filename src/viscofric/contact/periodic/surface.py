@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import scipy.fft
 
 from viscofric.arguments import numbers
 from viscofric.errors import InputError
+from viscofric.showing import Shown
 from viscofric.units import Quantity, two_lengths
 
 if TYPE_CHECKING:
@@ -18,6 +19,15 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
+    from viscofric.showing import Rows
+
+
+@runtime_checkable
+class Topographic(Protocol):
+    """What becomes a periodic surface, such as a topography."""
+
+    def to_surface(self) -> PeriodicSurface:
+        """Return it as a periodic surface."""
 
 
 class Coarser(NamedTuple):
@@ -28,7 +38,7 @@ class Coarser(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodicSurface:
+class PeriodicSurface(Shown):
     """A rigid surface given by its heights on a grid, periodic along both axes.
 
     Parameters
@@ -78,6 +88,13 @@ class PeriodicSurface:
         heights.flags.writeable = False
         object.__setattr__(self, "z", heights)
         object.__setattr__(self, "spacing", two_lengths(spacing))
+
+    def _shown(self) -> Rows:
+        return (
+            ("heights", self.z, "m"),
+            ("period", " × ".join(f"{1e3 * one:.4g}" for one in self.period) + " mm"),
+            ("rms height", self.rms_height, "m"),
+        )
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -11,6 +11,7 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.rheology.material import Material
+from viscofric.showing import Shown
 from viscofric.units import Quantity, positive
 from viscofric.units import angular_frequency as frequency_of
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.showing import Rows
 
 
 Part: TypeAlias = Literal["magnitude", "storage", "loss"]
@@ -40,7 +42,7 @@ def _relative(error: float) -> float:
 
 
 @dataclass(frozen=True)
-class ModulusAnchor:
+class ModulusAnchor(Shown):
     """A modulus of the rubber measured at one frequency and temperature.
 
     Parameters
@@ -83,9 +85,18 @@ class ModulusAnchor:
         object.__setattr__(self, "error", _relative(self.error))
         check_choice(self.part, "part", *get_args(Part))
 
+    def _shown(self) -> Rows:
+        return (
+            ("modulus", self.modulus, "Pa"),
+            ("part", self.part),
+            ("angular frequency", self.angular_frequency, "rad/s"),
+            ("temperature", self.temperature, "°C"),
+            ("relative error", self.error, "%"),
+        )
+
 
 @dataclass(frozen=True)
-class ContactAnchor:
+class ContactAnchor(Shown):
     """The size of the moving contact measured at one speed, temperature and load.
 
     Exactly one of the indentation, the contact area and the half width is given.
@@ -134,6 +145,17 @@ class ContactAnchor:
             object.__setattr__(self, name, positive(getattr(self, name), unit, name))
         object.__setattr__(self, "load", _force(self.load))
         object.__setattr__(self, "error", _relative(self.error))
+
+    def _shown(self) -> Rows:
+        return (
+            ("speed", self.speed, "m/s"),
+            ("temperature", self.temperature, "°C"),
+            ("load", self.load, "N"),
+            ("indentation", self.indentation, "m"),
+            ("contact area", self.contact_area, "m²"),
+            ("half-width", self.half_width, "m"),
+            ("relative error", self.error, "%"),
+        )
 
     @property
     def size(self) -> Size:

@@ -164,7 +164,7 @@ def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:
     points, indenter = outcome.start.observations.points, outcome.contacts.indenter
     measured = points.at_one_load(outcome.curves)
     measured = replace(measured, load=points.forces, load_unit=indenter.geometry.load_unit)
-    sizes = [ContactSize.of(material, indenter, measured, row, None) for row in range(len(measured))]
+    sizes = ContactSize.all_of(material, indenter, measured)
     coupled = check_coupling(measured, material, None, [(one.smallest, one.smallest) for one in sizes])
     return () if coupled is None or coupled.holds else (coupled.sentence,)
 

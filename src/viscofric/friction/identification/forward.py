@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -52,14 +53,23 @@ class FirstOrder:
     """
 
     def __init__(self, indenter: Indenter, load: float, plane_strain: float, tau: Array) -> None:
-        self.tau = tau
-        self._log_tau, self._log_load = np.log(tau), np.log(load * plane_strain)
+        self._set_times(tau)
+        self._log_load = np.log(load * plane_strain)
         self._dimension = indenter.geometry.dimension
         self._loss, self._storage = _kernels(self._dimension)
         self._constant = self._log_load - (np.log(2.0 * np.pi**2) if self._dimension == 2 else np.log(0.5 * np.pi))
         places = np.log(load * plane_strain / 1e6) + np.arange(-_REACH, _REACH + 0.25, 0.5)
         lengths = [Scale.for_load(indenter, load / float(np.exp(place)), load).length for place in places]
         self._radius = _Table(places, np.log(lengths))
+
+    def _set_times(self, tau: Array) -> None:
+        self.tau, self._log_tau = tau, np.log(tau)
+
+    def at_times(self, tau: Array) -> FirstOrder:
+        """Return the same contact on a material of other retardation times, s."""
+        found = copy.copy(self)
+        found._set_times(tau)
+        return found
 
     def __call__(self, compliances: Array, log_speed: Array) -> Friction:
         """Return friction at compliances (1 + m,), ln(1/E_inf) and then every ln C, in 1/Pa, and ln v (n,), in m/s."""

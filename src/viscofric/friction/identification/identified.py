@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.arguments import flag, numbers
+from viscofric.arguments import flag
 from viscofric.datasets import dataset
-from viscofric.units import shown_celsius
+from viscofric.showing import Plotted
+from viscofric.units import in_si, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+    from viscofric.showing import Rows
 
 
 #: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.
@@ -54,7 +56,7 @@ class IdentifiedBand:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Identified:
+class Identified(Plotted):
     """A material identified from a measurement: what results from friction and from indentation have in common.
 
     Samples, bands and standard errors assume a smooth spectrum; it may end, or rise to the glass transition, near the
@@ -109,6 +111,18 @@ class Identified:
     roughness: float
     notes: tuple[str, ...] = ()
 
+    def _shown(self) -> Rows:
+        return (
+            ("material", self.material.name or None),
+            ("spectrum", self.material.spectrum),
+            ("frequencies", self.frequency_range, "rad/s"),
+            ("determined E", f"{self.identified.decades:.2g} decades"),
+            ("magnitude known", self.anchored),
+            ("misfit (rms)", self.rms, "%"),
+            ("samples", len(self.samples)),
+            ("notes", self.notes),
+        )
+
     def standard_error(self, angular_frequency: ArrayLike, *, relative: bool | None = None) -> Array:
         """Return the relative standard error of |E(ω)| at the reference.
 
@@ -119,7 +133,7 @@ class Identified:
         relative : bool, optional
             Whether of |E(ω)| over that at the middle frequency; if not given, without an anchor.
         """
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         rows = np.array([np.log(np.abs(one.complex_modulus(omega))) for one in self.samples.materials])
         if not self.anchored if relative is None else flag(relative, "relative"):
             level = self._levels
@@ -146,8 +160,10 @@ class Identified:
             Along ``angular_frequency``: ``storage_modulus`` and ``loss_modulus`` with ``_lower`` and ``_upper`` (Pa),
             and ``modulus_error``, relative; the other results, in SI units, are its attributes.
         """
-        wanted = self.frequencies if angular_frequency is None else numbers(angular_frequency, "angular_frequency")
-        omega = np.ravel(wanted)
+        wanted = (
+            self.frequencies if angular_frequency is None else in_si(angular_frequency, "rad/s", "angular_frequency")
+        )
+        omega = np.ravel(in_si(wanted, "rad/s", "angular_frequency"))
         modulus, band = np.asarray(self.material.complex_modulus(omega)), self.samples.modulus_band(omega)
         columns = {}
         for name, part in (("storage", "real"), ("loss", "imag")):

@@ -83,7 +83,7 @@ class IdentifiedMaterial(Identified):
     def friction_dataset(self) -> xarray.Dataset:
         """Return `friction` as a labelled data set along ``point``, with the residuals as ``residual``."""
         label = {"units": "1", "long_name": "measured less fitted friction over the standard error"}
-        return self.friction.to_dataset().assign(residual=("point", self.residuals, label))
+        return self.friction.points_dataset().assign(residual=("point", self.residuals, label))
 
     def shift_dataset(self) -> xarray.Dataset | None:
         """Return α(T) at the temperatures of the friction as a labelled data set; None for one temperature."""

@@ -21,6 +21,7 @@ from viscofric.rheology.interface.fitting import StressTable, compare_stress_law
 from viscofric.rheology.interface.friction import OF_LIMIT
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
+from viscofric.showing import Plotted
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
@@ -31,10 +32,11 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask
     from viscofric.contact.solution import ContactSolution
     from viscofric.rheology.shifts.law_comparison import LawComparison
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class ShearStress:
+class ShearStress(Plotted):
     """Shear stress of a dry interface on its real contact area, one entry per slip speed and temperature.
 
     Attributes
@@ -82,6 +84,18 @@ class ShearStress:
 
     def __len__(self) -> int:
         return len(self.speed)
+
+    def _shown(self) -> Rows:
+        return (
+            ("slip speed", self.speed, "m/s"),
+            ("shear stress", self.shear_stress, "Pa"),
+            ("its error", self.error, "Pa"),
+            ("mean pressure", self.mean_pressure, "Pa"),
+            ("temperature", np.unique(self.temperature), "°C"),
+            ("reference", self.reference, "°C"),
+            ("shift factors", "none" if self.shift is None else "found" if self.found else "given"),
+            ("notes", self.notes),
+        )
 
     @property
     def reduced_speed(self) -> Array:

@@ -11,6 +11,7 @@ from viscofric.errors import InputError
 from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.nominal import SAME_LOAD
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.showing import Plotted
 from viscofric.units import Quantities, Quantity, positive, shown_celsius, shown_number, to_si_in_shape
 
 if TYPE_CHECKING:
@@ -22,10 +23,11 @@ if TYPE_CHECKING:
     from viscofric.friction.shifting.load_rule import LoadRule
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionMasterCurve:
+class FrictionMasterCurve(Plotted):
     """Viscoelastic friction against reduced speed, μ(v, T) = μ(α(T) v, reference).
 
     Called with a speed and a temperature it gives μ(v, T).  The value is that of a local quadratic regression
@@ -87,6 +89,19 @@ class FrictionMasterCurve:
     def __len__(self) -> int:
         return len(self.reduced_speed)
 
+    def _shown(self) -> Rows:
+        return (
+            ("reduced speed", self.reduced_speed, "m/s"),
+            ("friction", self.friction),
+            ("its error", self.error),
+            ("temperature", np.unique(self.temperature), "°C"),
+            ("reference", self.reference, "°C"),
+            ("load", self.load, self.curves.load_unit),
+            ("shift factors", "found" if self.found else "given"),
+            ("overlap (rms)", self.overlap.rms, "%"),
+            ("notes", self.notes),
+        )
+
     @property
     def curves_at_load(self) -> FrictionCurves:
         """The curves at the load of the master curve and without vertical shift, in the order of `curves`.
@@ -138,6 +153,16 @@ class FrictionMasterCurve:
             },
             attributes={"reference_temperature": self.reference, "load": self.load},
         )
+
+    @property
+    def friction_coefficient(self) -> Array:
+        """`friction`, (n,), under the name that it has in single contacts."""
+        return self.friction
+
+    @property
+    def friction_error(self) -> Array:
+        """`error`, (n,), under the name that it has in single contacts."""
+        return self.error
 
     @property
     def reduced_range(self) -> tuple[float, float]:

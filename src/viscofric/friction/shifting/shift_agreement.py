@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.showing import Plotted
 from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
     from viscofric.rheology.superposition.result import Superposition
+    from viscofric.showing import Rows
 
 
 #: A temperature closer than this to the reference is the reference, K.
@@ -37,7 +39,7 @@ LIKELY = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class ShiftAgreement:
+class ShiftAgreement(Plotted):
     """Agreement of two sets of shift factors about the same reference.
 
     Attributes
@@ -78,6 +80,17 @@ class ShiftAgreement:
     rms: float
     found: ShiftFactors = field(repr=False)
     other: ShiftLaw = field(repr=False)
+
+    def _shown(self) -> Rows:
+        return (
+            ("rms difference", self.rms, "decades"),
+            ("slope", self.slope, "", self.slope_error),
+            ("χ²", self.chi2),
+            ("degrees of freedom", self.freedom),
+            ("p value", self.p_value),
+            ("temperature", self.temperature, "°C"),
+            ("reference", self.reference, "°C"),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return both sets of shift factors as a labelled data set along ``temperature``.

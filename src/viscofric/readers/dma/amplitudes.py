@@ -79,7 +79,13 @@ def read_amplitude_sweep(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     _ = (Path(folder) / "payne.csv").write_text(chr(10).join(rows))
     ...     vf.read_amplitude_sweep(Path(folder) / "payne.csv")
-    AmplitudeSweep(0.1 to 51.2 % at 10 Hz, 60.0 °C, shear)
+    AmplitudeSweep
+      strain amplitude  10 from 0.1 to 51.2 %
+      storage modulus   10 from 2.3 to 5 MPa
+      frequency         10 Hz
+      temperature       60 °C
+      deformation       shear
+      notes             2
     """
     readings = read_files(
         paths, "read_amplitude_sweep", "amplitude", deformation, temperature, modulus_unit, columns, sheet

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _SMALLEST = 1e-9  # relative errors below are drawn there
 _FEW = 4.0  # points
+_MANY = 2_000  # points that are drawn as an image within the figure
 
 
 def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None) -> None:
@@ -108,7 +109,8 @@ def _points(axes: Axes, x: Array, y: Array, mask: Mask, colour: str, marker: str
     if shown.any():
         style: dict[str, Any] = {"color": colour, "marker": marker, "markersize": _FEW, "linestyle": "none"}
         face = colour if filled else "none"
-        axes.plot(x[shown], np.maximum(y[shown], _SMALLEST), markerfacecolor=face, alpha=0.75, label=label, **style)
+        style |= {"markerfacecolor": face, "alpha": 0.75, "label": label, "rasterized": int(shown.sum()) > _MANY}
+        axes.plot(x[shown], np.maximum(y[shown], _SMALLEST), **style)
 
 
 def _finish(axes: Axes, cases: xr.Dataset, label: str) -> None:

@@ -76,9 +76,9 @@ def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) 
     ----------
     axes : matplotlib.axes.Axes
     curves : HeatedFrictionCurves or xarray.Dataset
-        Of `predict_friction` with heating, at one temperature (`FrictionCurves.at_temperature`).  Where contacts have a
-        cold and a hot state, both are drawn, and the hysteresis between them is shaded.  A dataset has the columns of
-        the group ``heating`` of a study along `case`.
+        Of `viscofric.predict_friction` with heating, at one temperature (`FrictionCurves.at_temperature`).  Where
+        contacts have a cold and a hot state, both are drawn, and the hysteresis between them is shaded.  A dataset has
+        the columns of the group ``heating`` of a study along `case`.
 
     Raises
     ------

@@ -136,6 +136,30 @@ def indentation_figure(found: MaterialFromIndentation, known: Material | None = 
     return figure
 
 
+def plot_fitted_record(axes: Axes, record: FittedRecord, colour: str = "C0") -> None:
+    """Draw one measured quantity of a record with its fit and 95 % limits.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    record : FittedRecord
+    colour : str
+    """
+    order = np.argsort(record.along, kind="stable")
+    along = record.along[order]
+    axes.errorbar(
+        along, record.response[order], record.error[order] * record.response[order], fmt="o", color=colour,
+        markersize=2.5, elinewidth=0.6, label=f"{shown_celsius(float(record.record.temperature))} °C",
+    )  # fmt: skip
+    axes.plot(along, record.fitted[order], color=colour, linewidth=0.9)
+    axes.fill_between(along, record.lower[order], record.upper[order], color=colour, alpha=0.25, linewidth=0.0)
+    data = record.to_dataset()
+    unit = next(one.attrs for name, one in data.variables.items() if name in _ALONG)
+    units = data["response"].attrs["units"]
+    axes.set(xscale="log", yscale="log", xlabel=f"{unit['long_name']} ({unit['units']})")
+    axes.set_ylabel(record.words + ("" if units == "1" else f" ({units.replace('m2', 'm²')})"))
+
+
 def plot_fitted_records(axes: Axes, below: Axes, records: Sequence[FittedRecord]) -> None:
     """Draw one measured quantity of records with its fit and 95 % limits, and the residuals on other axes.
 
@@ -146,22 +170,9 @@ def plot_fitted_records(axes: Axes, below: Axes, records: Sequence[FittedRecord]
         All of one quantity.
     """
     for place, one in enumerate(records):
-        colour = f"C{place}"
-        order = np.argsort(one.along, kind="stable")
-        along = one.along[order]
-        axes.errorbar(
-            along, one.response[order], one.error[order] * one.response[order], fmt="o", color=colour, markersize=2.5,
-            elinewidth=0.6, label=f"{shown_celsius(float(one.record.temperature))} °C",
-        )  # fmt: skip
-        axes.plot(along, one.fitted[order], color=colour, linewidth=0.9)
-        axes.fill_between(along, one.lower[order], one.upper[order], color=colour, alpha=0.25, linewidth=0.0)
-        below.plot(along, one.residuals[order], "o", color=colour, markersize=2.5)
-    data = records[0].to_dataset()
-    unit = next(one.attrs for name, one in data.variables.items() if name in _ALONG)
-    label = f"{unit['long_name']} ({unit['units']})"
-    units = data["response"].attrs["units"]
-    axes.set(xscale="log", yscale="log", xlabel=label)
-    axes.set_ylabel(records[0].words + ("" if units == "1" else f" ({units.replace('m2', 'm²')})"))
+        plot_fitted_record(axes, one, f"C{place}")
+        below.plot(one.along, one.residuals, "o", color=f"C{place}", markersize=2.5)
+    label = axes.get_xlabel()
     below.axhspan(-1.96, 1.96, color=GREY, alpha=0.15, linewidth=0.0)
     below.set(xscale="log", xlabel=label, ylabel="residual over its error")
     for axis in (axes.xaxis, axes.yaxis, below.xaxis):

@@ -134,7 +134,7 @@ def plot_kramers_kronig(axes: Axes, agreement: KramersKronig) -> None:
     ----------
     axes : matplotlib.axes.Axes
     agreement : KramersKronig
-        As `check_superposition(fit).kramers_kronig`.  Points at the ends, which are not judged, are open.
+        As ``check_superposition(fit).kramers_kronig``.  Points at the ends, which are not judged, are open.
     """
     from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 

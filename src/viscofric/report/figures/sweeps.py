@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from viscofric.errors import InputError
 from viscofric.report.figures.style import (
     GREY,
     VERMILION,
@@ -84,6 +85,30 @@ def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence
             axes.plot(x, each, **(style | {"markersize": 2}), **_THIN)
         missing = x[~np.isfinite(mu)]
         axes.plot(missing, np.full(missing.size, 0.03), "x", color=VERMILION, transform=axes.get_xaxis_transform())
+
+
+def plot_study(axes: Axes, friction: xr.Dataset) -> None:
+    """Draw friction over the first panel of a study's results, with its labels.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    friction : xarray.Dataset
+        As `StudyResults.dataset`.
+
+    Raises
+    ------
+    InputError
+        If nothing varies.
+    """
+    layout = layout_of(friction)
+    if layout is None:
+        raise InputError("these results have one case only: there is no curve to draw.", code="one-case")
+    shown = thinned(1 if layout.lines is None else len(layout.lines), MOST_LINES)
+    plot_sweep(axes, friction.isel({panel.name: 0 for panel in layout.panels}), layout, shown)
+    _finish(axes, layout.along, narrow=False)
+    axes.set(xlabel=layout.along.axis_label if layout.along.is_ordered else "", ylabel=FRICTION)
+    _legend_beside(axes, friction, layout, shown)
 
 
 def _middle_and_band(part: xr.Dataset, along: str) -> tuple[Array, Array, Array]:

@@ -56,7 +56,7 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
 
 def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:
     """Return friction curves in plain types, SI units; `inputs` are what was requested, in plain types."""
-    found = record(curves.to_dataset())
+    found = record(curves.points_dataset())
     names = [field.name for field in fields(curves) if field.name in found["units"]]
     return {
         "format": "viscofric friction curves 1",

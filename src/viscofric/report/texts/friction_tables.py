@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
+# Rows of a table beyond which the results alone hold the others.
+_LONGEST = 1_000
 _DOUBTFUL = {
     WIDE: f"extends beyond {SMALL_STRAIN:g} ball radii from the axis",
     EXTRAPOLATED: "depends on frequencies that were not measured",
@@ -112,7 +114,7 @@ def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tup
     return Table(
         _GLANCE,
         "Predicted viscoelastic friction coefficient."
-        + (f" Shown: {several(some)}; all of them are in the tables below." if some else ""),
+        + (f" Shown: {several(some)}; more of them are in the tables below." if some else ""),
         ["speed (mm/s)", *(_together(column) for column in shown)],
         rows,
         note=f"* {_meaning(*chain(*doubts))}." if any(cell.endswith("*") for row in rows for cell in row) else "",
@@ -328,7 +330,16 @@ def detail_tables(tree: xr.DataTree) -> list[Table]:
             for table in _master_and_rubber(branch)
             if table is not None
         ]
-    return [table for table in found if table is not None]
+    return [_within_reach(table) for table in found if table is not None]
+
+
+def _within_reach(table: Table) -> Table:
+    """Return a table without the rows that only a browser of much memory would show."""
+    left_out = len(table.rows) - _LONGEST
+    if left_out <= 0:
+        return table
+    note = f"{table.note} All rows are in results.nc, which viscofric export writes as CSV or Excel.".strip()
+    return replace(table, rows=table.rows[:_LONGEST], note=note, left_out=left_out)
 
 
 def _master_and_rubber(tree: xr.DataTree) -> list[Table | None]:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Table:
-    """A table: what it shows, its headings and its cells, and a line below that explains them."""
+    """A table: what it shows, its headings and its cells, a line below that explains them, and rows left out of it."""
 
     key: str
     caption: str
@@ -27,6 +27,7 @@ class Table:
     rows: list[list[str]]
     open: bool = True
     note: str = ""
+    left_out: int = 0
 
 
 class Column(NamedTuple):

@@ -12,10 +12,12 @@ from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.showing import Shown
 from viscofric.units import CELSIUS_ZERO, conversion
 
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material
+    from viscofric.showing import Rows
 
 
 #: Unit systems of a card: SI, or tonne, mm, s, N and so MPa, in which density is in t/mm³.
@@ -108,7 +110,7 @@ class Reading:
 
 
 @dataclass(frozen=True, eq=False)
-class Card:
+class Card(Shown):
     """A material card as it was read.
 
     Parameters
@@ -124,6 +126,13 @@ class Card:
     material: Material
     format: str
     notes: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("material", self.material.name or "without a name"),
+            ("format", self.format),
+            ("notes", self.notes),
+        )
 
 
 @dataclass(frozen=True, eq=False)

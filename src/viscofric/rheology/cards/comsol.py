@@ -11,6 +11,7 @@ Only these have a constant Poisson ratio: with the long-term bulk modulus alone 
 from __future__ import annotations
 
 import re
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import InputError
@@ -18,11 +19,13 @@ from viscofric.notes import Note
 from viscofric.rheology.cards.card import Reading, Solid, Writing, card_law, relaxation_of, written_poisson_ratio
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
+from viscofric.rheology.shifts.parametric_law import ParametricLaw
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.units import to_si
 
 if TYPE_CHECKING:
     from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 NAME = "COMSOL"
 #: Bulk moduli within this of those that follow from nu and the shear moduli agree with them.
@@ -117,13 +120,21 @@ def write(material: Material, writing: Writing) -> str:
     return "\n".join([*lines, ""])
 
 
+def _exact(shift: ShiftLaw) -> str:
+    """Return a law with all digits of its constants, in SI units; other shifts as they show themselves."""
+    if not isinstance(shift, ParametricLaw):
+        return " ".join(str(shift).split())
+    constants = (f"{one.name}={getattr(shift, one.name)!r}" for one in fields(shift) if one.repr)
+    return f"{type(shift).__name__}({', '.join(constants)})"
+
+
 def write_branches(material: Material, writing: Writing) -> str:
     """Return the table of branches as text; long-term moduli and shift are in its comments."""
     relaxation, ratio, _, lines = _head(material, writing, False)
     shear = 1.0 / (2.0 * (1.0 + ratio))
     lines.append(f"% Long-term shear modulus {relaxation.E0 * shear!r} Pa, Poisson ratio {ratio!r}.")
     if material.shift is not None:
-        lines.append(f"% Shift: {' '.join(repr(material.shift).split())[:200]}".encode("ascii", "replace").decode())
+        lines.append(f"% Shift: {_exact(material.shift)[:200]}".encode("ascii", "replace").decode())
     lines.append("% branch, shear modulus (Pa), relaxation time (s)")
     for number, (modulus, time) in enumerate(zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True), start=1):
         lines.append(f"{number} {modulus * shear!r} {time!r}")

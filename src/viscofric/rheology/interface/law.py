@@ -16,12 +16,14 @@ from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.columns import checked_covariance
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw, shown_constant
 from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin, in_shape
+from viscofric.showing import Shown
 from viscofric.units import Quantities, positive, share, shown_celsius, to_si_array, to_si_in_shape
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array, Mask
+    from viscofric.showing import Rows
 
 
 #: Decades on either side of a law's speed, where it was not fitted, in a data set.
@@ -30,7 +32,7 @@ _POINTS = 101
 
 
 @dataclass(frozen=True, kw_only=True)
-class InterfaceLaw(ABC):
+class InterfaceLaw(Shown, ABC):
     """Shear stress τ_s(v, T) of an interface, a function of the reduced slip speed α(T) v.
 
     The base of `ConstantShearStress`, `PowerShearStress`, `EyringShearStress` and `GaussianShearStress`, which
@@ -89,6 +91,14 @@ class InterfaceLaw(ABC):
                     )
                 object.__setattr__(self, name, tuple(low_high.tolist()))
 
+    def _shown(self) -> Rows:
+        return (
+            *((name, value) for name, _, value in (one.partition(" = ") for one in self._shown_constants())),
+            ("shift", None if self.shift is None else str(self.shift)),
+            ("fitted speeds", self.fitted_speeds, "m/s"),
+            ("fitted temperatures", self.fitted_temperatures, "°C"),
+        )
+
     def __str__(self) -> str:
         """Return name, constants with standard errors, and shift, as for a report."""
         return f"{self.title}: {self.described}"
@@ -96,13 +106,15 @@ class InterfaceLaw(ABC):
     @property
     def described(self) -> str:
         """The constants with their standard errors, and the shift."""
+        shift = "" if self.shift is None else f"; {self.shift if isinstance(self.shift, ParametricLaw) else 'shifted'}"
+        return ", ".join(self._shown_constants()) + shift
+
+    def _shown_constants(self) -> list[str]:
         errors = {} if self.covariance is None else dict(zip(self._adjusted, self.standard_errors, strict=False))
-        shown = [
+        return [
             shown_constant(constant, getattr(self, name), errors.get(name, 0.0))
             for name, constant in self._constants.items()
         ]
-        shift = "" if self.shift is None else f"; {self.shift if isinstance(self.shift, ParametricLaw) else 'shifted'}"
-        return ", ".join(shown) + shift
 
     @property
     def parameters(self) -> Array:

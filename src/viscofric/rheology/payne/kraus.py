@@ -16,12 +16,15 @@ from viscofric.data import DEFORMATIONS
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.rheology.shifts.columns import checked_covariance
+from viscofric.showing import Plotted
+from viscofric.units import to_si
 
 if TYPE_CHECKING:
     import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: Amplitudes that the law is drawn at.
@@ -30,8 +33,16 @@ _DRAWN = 101
 CONSTANTS = ("storage_linear", "storage_large", "critical_strain", "exponent", "loss_peak", "loss_large")
 
 
+_UNITS = dict.fromkeys(CONSTANTS, "Pa") | {
+    "critical_strain": "dimensionless",
+    "exponent": "dimensionless",
+    "angular_frequency": "rad/s",
+    "temperature": "K",
+}
+
+
 @dataclass(frozen=True, eq=False)
-class KrausLaw:
+class KrausLaw(Plotted):
     """Kraus's law of the moduli of a filled rubber at a strain amplitude γ.
 
     G' = G'∞ + (G'0 − G'∞)/(1 + (γ/γc)^2m) and G'' = G''∞ + 2 (G''m − G''∞) (γ/γc)^m/(1 + (γ/γc)^2m); the same for E in
@@ -78,7 +89,9 @@ class KrausLaw:
 
     def __post_init__(self) -> None:
         for name in (*CONSTANTS, "angular_frequency", "temperature"):
-            if not (value := number(getattr(self, name), name)) > 0.0:
+            value = getattr(self, name)
+            value = to_si(value, _UNITS[name], name) if isinstance(value, str) else number(value, name)
+            if not value > 0.0:
                 raise InputError(f"{name} = {value:g}: must be above zero.")
             object.__setattr__(self, name, value)
         check_choice(self.deformation, "deformation", *DEFORMATIONS)
@@ -89,6 +102,20 @@ class KrausLaw:
             if ends.shape != (2,) or not 0.0 < ends[0] < ends[1]:
                 raise InputError("strain_range must be two amplitudes above zero, the smaller one first.")
             object.__setattr__(self, "strain_range", (float(ends[0]), float(ends[1])))
+
+    def _shown(self) -> Rows:
+        errors = (None,) * 6 if self.standard_errors is None else self.standard_errors
+        return (
+            ("linear storage modulus", self.storage_linear, "Pa", errors[0]),
+            ("at large strain", self.storage_large, "Pa", errors[1]),
+            ("critical strain", self.critical_strain, "%", errors[2]),
+            ("exponent", self.exponent, "", errors[3]),
+            ("largest loss modulus", self.loss_peak, "Pa", errors[4]),
+            ("loss at large strain", self.loss_large, "Pa", errors[5]),
+            ("frequency", self.angular_frequency / (2.0 * math.pi), "Hz"),
+            ("temperature", self.temperature, "°C"),
+            ("deformation", self.deformation),
+        )
 
     def __str__(self) -> str:
         """Return the constants with their standard errors, as for a report."""

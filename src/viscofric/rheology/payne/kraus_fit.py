@@ -16,12 +16,14 @@ from viscofric.notes import Note
 from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.shift_problem import inflation
+from viscofric.showing import Plotted, Shown
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: Points that the constants of both moduli, six, need.
@@ -37,7 +39,7 @@ LARGEST_SCATTER = 0.03
 
 
 @dataclass(frozen=True)
-class LinearRange:
+class LinearRange(Shown):
     """The amplitude up to which a sweep is linear.
 
     Parameters
@@ -53,6 +55,12 @@ class LinearRange:
     drop: float
     strain: float
     standard_error: float
+
+    def _shown(self) -> Rows:
+        return (
+            ("drop of the storage modulus", self.drop, "%"),
+            ("at a strain of", self.strain, "%", self.standard_error),
+        )
 
     def __str__(self) -> str:
         """Return the range as a line of text."""
@@ -76,7 +84,7 @@ class LinearRange:
 
 
 @dataclass(frozen=True, eq=False)
-class PayneFit:
+class PayneFit(Plotted):
     """The result of `fit_kraus`.
 
     Parameters
@@ -99,8 +107,16 @@ class PayneFit:
     scatter: tuple[float, float]
     notes: tuple[str, ...] = ()
 
-    def __repr__(self) -> str:
-        return f"PayneFit({self.sweep!r}, {self.law})"
+    def _shown(self) -> Rows:
+        return (
+            ("linear storage modulus", self.law.storage_linear, "Pa"),
+            ("critical strain", self.law.critical_strain, "%"),
+            ("strain amplitude", self.sweep.strain_amplitude, "%"),
+            ("scatter of the storage modulus", self.scatter[0], "decades"),
+            ("of the loss modulus", self.scatter[1], "decades"),
+            ("temperature", self.law.temperature, "°C"),
+            ("notes", self.notes),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the sweep as `AmplitudeSweep.to_dataset` does, with the law at its amplitudes.

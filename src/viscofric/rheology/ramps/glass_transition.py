@@ -12,12 +12,14 @@ from viscofric.datasets import dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamp
 from viscofric.rheology.superposition.shift_problem import inflation
+from viscofric.showing import Shown
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array, Mask
+    from viscofric.showing import Rows
 
 
 PeakOf: TypeAlias = Literal["tan delta", "loss modulus"]
@@ -32,7 +34,7 @@ PLACES = 2001
 
 
 @dataclass(frozen=True)
-class GlassTransition:
+class GlassTransition(Shown):
     """A peak of a temperature ramp.
 
     Parameters
@@ -54,6 +56,14 @@ class GlassTransition:
     temperature: float
     standard_error: float
     height: float
+
+    def _shown(self) -> Rows:
+        return (
+            ("peak of", self.by),
+            ("frequency", self.angular_frequency / (2.0 * np.pi), "Hz"),
+            ("temperature", self.temperature, "°C", self.standard_error),
+            ("height", self.height, "Pa" if self.by == "loss modulus" else ""),
+        )
 
     def __str__(self) -> str:
         """Return the peak as a line of text."""

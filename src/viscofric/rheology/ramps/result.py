@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.datasets import dataset
 from viscofric.rheology.superposition.consistency import REPRODUCIBILITY
+from viscofric.showing import Plotted, Shown
 
 if TYPE_CHECKING:
     import xarray
@@ -19,10 +20,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.kramers_kronig import KramersKronig
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)
-class RampCheck:
+class RampCheck(Shown):
     """Whether ramps at several frequencies fall on one curve.
 
     Parameters
@@ -39,6 +41,14 @@ class RampCheck:
     between: float
     within: float
     offsets: tuple[float, ...]
+
+    def _shown(self) -> Rows:
+        return (
+            ("holds", self.holds),
+            ("scatter about common curves", self.between, "decades"),
+            ("about own curves", self.within, "decades"),
+            ("ramps", len(self.offsets)),
+        )
 
     @property
     def holds(self) -> bool:
@@ -79,7 +89,7 @@ class RampCheck:
 
 
 @dataclass(frozen=True, eq=False)
-class RampSuperposition:
+class RampSuperposition(Plotted):
     """The result of `superpose_ramps`.
 
     Parameters
@@ -117,9 +127,15 @@ class RampSuperposition:
     vertical_shift: VerticalShift | None = None
     notes: tuple[str, ...] = ()
 
-    def __repr__(self) -> str:
-        how = f"assumed: {self.assumption}" if self.assumption else str(self.shift)
-        return f"RampSuperposition({self.ramps!r}, {how})"
+    def _shown(self) -> Rows:
+        return (
+            ("ramps", len(self.ramps.ramps)),
+            ("temperature", self.ramps.temperature_range, "°C"),
+            ("shift", self.assumption or str(self.shift)),
+            ("shift is", "assumed" if self.assumption else "measured"),
+            ("reference", self.shift_factors.reference, "°C"),
+            ("notes", self.notes),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the points along ``reading`` as `TemperatureRamps.to_dataset` does, with α(T).

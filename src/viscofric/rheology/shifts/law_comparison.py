@@ -14,6 +14,7 @@ from viscofric.notes import Note
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
     from viscofric.rheology.shifts.law_fitting import FactorTable
     from viscofric.rheology.shifts.laws import ParametricLaw
+    from viscofric.showing import Rows
 
 #: A kind of law: of shift factors, or of shear stress.
 Law = TypeVar("Law")
@@ -93,7 +95,7 @@ class LawRow(Generic[Law]):
 
 
 @dataclass(frozen=True)
-class LawComparison(Generic[Law]):
+class LawComparison(Shown, Generic[Law]):
     """Laws fitted to one table of shift factors or of shear stress, the best supported one, and why.
 
     Parameters
@@ -121,6 +123,14 @@ class LawComparison(Generic[Law]):
     rows: tuple[LawRow[Law], ...]
     chosen: LawRow[Law]
     notes: tuple[Note, ...]
+
+    def _shown(self) -> Rows:
+        return (
+            ("chosen", str(self.chosen.law or self.chosen.title)),
+            ("weight", self.chosen.weight, "%"),
+            ("compared", ", ".join(one.title for one in self.rows)),
+            ("notes", self.notes),
+        )
 
     @property
     def best(self) -> Law:

@@ -18,6 +18,7 @@ from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, 
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
@@ -87,6 +88,13 @@ class ParametricLaw(ShiftLaw):
     #: As it is called in a sentence.
     title: ClassVar[str]
     _constants: ClassVar[dict[str, Constant]]
+
+    def _shown(self) -> Rows:
+        return (
+            *((name, value) for name, _, value in (one.partition(" = ") for one in self._shown_constants())),
+            ("reference", self.reference, "°C"),
+            ("fitted range", self.fitted_range, "°C"),
+        )
 
     def _set(
         self, constants: tuple[Any, ...], reference: Any, covariance: Any, fitted_range: Any, bounded: bool

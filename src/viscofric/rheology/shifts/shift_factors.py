@@ -15,16 +15,18 @@ from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
 from viscofric.rheology.shifts.shift_table import ShiftTable, write_shift_table
+from viscofric.showing import Items, rows_of
 from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     import xarray
 
     from viscofric.arrays import Array, Mask
     from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
+    from viscofric.showing import Rows
     from viscofric.units import Quantities, Quantity
 
 
@@ -38,7 +40,7 @@ _ROUNDING = 1e-13  # decades
 
 
 @dataclass(frozen=True, eq=False)
-class ShiftFactors(ShiftLaw):
+class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
     """A table of shift factors, read between its temperatures by monotone interpolation in 1/T.
 
     Up to half a kelvin beyond its ends, the difference of a nominal temperature from a measured one, it is continued
@@ -91,11 +93,17 @@ class ShiftFactors(ShiftLaw):
         for column in (kelvin, values, spread):
             column.flags.writeable = False
 
-    def __repr__(self) -> str:
-        low, high = (f"{shown_celsius(float(end))} °C" for end in self.temperatures[[0, -1]])
-        values = f"log10 α from {' to '.join(shown_number(one, 'z.2f') for one in self.log10_values[[0, -1]])}"
-        about = f"reference {shown_celsius(self.reference)} °C"
-        return f"ShiftFactors({len(self.temperatures)} temperatures, {low} to {high}, {values}, {about})"
+    def _items(self) -> Sequence[tuple[float, float]]:
+        return rows_of(self.temperatures, self.log10_values)
+
+    def _shown(self) -> Rows:
+        return (
+            ("temperatures", self.temperatures, "°C"),
+            ("log10 α", self.log10_values),
+            ("reference", self.reference, "°C"),
+            ("standard error", self.standard_errors),
+            ("notes", self.notes),
+        )
 
     @property
     def standard_errors(self) -> Array:

@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
+from viscofric.showing import Plotted
 from viscofric.units import kelvin_hint, to_si, to_si_in_shape
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ _MOST_DECADES = 300
 NOMINAL = 0.5  # K
 
 
-class ShiftLaw(ABC):
+class ShiftLaw(Plotted, ABC):
     """Shift factor α(T), 1 at the reference, such that E(ω, T) = E(α(T) ω, reference); it falls as T rises.
 
     Subclasses define log10 α, and `has_standard_error` where its uncertainty is known; the base has units and checks.
@@ -42,7 +43,7 @@ class ShiftLaw(ABC):
     def _log10(self, kelvin: Array) -> Array:
         """Return log10 α at temperatures that `_refuse` accepts."""
 
-    def _refuse(self, kelvin: Array) -> None:  # noqa: B027 (some laws hold everywhere)
+    def _refuse(self, kelvin: Array) -> None:
         """Raise `InputError` where the law has no meaning, or must not be extrapolated."""
 
     @abstractmethod

@@ -14,12 +14,14 @@ from viscofric.datasets import dataset, plain
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.columns import as_record, checked_columns
 from viscofric.rheology.shifts.shift_law import NOMINAL, in_kelvin, in_shape
+from viscofric.showing import Plotted
 from viscofric.units import kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
     from viscofric.units import Quantities, Quantity
 
 
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
 NATURAL_RUBBER_EXPANSION = 6.6e-4
 
 
-class VerticalShift(ABC):
+class VerticalShift(Plotted, ABC):
     """Vertical shift b(T), 1 at the reference, such that E(ω, T) = b(T) E(α(T) ω, reference).
 
     Subclasses define log10 b; units, shapes and checks are here.
@@ -39,7 +41,7 @@ class VerticalShift(ABC):
     def _log10(self, kelvin: Array) -> Array:
         """Return log10 b at temperatures that `_refuse` accepts."""
 
-    def _refuse(self, kelvin: Array) -> None:  # noqa: B027 (the density law holds everywhere)
+    def _refuse(self, kelvin: Array) -> None:
         """Raise `InputError` where the shift is not known."""
 
     @abstractmethod
@@ -180,6 +182,12 @@ class DensityShift(VerticalShift):
             )
         object.__setattr__(self, "expansion", expansion)
 
+    def _shown(self) -> Rows:
+        return (
+            ("reference", self.reference, "°C"),
+            ("expansion", f"{self.expansion:.3g} 1/K"),
+        )
+
     def _log10(self, kelvin: Array) -> Array:
         warmer = kelvin - self.reference
         return np.asarray(np.log10(kelvin / self.reference) - self.expansion * warmer / math.log(10.0))
@@ -248,10 +256,13 @@ class VerticalShiftFactors(VerticalShift):
         for column in (kelvin, values, spread):
             column.flags.writeable = False
 
-    def __repr__(self) -> str:
-        low, high = (f"{shown_celsius(float(end))} °C" for end in self.temperatures[[0, -1]])
-        about = f"reference {shown_celsius(self.reference)} °C"
-        return f"VerticalShiftFactors({len(self.temperatures)} temperatures, {low} to {high}, {about})"
+    def _shown(self) -> Rows:
+        return (
+            ("temperatures", self.temperatures, "°C"),
+            ("log10 b", self.log10_values),
+            ("reference", self.reference, "°C"),
+            ("standard error", self.standard_errors),
+        )
 
     @property
     def standard_errors(self) -> Array:

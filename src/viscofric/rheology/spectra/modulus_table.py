@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import insist_on, numbers, sentences
+from viscofric.arguments import insist_on, sentences
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
@@ -19,15 +19,19 @@ from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
 from viscofric.rheology.spectra.sparse import joint_error
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum
+from viscofric.showing import Items, rows_of
 from viscofric.threads import one_blas_thread
-from viscofric.units import to_si
+from viscofric.units import in_si, to_si
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.showing import Rows
 
 
 #: Extrapolation of a table beyond its ends.
@@ -38,7 +42,7 @@ _ROUNDING = 1e-12  # of ln ω
 
 
 @dataclass(frozen=True, eq=False)
-class ModulusTable(FrequencyResponse):
+class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
     """Complex modulus of a rubber at one temperature as a table.
 
     Between its frequencies ln E' and ln E'' are interpolated monotonically in ln ω (F. N. Fritsch, J. Butland, SIAM
@@ -105,9 +109,14 @@ class ModulusTable(FrequencyResponse):
             )
         check_choice(extrapolate, "extrapolate", "refuse", "plateau")
 
-    def __repr__(self) -> str:
-        low, high = self.angular_frequency[[0, -1]]
-        return f"ModulusTable({len(self.angular_frequency)} frequencies, {low:.3g} to {high:.3g} rad/s)"
+    def _shown(self) -> Rows:
+        return (
+            ("angular frequency", self.angular_frequency, "rad/s"),
+            ("storage modulus", self.storage_modulus_values, "Pa"),
+            ("loss modulus", self.loss_modulus_values, "Pa"),
+            ("outside", self.extrapolate),
+            ("notes", self.notes),
+        )
 
     @classmethod
     def from_master_curve(
@@ -156,8 +165,8 @@ class ModulusTable(FrequencyResponse):
         )
         return cls(omega, storage, loss, extrapolate, (note,) if len(count) < len(log_omega) else ())
 
-    def __len__(self) -> int:
-        return len(self.angular_frequency)
+    def _items(self) -> Sequence[tuple[float, float, float]]:
+        return rows_of(self.angular_frequency, self.storage_modulus_values, self.loss_modulus_values)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency`` (rad/s), as tabulated."""
@@ -201,7 +210,7 @@ class ModulusTable(FrequencyResponse):
         InputError
             If a frequency is outside the table and not to be extrapolated, or is NaN.
         """
-        signed = numbers(angular_frequency, "angular_frequency", infinite=True)
+        signed = in_si(angular_frequency, "rad/s", "angular_frequency", infinite=True)
         omega = np.abs(signed)
         low, high = float(self.angular_frequency[0]), float(self.angular_frequency[-1])
         outside = ~((omega >= low * (1.0 - _ROUNDING)) & (omega <= high * (1.0 + _ROUNDING)))
@@ -248,7 +257,7 @@ class ModulusTable(FrequencyResponse):
 
 
 def _column(values: ArrayLike, name: str) -> Array:
-    column = np.atleast_1d(np.array(numbers(values, name)))
+    column = np.atleast_1d(np.array(in_si(values, "rad/s" if name == "angular_frequency" else "Pa", name)))
     if column.ndim != 1 or not np.all(column > 0.0):
         raise InputError(
             f"{name} of a modulus table must be one row of finite numbers above zero.", code="not-a-number"

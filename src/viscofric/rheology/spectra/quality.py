@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from viscofric.datasets import dataset
 from viscofric.rheology.spectra.response import shown_modulus
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     import xarray
+
+    from viscofric.showing import Rows
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
@@ -23,7 +26,7 @@ LARGEST_MISFIT = 0.05  # decades, rms of E' and of E''
 
 
 @dataclass(frozen=True)
-class SpectrumFit:
+class SpectrumFit(Shown):
     """Quality of the fit of a spectrum to a master curve.
 
     Parameters
@@ -79,6 +82,19 @@ class SpectrumFit:
     E0_missed: bool = False
     E_inf_missed: bool = False
     rms_step: float | None = None
+
+    def _shown(self) -> Rows:
+        return (
+            ("method", self.method or None),
+            ("modes", self.modes),
+            ("misfit of the storage modulus", self.rms_storage, "decades"),
+            ("of the loss modulus", self.rms_loss, "decades"),
+            ("of step tests", self.rms_step, "decades"),
+            ("measured", self.frequency_range, "rad/s"),
+            ("E0 extrapolated", self.E0_extrapolated),
+            ("E_inf extrapolated", self.E_inf_extrapolated),
+            ("notes", self.notes),
+        )
 
     def shifted(self, alpha: float, b: float) -> SpectrumFit:
         """Return the same for the spectrum at a temperature with factors α and b; notes describe the original fit."""

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
-from viscofric.units import positive
+from viscofric.showing import Plotted
+from viscofric.units import in_si, positive
 
 if TYPE_CHECKING:
     import xarray
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, ComplexArray
 
 
-class FrequencyResponse(ABC):
+class FrequencyResponse(Plotted, ABC):
     """A linear viscoelastic solid or liquid at one temperature, known by E(ω) (convention e^{+iωt})."""
 
     @abstractmethod
@@ -57,7 +57,7 @@ class FrequencyResponse(ABC):
         xarray.Dataset
             ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency``.
         """
-        omega = np.ravel(numbers(angular_frequency, "angular_frequency"))
+        omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         modulus = self.complex_modulus(omega)
         return dataset(
             "angular_frequency",
@@ -108,7 +108,7 @@ class FrequencyResponse(ABC):
 
 
 def _times(values: ArrayLike) -> Array:
-    time = numbers(values, "time")
+    time = in_si(values, "s", "time")
     if not np.all(time > 0.0):
         raise InputError(
             "times of a relaxation or retardation density must be above zero and finite, in s.", code="not-positive"
@@ -118,7 +118,7 @@ def _times(values: ArrayLike) -> Array:
 
 def checked_times(values: ArrayLike, name: str) -> Array:
     """Return the times of a step response; InputError if one is below zero."""
-    time = numbers(values, "time", infinite=True)
+    time = in_si(values, "s", "time", infinite=True)
     if not np.all(time >= 0.0):
         raise InputError(f"time of a {name} must not be below zero, nor NaN.", code="not-positive")
     return time
@@ -131,7 +131,7 @@ def checked_shift(alpha: float, b: float) -> tuple[float, float]:
 
 def mode_column(values: ArrayLike, name: str, unit: str) -> Array:
     """Return one value for each mode, as a read-only copy."""
-    column = np.atleast_1d(np.array(numbers(values, name)))
+    column = np.atleast_1d(np.array(in_si(values, unit, name)))
     if column.ndim != 1:
         raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.", code="not-a-number")
     column.flags.writeable = False

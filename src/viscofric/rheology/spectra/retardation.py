@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import insist_on, numbers
+from viscofric.arguments import insist_on
 from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
@@ -18,16 +18,19 @@ from viscofric.rheology.spectra.response import (
     checked_shift,
     checked_times,
     mode_column,
-    shown_modulus,
 )
+from viscofric.showing import Items, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
-from viscofric.units import positive, to_si
+from viscofric.units import in_si, positive, to_si
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
@@ -36,7 +39,7 @@ BALANCE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class RetardationSpectrum(FrequencyResponse):
+class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
     """Retardation modes of a rubber at one temperature.
 
     Creep compliance and complex compliance are (Eqs. 5 and 3 of [1]_; convention e^{+iωt})::
@@ -106,16 +109,22 @@ class RetardationSpectrum(FrequencyResponse):
                 code="modes-contradict",
             )
 
-    def __len__(self) -> int:
-        return len(self.C)
+    def _items(self) -> Sequence[tuple[float, float]]:
+        return rows_of(self.C, self.tau)
 
-    def __repr__(self) -> str:
-        ends = f"E0 = {shown_modulus(self.E0)}, E_inf = {shown_modulus(self.E_inf)}"
-        return f"RetardationSpectrum({ends}, {len(self)} modes)"
+    def _shown(self) -> Rows:
+        return (
+            ("E0", self.E0, "Pa"),
+            ("E_inf", self.E_inf, "Pa"),
+            ("modes", len(self)),
+            ("τ", self.tau, "s"),
+            ("E0 extrapolated", None if self.fit is None else self.fit.E0_extrapolated),
+            ("E_inf extrapolated", None if self.fit is None else self.fit.E_inf_extrapolated),
+        )
 
     def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return S(ω) = 1/E(ω), 1/Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         # Mode by mode: a grid of a million frequencies does not fit into memory forty times.
         total = np.full(omega.shape, 1.0 / self.E_inf, dtype=complex)
         for compliance, time in zip(self.C, self.tau, strict=True):
@@ -265,7 +274,7 @@ class RetardationSpectrum(FrequencyResponse):
 
 
 @dataclass(frozen=True, eq=False)
-class RelaxationSpectrum(FrequencyResponse):
+class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
     """Relaxation modes of a rubber, or of a liquid, at one temperature.
 
     Relaxation modulus and complex modulus of the generalised Maxwell model are (convention e^{+iωt})::
@@ -317,12 +326,16 @@ class RelaxationSpectrum(FrequencyResponse):
         if not self.E_inf > 0.0:
             raise InputError("E0 and all E are zero: there is no modulus at all.", code="no-modulus")
 
-    def __len__(self) -> int:
-        return len(self.E)
+    def _items(self) -> Sequence[tuple[float, float]]:
+        return rows_of(self.E, self.tau)
 
-    def __repr__(self) -> str:
-        ends = f"E0 = {shown_modulus(self.E0)}, E_inf = {shown_modulus(self.E_inf)}"
-        return f"RelaxationSpectrum({ends}, {len(self)} modes)"
+    def _shown(self) -> Rows:
+        return (
+            ("E0", self.E0, "Pa"),
+            ("E_inf", self.E_inf, "Pa"),
+            ("modes", len(self)),
+            ("τ", self.tau, "s"),
+        )
 
     @property
     def E_inf(self) -> float:
@@ -331,7 +344,7 @@ class RelaxationSpectrum(FrequencyResponse):
 
     def complex_modulus(self, angular_frequency: ArrayLike) -> ComplexArray:
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s, any sign)."""
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         total = np.full(omega.shape, self.E0, dtype=complex)
         for modulus, time in zip(self.E, self.tau, strict=True):
             total += modulus * (1j * omega * time) / (1.0 + 1j * omega * time)

@@ -17,6 +17,7 @@ from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep, OwnShifts, own_shifts
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
+from viscofric.showing import Plotted
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.overlap import OverlapQuality
+    from viscofric.showing import Rows
 
     Verdict = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
 
@@ -72,7 +74,7 @@ class Diagram:
 
 
 @dataclass(frozen=True, eq=False)
-class SuperpositionCheck:
+class SuperpositionCheck(Plotted):
     """Whether the isotherms of a superposition are one material at shifted frequencies.
 
     Parameters
@@ -124,8 +126,15 @@ class SuperpositionCheck:
     verdict: Verdict
     drift: Drift | None = None
 
-    def __repr__(self) -> str:
-        return f"SuperpositionCheck({self.verdict}, figure of merit {self.figure_of_merit:.2g})"
+    def _shown(self) -> Rows:
+        return (
+            ("verdict", self.verdict),
+            ("figure of merit", self.figure_of_merit),
+            ("scatter between isotherms", self.between, "decades"),
+            ("within isotherms", self.within, "decades"),
+            ("overlap misfit", self.overlap_misfit, "decades"),
+            ("sentences", self.sentences),
+        )
 
     @property
     def roughly(self) -> bool:

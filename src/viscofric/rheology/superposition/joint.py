@@ -13,6 +13,7 @@ from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.showing import Plotted
 from viscofric.step_tests import StepMasterCurve
 from viscofric.units import shown_celsius
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.showing import Rows
 
 Part: TypeAlias = Superposition | StepSuperposition
 
@@ -33,7 +35,7 @@ RARE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class JointSuperposition:
+class JointSuperposition(Plotted):
     """The result of `superpose` of several kinds of tests of one material.
 
     Parameters
@@ -57,9 +59,14 @@ class JointSuperposition:
     gains: tuple[Array, ...]
     notes: tuple[str, ...] = ()
 
-    def __repr__(self) -> str:
-        factors = self.shift_factors
-        return f"JointSuperposition({len(self.parts)} kinds of tests, {len(factors.temperatures)} temperatures)"
+    def _shown(self) -> Rows:
+        return (
+            ("kinds of tests", self.parts),
+            ("temperature", self.shift_factors.temperatures, "°C"),
+            ("reference", self.shift_factors.reference, "°C"),
+            ("log10 α", self.shift_factors.log10_values),
+            ("notes", self.notes),
+        )
 
     @property
     def vertical_shift(self) -> VerticalShift | None:

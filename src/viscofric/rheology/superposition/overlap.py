@@ -14,6 +14,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
+from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, Mask
     from viscofric.data import Isotherm
+    from viscofric.showing import Rows
     from viscofric.step_tests import StepKind, StepTest
 
 
@@ -201,7 +203,7 @@ LARGEST_OVERLAP = 0.05  # decades, rms of E' and of E''
 
 
 @dataclass(frozen=True)
-class OverlapQuality:
+class OverlapQuality(Shown):
     """How well shifted isotherms overlap with their neighbours.
 
     Each isotherm, shifted, is compared at its own points with the next warmer one where their reduced
@@ -225,6 +227,15 @@ class OverlapQuality:
     points: int
     neighbours: int = 0
     gaps: tuple[int, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("misfit of the storage modulus", self.storage, "decades"),
+            ("of the loss modulus", self.loss, "decades"),
+            ("points", self.points),
+            ("neighbours", self.neighbours),
+            ("without overlap", self.without_overlap),
+        )
 
     @property
     def without_overlap(self) -> int:

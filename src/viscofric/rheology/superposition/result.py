@@ -11,8 +11,8 @@ import numpy as np
 from viscofric.arguments import insist_on
 from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.superposition import consistency
-from viscofric.rheology.superposition.joined_isotherms import shown
 from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.showing import Plotted
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
@@ -27,10 +27,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.overlap import OverlapQuality
     from viscofric.rheology.superposition.quantity import ShiftBy
     from viscofric.rheology.superposition.step_result import StepCheck
+    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class Superposition:
+class Superposition(Plotted):
     """The result of `superpose`.
 
     Parameters
@@ -72,12 +73,15 @@ class Superposition:
     shifted_by: ShiftBy = "both"
     weights: tuple[float, float] | None = None
 
-    def __repr__(self) -> str:
-        shifts = self.shift_factors
+    def _shown(self) -> Rows:
         return (
-            f"Superposition({len(shifts.temperatures)} isotherms, {shown(float(shifts.temperatures[0]))} to "
-            f"{shown(float(shifts.temperatures[-1]))}, reference {shown(shifts.reference)}, overlap misfit "
-            f"{self.quality.joint:.4f} decades)"
+            ("isotherms", len(self.isotherms)),
+            ("temperature", self.shift_factors.temperatures, "°C"),
+            ("reference", self.shift_factors.reference, "°C"),
+            ("log10 α", self.shift_factors.log10_values),
+            ("overlap misfit", self.quality.joint, "decades"),
+            ("vertical shift", None if self.vertical_shift is None else type(self.vertical_shift).__name__),
+            ("notes", self.notes),
         )
 
     @property

@@ -17,6 +17,7 @@ from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.superposition.consistency import LARGEST_FIGURE, ONE_PAIR, REPRODUCIBILITY, ROUGH_FIGURE
 from viscofric.rheology.superposition.joined_isotherms import ranges, shown
 from viscofric.rheology.superposition.overlap import LogSweep, join, own_shifts
+from viscofric.showing import Plotted, Shown
 from viscofric.threads import one_blas_thread
 from viscofric.units import shown_number
 
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.consistency import Verdict
     from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
     from viscofric.rheology.superposition.overlap import OverlapQuality
+    from viscofric.showing import Rows
     from viscofric.step_tests import StepMasterCurve, StepTest
 
 
@@ -44,7 +46,7 @@ LEAST_POINTS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class StepCheck:
+class StepCheck(Shown):
     """Whether creep or relaxation tests are one material at shifted times.
 
     Parameters
@@ -79,8 +81,13 @@ class StepCheck:
     sentences: tuple[str, ...]
     temperatures: Array
 
-    def __repr__(self) -> str:
-        return f"StepCheck({self.verdict}, figure of merit {self.figure_of_merit:.2g})"
+    def _shown(self) -> Rows:
+        return (
+            ("verdict", self.verdict),
+            ("figure of merit", self.figure_of_merit),
+            ("overlap misfit", self.overlap_misfit, "decades"),
+            ("temperature", self.temperatures, "°C"),
+        )
 
     @property
     def roughly(self) -> bool:
@@ -113,7 +120,7 @@ class StepCheck:
 
 
 @dataclass(frozen=True, eq=False)
-class StepSuperposition:
+class StepSuperposition(Plotted):
     """The result of `superpose` of creep or relaxation tests.
 
     Parameters
@@ -149,12 +156,14 @@ class StepSuperposition:
     offsets: IsothermOffsets | None = None
     unidentified: tuple[tuple[float, float], ...] = ()
 
-    def __repr__(self) -> str:
-        shifts = self.shift_factors
+    def _shown(self) -> Rows:
         return (
-            f"StepSuperposition({len(shifts.temperatures)} {self.master_curve.kind} tests, "
-            f"{shown(float(shifts.temperatures[0]))} to {shown(float(shifts.temperatures[-1]))}, reference "
-            f"{shown(shifts.reference)}, overlap misfit {self.quality.joint:.4f} decades)"
+            ("tests", f"{len(self.isotherms)} of {self.master_curve.kind}"),
+            ("temperature", self.shift_factors.temperatures, "°C"),
+            ("reference", self.shift_factors.reference, "°C"),
+            ("log10 α", self.shift_factors.log10_values),
+            ("overlap misfit", self.quality.joint, "decades"),
+            ("notes", self.notes),
         )
 
     def to_dataset(self) -> xarray.Dataset:

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arguments import insist_on_function, numbers
+from viscofric.arguments import insist_on_function
 from viscofric.datasets import dataset
-from viscofric.units import share
+from viscofric.showing import Items, Plotted
+from viscofric.units import in_si, share
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     import xarray
     from numpy.typing import ArrayLike, NDArray
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.residuals import SystematicMisfit
+    from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
@@ -45,7 +47,7 @@ class StandardErrors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class MaterialSamples:
+class MaterialSamples(Plotted, Items["Material"]):
     """Uncertainty samples of a material, bootstrap or posterior; their spread is the uncertainty.
 
     Parameters
@@ -69,12 +71,16 @@ class MaterialSamples:
     frequency_range: tuple[float, float]
     misfit: SystematicMisfit | None = None
 
-    def __len__(self) -> int:
-        return len(self.materials)
+    def _items(self) -> Sequence[Material]:
+        return self.materials
 
-    def __repr__(self) -> str:
-        low, high = self.frequency_range
-        return f"MaterialSamples({len(self)} materials, measured from {low:.3g} to {high:.3g} rad/s)"
+    def _shown(self) -> Rows:
+        return (
+            ("samples", len(self)),
+            ("measured", self.frequency_range, "rad/s"),
+            ("E0", self.E0, "Pa"),
+            ("E_inf", self.E_inf, "Pa"),
+        )
 
     @cached_property
     def E0(self) -> Array:
@@ -122,7 +128,7 @@ class MaterialSamples:
         Where the spectrum misses what was measured by more than noise (`misfit`), this is added as another error of the
         logarithms of E' and E'', independent of those that were drawn.
         """
-        omega = numbers(angular_frequency, "angular_frequency")
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
         storage, loss = _limits(moduli.real, level), _limits(moduli.imag, level)
         if self.misfit is not None and np.any(self.misfit.size):
@@ -147,7 +153,7 @@ class MaterialSamples:
             ``storage_modulus_lower``, ``storage_modulus_upper``, ``loss_modulus_lower`` and ``loss_modulus_upper`` (Pa)
             along ``angular_frequency`` (rad/s).
         """
-        omega = np.ravel(numbers(angular_frequency, "angular_frequency"))
+        omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         band = self.modulus_band(omega, temperature, level)
         columns = {}
         for part, take in {"storage": np.real, "loss": np.imag}.items():

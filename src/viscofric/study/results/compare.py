@@ -14,6 +14,7 @@ from viscofric.contact.solution import ERRORS
 from viscofric.datasets import dataset
 from viscofric.files import parse_toml
 from viscofric.notes import Note
+from viscofric.showing import Shown
 from viscofric.study.results.case_table import CaseTable, common_cases
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
 
 
 #: Variables that are compared -> the variable with its stated error.
@@ -72,7 +74,7 @@ class VariableDifference:
 
 
 @dataclass(frozen=True)
-class ResultsComparison:
+class ResultsComparison(Shown):
     """What `compare_results` found.
 
     Attributes
@@ -100,6 +102,18 @@ class ResultsComparison:
     provenance: tuple[str, ...]
     differences: tuple[VariableDifference, ...]
     tolerance: float | None
+
+    def _shown(self) -> Rows:
+        return (
+            ("equal", self.equal),
+            ("cases in common", self.cases),
+            ("only in the first", self.only_first),
+            ("only in the second", self.only_second),
+            ("solved by one only", self.solved_once),
+            ("variables", self.differences),
+            ("different variables", sum(not one.equal for one in self.differences)),
+            ("tolerance", self.tolerance),
+        )
 
     @property
     def equal(self) -> bool:

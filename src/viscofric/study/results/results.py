@@ -17,6 +17,7 @@ from viscofric.arguments import number
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, note_of
+from viscofric.showing import Plotted
 from viscofric.study.results.case_table import CaseTable
 from viscofric.study.results.compare import compare_tables
 from viscofric.study.results.export import export_results
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Mask
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.showing import Rows
     from viscofric.study.results.compare import ResultsComparison
     from viscofric.study.results.export import Form
 
@@ -37,7 +39,7 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class StudyResults:
+class StudyResults(Plotted):
     """The results of a study.
 
     Attributes
@@ -50,6 +52,22 @@ class StudyResults:
 
     tree: xarray.DataTree
     folder: Path
+
+    def _shown(self) -> Rows:
+        return (
+            ("title", self.tree.attrs.get("title")),
+            *self._shown_cases(),
+            ("materials", len(self.materials)),
+            ("failures", self.failures),
+            ("warnings", self.warnings),
+            ("folder", self.folder.name),
+        )
+
+    def _shown_cases(self) -> Rows:
+        if "prediction" not in self.tree.children:
+            return ()
+        sizes, found = self.dataset.sizes, self.dataset["friction_coefficient"].values
+        return ("cases", ", ".join(f"{size} {name}" for name, size in sizes.items())), ("friction coefficient", found)
 
     @property
     def dataset(self) -> xarray.Dataset:
@@ -65,6 +83,10 @@ class StudyResults:
             If the results are of a rubber alone.
         """
         return cases_of(self.tree, self.folder)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return `dataset`."""
+        return self.dataset
 
     @property
     def materials(self) -> dict[str, xarray.DataTree]:

@@ -216,7 +216,7 @@ def measurement_data(
         columns[name][solved] = column
     if within is not None:
         columns[_WITHIN] = np.array(within, dtype=np.int8)
-    known = measured.to_dataset().reset_coords()
+    known = measured.points_dataset().reset_coords()
     known = known[[name for name in _MEASURED if name in known]].drop_attrs(deep=False)
     return as_measured(known).merge(
         dataset("point", {name: (values, *_PREDICTED[name]) for name, values in columns.items()})

@@ -11,6 +11,7 @@ from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationE
 from viscofric.errors import InputError, StudyError
 from viscofric.files import file_path, parse_toml
 from viscofric.notes import Note
+from viscofric.showing import Shown
 from viscofric.study.cases.sweep import Sweep, sweep_of
 from viscofric.study.run_file.contact import (
     SHAPES,
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from viscofric.showing import Rows
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.tables import Problem
 
@@ -53,7 +55,7 @@ def _several(value: object) -> object:
     return [value] if isinstance(value, dict | MaterialTable) else value
 
 
-class Study(Table):
+class Study(Shown, Table):
     """A whole run file; quantities in SI, paths resolved against the run file's folder.
 
     Attributes
@@ -111,6 +113,15 @@ class Study(Table):
     uncertainty: UncertaintyTable = Field(UncertaintyTable(), description="Uncertainty of the material.")
     outputs: OutputsTable = Field(OutputsTable(), description="Stored fields and formats of the results.")
     cluster: ClusterTable | None = Field(None, description="SLURM jobs that solve the cases.")
+
+    def _shown(self) -> Rows:
+        return (
+            ("title", self.title),
+            ("data", self.data_origin),
+            ("materials", ", ".join(one.name or "without a name" for one in self.materials)),
+            ("contact", "rough surface" if self.indenter is None else type(self.indenter).__name__),
+            ("notes", self.notes),
+        )
 
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions between tables."""

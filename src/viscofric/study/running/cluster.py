@@ -7,6 +7,7 @@ import functools
 import logging
 import queue
 import shutil
+import signal
 import time
 import uuid
 from dataclasses import dataclass, field
@@ -202,8 +203,13 @@ def _clock(seconds: int) -> str:
 
 
 def _imported(name: str) -> ModuleType:
+    interrupted = signal.getsignal(signal.SIGINT)
     try:
-        return import_module(name)
+        found = import_module(name)
+        # dask_jobqueue, as it is imported, makes Ctrl-C end the program silently and with success.
+        if signal.getsignal(signal.SIGINT) is not interrupted:
+            signal.signal(signal.SIGINT, interrupted)
+        return found
     except Exception as error:
         why = not_imported(name, error, "pip install 'viscofric[cluster]'")
         raise InputError(f"clusters need {name}, but {why}.", code="not-installed") from error

@@ -106,8 +106,14 @@ def read_rebound(
     >>> with Path("rebound.csv").open("w") as file:
     ...     for row in ("speed (m/s),restitution (1),contact time (ms)", "1,0.62,2.1", "2,0.58,1.9"):
     ...         print(row, file=file)
-    >>> vf.read_rebound("rebound.csv", mass="33 g", error=0.01, temperature="23 degC")
-    [ReboundRecord(2 impacts, restitution, contact_time, 296.15 K)]
+    >>> vf.read_rebound("rebound.csv", mass="33 g", error=0.01, temperature="23 degC")[0]
+    ReboundRecord
+      speed         2 from 1 to 2 m/s
+      restitution   2 from 0.58 to 0.62
+      contact time  2 from 1.9 to 2.1 ms
+      mass          0.033 kg
+      temperature   23 °C
+      source        rebound.csv
     """
 
     def make(kelvin: float, values: dict[str, Array]) -> ReboundRecord:
@@ -163,8 +169,15 @@ def read_oscillation(
     >>> with Path("dma.csv").open("w") as file:
     ...     for row in ("frequency (Hz),storage stiffness (N/m),loss stiffness (N/m)", "1,9e3,1e3", "10,1e4,2e3"):
     ...         print(row, file=file)
-    >>> vf.read_oscillation("dma.csv", indentation="100 um", amplitude="3 um", error=0.01, temperature="23 degC")
-    [OscillationRecord(2 frequencies, 296.15 K)]
+    >>> vf.read_oscillation("dma.csv", indentation="100 um", amplitude="3 um", error=0.01, temperature="23 degC")[0]
+    OscillationRecord
+      angular frequency  2 from 6.283 to 62.83 rad/s
+      storage stiffness  2 from 9 to 10 kN/m
+      loss stiffness     2 from 1 to 2 kN/m
+      indentation        100 µm
+      amplitude          3 µm
+      temperature        23 °C
+      source             dma.csv
     """
 
     def make(kelvin: float, values: dict[str, Array]) -> OscillationRecord:

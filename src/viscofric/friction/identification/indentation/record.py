@@ -15,6 +15,7 @@ from viscofric.motion.history import CONTROLS
 from viscofric.notes import Note
 from viscofric.readers.history_columns import HISTORY, history_columns
 from viscofric.readers.tables import name_columns
+from viscofric.showing import Plotted
 from viscofric.units import positive, to_si, to_si_array
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
     from viscofric.units import Quantities, Quantity
 
 
@@ -36,7 +38,7 @@ LEAST_ROWS = 5
 
 
 @dataclass(frozen=True, eq=False)
-class IndentationRecord:
+class IndentationRecord(Plotted):
     """Load and depth of an indenter over time at one temperature, on material that was never in contact before.
 
     Parameters
@@ -143,8 +145,15 @@ class IndentationRecord:
     def __len__(self) -> int:
         return len(self.time)
 
-    def __repr__(self) -> str:
-        return f"IndentationRecord({len(self)} rows, {self.control} prescribed, {self.temperature:.2f} K)"
+    def _shown(self) -> Rows:
+        return (
+            ("time", self.time, "s"),
+            ("load", self.load, "N"),
+            ("indentation", self.indentation, "m"),
+            ("prescribed", self.control),
+            ("temperature", self.temperature, "°C"),
+            ("source", self.source or None),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the record as a labelled data set along ``row``.
@@ -223,7 +232,13 @@ def read_indentation(
     ...     for row in ("time (s),load (N),indentation (um)", "1,1,100", "2,1,105", "4,1,110", "8,1,114", "16,1,117"):
     ...         print(row, file=file)
     >>> vf.read_indentation("creep.csv", control="load", temperature="23 degC", start=0.0)
-    IndentationRecord(5 rows, load prescribed, 296.15 K)
+    IndentationRecord
+      time         5 from 1 to 16 s
+      load         5 of 1 N
+      indentation  5 from 100 to 117 µm
+      prescribed   load
+      temperature  23 °C
+      source       creep.csv
     """
     check_choice(control, "control", *RESPONSE)
     kelvin = None if temperature is None else positive(temperature, "K", "temperature")

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.friction.identification.identified import Identified
+from viscofric.showing import Plotted
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.identification.indentation.setting_up import Record
+    from viscofric.showing import Rows
 
 
 #: Quantity -> unit and long name.
@@ -39,7 +41,7 @@ _SPEED = ("speed", "m/s", "speed of the impact")
 
 
 @dataclass(frozen=True, eq=False)
-class FittedRecord:
+class FittedRecord(Plotted):
     """One measured quantity of a record, its rows averaged over time, and its fit.
 
     Attributes
@@ -70,6 +72,16 @@ class FittedRecord:
     upper: Array
     error: Array
     count: Array
+
+    def _shown(self) -> Rows:
+        return (
+            ("record", type(self.record).__name__),
+            ("quantity", self.words),
+            ("temperature", self.record.temperature, "°C"),
+            (self._axis[2], self.along, self._axis[1]),
+            ("residuals", self.residuals),
+            ("rows averaged", int(self.count.sum())),
+        )
 
     @property
     def residuals(self) -> Array:
@@ -140,6 +152,12 @@ class MaterialFromIndentation(Identified):
     records: tuple[FittedRecord, ...]
     common_errors: Mapping[str, tuple[float, float]]
 
+    def _shown(self) -> Rows:
+        return (
+            ("records", len({id(one.record) for one in self.records})),
+            *super()._shown(),
+        )
+
     def _attributes(self) -> dict[str, Any]:
         errors = {
             f"{name.replace(' ', '_')}_error{end}": one
@@ -176,8 +194,3 @@ class MaterialFromIndentation(Identified):
         ]
         left = f" Errors of {' and '.join(missing)} are not included." if missing else ""
         return super()._band_words() + left
-
-    def __repr__(self) -> str:
-        low, high = self.frequency_range
-        count = len({id(one.record) for one in self.records})
-        return f"MaterialFromIndentation({count} records, {low:.3g} to {high:.3g} rad/s)"

@@ -12,6 +12,7 @@ from viscofric.arguments import text
 from viscofric.data import read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
+from viscofric.showing import Plotted
 from viscofric.units import angular_frequency as frequency_of
 from viscofric.units import positive, to_si, to_si_array
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
+    from viscofric.showing import Rows
     from viscofric.units import Quantities, Quantity
 
 #: Quantity -> unit, and long name.
@@ -38,7 +40,7 @@ LARGEST_AMPLITUDE = 0.03
 
 
 @dataclass(frozen=True, eq=False)
-class ReboundRecord:
+class ReboundRecord(Plotted):
     """Impacts of an indenter of known mass at several speeds and one temperature.
 
     Parameters
@@ -133,6 +135,18 @@ class ReboundRecord:
         object.__setattr__(self, "error", _errors(error, self.quantities))
         object.__setattr__(self, "source", text(source, "source"))
 
+    def _shown(self) -> Rows:
+        return (
+            ("speed", self.speed, "m/s"),
+            ("restitution", self.restitution),
+            ("contact time", self.contact_time, "s"),
+            ("largest force", self.peak_force, "N"),
+            ("indentation", self.indentation, "m"),
+            ("mass", self.mass, "kg"),
+            ("temperature", self.temperature, "°C"),
+            ("source", self.source or None),
+        )
+
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of what was measured."""
@@ -140,9 +154,6 @@ class ReboundRecord:
 
     def __len__(self) -> int:
         return len(self.speed)
-
-    def __repr__(self) -> str:
-        return f"ReboundRecord({len(self)} impacts, {', '.join(self.quantities)}, {self.temperature:.2f} K)"
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the record as a labelled data set along ``speed`` (m/s).
@@ -165,7 +176,7 @@ class ReboundRecord:
 
 
 @dataclass(frozen=True, eq=False)
-class OscillationRecord:
+class OscillationRecord(Plotted):
     """Stiffness of small oscillations of an indenter about a constant depth, over frequency, at one temperature.
 
     Parameters
@@ -255,8 +266,16 @@ class OscillationRecord:
     def __len__(self) -> int:
         return len(self.angular_frequency)
 
-    def __repr__(self) -> str:
-        return f"OscillationRecord({len(self)} frequencies, {self.temperature:.2f} K)"
+    def _shown(self) -> Rows:
+        return (
+            ("angular frequency", self.angular_frequency, "rad/s"),
+            ("storage stiffness", self.storage_stiffness, "N/m"),
+            ("loss stiffness", self.loss_stiffness, "N/m"),
+            ("indentation", self.indentation, "m"),
+            ("amplitude", self.amplitude, "m"),
+            ("temperature", self.temperature, "°C"),
+            ("source", self.source or None),
+        )
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the record as a labelled data set along ``angular_frequency`` (rad/s).
