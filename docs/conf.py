@@ -11,7 +11,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "_extensions"))
 
 project = "viscofric"
-author = "the viscofric authors"
+author = "viscofric developers"
 copyright = f"{date.today().year}, {author}"  # noqa: A001 - Sphinx's name
 release = version = installed("viscofric")
 
@@ -83,7 +83,9 @@ html_theme_options = {
     "pygments_dark_style": "a11y-high-contrast-dark",
 }
 html_favicon = "_static/mark.svg"
-html_sidebars = {page: [] for page in ("index", "changes", "glossary", "installation", "limits", "verification")}
+html_sidebars = {
+    page: [] for page in ("index", "changes", "faq", "glossary", "installation", "limits", "stability", "verification")
+}
 
 # the examples at the root of the checkout, with what they draw
 exclude_patterns += ["auto_examples/**/*.py", "auto_examples/**/*.ipynb", "auto_examples/**/*.md5"]

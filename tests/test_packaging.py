@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 import sysconfig
 import tarfile
+import tomllib
 import zipfile
 from email import message_from_string
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[1]
 #: Not of the project: what tools make in a checkout.
@@ -80,7 +83,7 @@ def clean(environment: dict[str, str]) -> dict[str, str]:
     return {name: value for name, value in environment.items() if not name.startswith(("PYTHON", "VIRTUAL_ENV"))}
 
 
-def run(command: list[str], folder: Path, environment: dict[str, str] | None = None) -> str:
+def run(command: list[str], folder: Path, environment: dict[str, str] | None = None, *, together: bool = False) -> str:
     done = subprocess.run(
         command,
         cwd=folder,
@@ -91,7 +94,7 @@ def run(command: list[str], folder: Path, environment: dict[str, str] | None = N
         timeout=300,
     )
     assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
-    return done.stdout
+    return done.stdout + done.stderr if together else done.stdout
 
 
 @pytest.fixture(scope="module")
@@ -99,9 +102,41 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """Return the source distribution, and the wheel that was built from it and not from the checkout."""
     folder = tmp_path_factory.mktemp("built")
     checkout = shutil.copytree(ROOT, folder / "checkout", ignore=MADE)
-    run([sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), str(checkout)], folder)
+    command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), str(checkout)]
+    said = run(command, folder, together=True)
+    assert not re.findall(r"(?i)^warning: no .*|is absent from the `packages`|deprecat.*", said, re.MULTILINE)
     (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
     return sdist, wheel
+
+
+def test_text_for_the_package_index_stands_alone() -> None:
+    """No link or image of it leads into the repository, which a package index does not show."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    text = (ROOT / project["readme"]).read_text(encoding="utf-8")
+    targets = re.findall(r"\]\(([^)\s]+)|(?:src|href)=\"([^\"]+)", text)
+    assert all(one.startswith("https://") for pair in targets for one in pair if one)
+
+
+def test_recipe_for_conda_has_version_and_dependencies_of_the_package() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
+    assert f'{{% set version = "{project["version"]}" %}}' in recipe
+    needed = re.findall(r"(?m)^    - ([\w-]+) (>=\S+)$", recipe.split("  run:\n")[1].split("\ntest:")[0])
+    wanted = [("python", project["requires-python"])]
+    wanted += [re.fullmatch(r"([\w-]+)(>=\S+)", one.lower()).groups() for one in project["dependencies"]]
+    assert needed == [("matplotlib-base" if name == "matplotlib" else name, least) for name, least in wanted]
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / ".github" / "workflows").glob("*.yml")), ids=lambda path: path.name)
+def test_workflows_call_what_there_is(path: Path) -> None:
+    """Steps that call `run` name commands of it, and Pythons are those that the package supports."""
+    workflow = yaml.safe_load(path.read_text(encoding="utf-8"))
+    steps = [step.get("run", "") for job in workflow["jobs"].values() for step in job["steps"]]
+    called = {words[2] for words in map(str.split, steps) if words[:2] == ["python", "run"]}
+    assert called <= {"test", "docs", "verify", "--version"}
+    assert any("python -m build" in step for step in steps)
+    for script in re.findall(r"(?m)^(\.ci/\S+)", "\n".join(steps)):
+        assert os.access(ROOT / script, os.X_OK)
 
 
 def members(sdist: Path) -> set[str]:

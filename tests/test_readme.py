@@ -28,7 +28,9 @@ ROOT = Path(__file__).parents[1]
 #: What building the site leaves there.
 MADE = {"_build", "_generated", "auto_examples"}
 WRITTEN = [path for path in ROOT.glob("docs/**/*.md") if not MADE & set(path.parts)]
-PAGES = sorted([ROOT / "README.md", ROOT / "ARCHITECTURE.md", *WRITTEN])
+PAGES = sorted(
+    [ROOT / "README.md", ROOT / "PACKAGE.md", ROOT / "ARCHITECTURE.md", ROOT / "paper" / "paper.md", *WRITTEN]
+)
 FENCE = re.compile(r"^```([\w-]*)([^\n`]*)\n(.*?)^```[ \t]*$", re.MULTILINE | re.DOTALL)
 OUTPUT = {"", "text", "mermaid"}
 SHELL = {"console", "bash", "sh", "shell"}
@@ -151,7 +153,8 @@ def check_study(block: Block, folder: Path) -> None:
 def as_case(page: Path) -> Any:
     """Return a page as a test's case: those of the site, which take a minute, are tests of their own step."""
     name = page.relative_to(ROOT).as_posix()
-    marks = [pytest.mark.apart] if name.startswith("docs/") else [pytest.mark.slow] if name == "README.md" else []
+    apart = name.startswith(("docs/", "paper/", "PACKAGE"))
+    marks = [pytest.mark.apart] if apart else [pytest.mark.slow] if name == "README.md" else []
     return pytest.param(page, id=name, marks=marks)
 
 

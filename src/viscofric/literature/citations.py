@@ -136,7 +136,7 @@ polymers and other glass-forming liquids”, J. Am. Chem. Soc. 77 (1955) 3701–
 def _software() -> Reference:
     return Reference(
         "viscofric",
-        ("the viscofric authors",),
+        ("viscofric developers",),
         title="viscofric",
         note=f"version {version('viscofric')}",
     )

@@ -9,8 +9,13 @@ from viscofric.literature.reference import Reference
 
 _TABLE = (
     Reference(
-        "viscoelastic_friction_and_temperature",
-        title="The influence of temperature on viscoelastic friction properties",
+        "putignano2016",
+        ("C. Putignano", "T. Reddyhoff", "D. Dini"),
+        2016,
+        "The influence of temperature on viscoelastic friction properties",
+        "Tribol. Int.",
+        "100",
+        "338--343",
         note="the paper that viscofric implements",
     ),
     Reference(
@@ -68,7 +73,7 @@ _TABLE = (
         "Ensemble randomized maximum likelihood method as an iterative ensemble smoother",
         "Math. Geosci.",
         "44",
-        "1",
+        "1--26",
     ),
     Reference(
         "cleveland1979",
@@ -329,7 +334,17 @@ _TABLE = (
         "3701--3707",
         doi="10.1021/ja01619a008",
     ),
-    Reference("wood2011", ("S. N. Wood",), 2011, journal="J. R. Stat. Soc. B", volume="73", pages="3"),
+    Reference(
+        "wood2011",
+        ("S. N. Wood",),
+        2011,
+        "Fast stable restricted maximum likelihood and marginal likelihood estimation of semiparametric generalized "
+        "linear models",
+        "J. R. Stat. Soc. B",
+        "73",
+        "3--36",
+        doi="10.1111/j.1467-9868.2010.00749.x",
+    ),
     Reference(
         "yastrebov2017",
         ("V. A. Yastrebov", "G. Anciaux", "J.-F. Molinari"),
