@@ -32,6 +32,8 @@ class Door:
     ----------
     host : str
         That the server is bound to.
+    program : str
+        Name of this run of the server, by which a page notices that it was started again.
     invitations : set of str
         Further tokens, each good for one use: other users of the machine can read the command lines of browsers.
     """
@@ -39,6 +41,7 @@ class Door:
     port: int
     host: str = "127.0.0.1"
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+    program: str = field(default_factory=lambda: secrets.token_hex(8))
     invitations: set[str] = field(default_factory=set)
 
     @property
@@ -115,7 +118,7 @@ class Access:
         elif refusal:
             await self._welcome(headers, send)
         else:
-            await self.app(scope, receive, with_headers(send))
+            await self.app(scope, receive, with_headers(send, self.door.program))
 
     def _refusal(self, scope: Scope, headers: dict[str, str]) -> str | bool:
         """Return why a request is refused; True if it brings the token in its address, False if it is let in."""

@@ -41,12 +41,12 @@ def headers_of(scope: Scope) -> dict[str, str]:
     return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
 
 
-def with_headers(send: Send) -> Send:
-    """Add to every reply the headers that keep the page private."""
+def with_headers(send: Send, program: str) -> Send:
+    """Add to every reply the headers that keep the page private, and the name of this run of the server."""
 
     async def sending(message: MutableMapping[str, Any]) -> None:
         if message["type"] == "http.response.start":
-            message["headers"] = [*message.get("headers", ()), *HEADERS]
+            message["headers"] = [*message.get("headers", ()), *HEADERS, (b"x-program", program.encode())]
         await send(message)
 
     return sending

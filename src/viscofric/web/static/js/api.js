@@ -2,20 +2,22 @@
  * Requests of the page to its server: jobs, files, the first study.
  *
  * runJob(kind, {study, options}, {onProgress, onPart, onStart, signal, brief}) -> Promise<result>
- *   At most four jobs are streamed at once over all tabs; others wait, but not `brief` ones.  `signal` (of an AbortController) cancels: the
- *   promise rejects with an AbortError, and the process that computed is free again.  What is wrong rejects with a
- *   JobError, {message, field, problems, values}: a sentence, the path in the study that it is about, or null, a list of
- *   such {message, field} of all that is wrong, and what a form can offer, such as the headings of a file.
+ *   At most four jobs are streamed at once over all tabs; others wait, but not `brief` ones.  `signal` cancels: an AbortError.
+ *   What is wrong is a JobError, {message, field, problems, values}: a sentence, the path in the study that it is about, or null,
+ *   a list of such {message, field} of all that is wrong, and what a form can offer, such as the headings of a file.
  *   onStart(number): stopJob(number) interrupts the job, which then resolves with what it has found, if it can.
  * uploadFiles(files) -> Promise<names>, useExample(), getStart(), downloadUrl(name)
+ * keep(name, give): give() is done once more for a program that was started again; `restarted` is then the study of that moment
  */
 
-import { lasting } from "./reactive.js";
+import { lasting, signal } from "./reactive.js";
 import { state } from "./state.js";
 
 const PLACES = [0, 1, 2, 3].map((number) => `viscofric-stream-${number}`); // a browser has six connections to a server
 const LARGEST_UPLOAD = 20e6; // bytes
-const ENDED = "The program behind this page ended before it answered; restart it with: viscofric web";
+const START = "start it again with: viscofric web. This page then goes on by itself";
+const ENDED = `The program behind this page ended before it answered; ${START}.`;
+const LOOK = 2000; // ms
 
 export class JobError extends Error {
   name = "JobError";
@@ -30,15 +32,49 @@ const random = () => [...crypto.getRandomValues(new Uint8Array(16))].map((byte) 
 /** The tab's name at the server, which a reload keeps and a copied tab does not share for long. */
 const workspace = lasting("sessionStorage", "viscofric.workspace", random().join("")).value;
 
+const kept = new Map(); // name -> what the program has to be given again
+export const restarted = signal(null);
+let program = null; // the run of the server that answered last
+let given = null; // a promise: it has been given all again
+let looking = null;
+
+export const keep = (name, give) => kept.set(name, give);
+
+async function giveAgain() {
+  for (const give of kept.values()) await give();
+  restarted.value = state.study;
+  state.renew(["", ...kept.keys()]);
+}
+
+/** An error by a program that is gone; from now on the page looks whether it is back. */
+function gone(message) {
+  const look = async () => {
+    await request("/api/status");
+    clearInterval(looking);
+    looking = null;
+    state.renew([""]); // what failed is computed again
+  };
+  looking ??= setInterval(() => look().catch(() => {}), LOOK);
+  return new JobError({ message });
+}
+
 /** A request of this tab; rejects with a JobError that says what is wrong. */
 async function request(address, options = {}) {
+  const asked = program;
   let response;
   try {
     response = await fetch(address, { ...options, headers: { "X-Workspace": workspace, ...options.headers } });
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new JobError({ message: "The program behind this page does not respond; restart it with: viscofric web" });
+    throw gone(`The program behind this page does not respond; ${START}.`);
   }
+  const answers = response.headers.get("X-Program");
+  if (asked && answers && answers !== asked) {
+    if (answers !== program) [program, given] = [answers, null];
+    await (given ??= giveAgain());
+    return request(address, options);
+  }
+  program = answers ?? program;
   if (response.ok) return response;
   const { message = `The server answered ${response.status}.`, field } = await response.json().catch(() => ({}));
   throw new JobError({ message, field });
@@ -62,7 +98,7 @@ export const runJob = (kind, { study = {}, options = {} } = {}, { onProgress, on
       else if (message.event === "result") return message.result;
       else if (message.event === "error") throw new JobError(message);
     }
-    throw new JobError({ message: ENDED });
+    throw gone(ENDED);
   });
 
 export const stopJob = (number) => request(`/api/jobs/${number}/stop`, { method: "POST" });
@@ -85,7 +121,7 @@ async function* messages(stream) {
     }
   } catch (error) {
     if (error.name === "AbortError" || error instanceof SyntaxError) throw error;
-    throw new JobError({ message: ENDED });
+    throw gone(ENDED);
   } finally {
     reader.cancel().catch(() => {});
   }
@@ -115,14 +151,21 @@ export async function uploadFiles(files) {
   for (const file of files) {
     if (file.size > LARGEST_UPLOAD)
       throw new JobError({ message: `${file.name} has ${(file.size / 1e6).toFixed(0)} MB; the limit is 20 MB.` });
-    names.push((await answered(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file })).name);
+    const put = () => answered(`/api/files/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
+    const { name } = await put();
+    keep(name, put);
+    names.push(name);
   }
   state.renew(names);
   return names;
 }
 
 /** Put the synthetic example's measurements there. */
-export const useExample = () => answered("/api/files/example", { method: "POST" });
+export function useExample() {
+  const put = () => answered("/api/files/example", { method: "POST" });
+  keep("example", put);
+  return put();
+}
 
 export const getStart = () => answered("/api/start");
 

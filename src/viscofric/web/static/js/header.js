@@ -1,6 +1,6 @@
 // Tools in the page's header: the project saved and opened, undo and redo, the menu of units, light and dark.
 
-import { downloadUrl, runJob, uploadFiles } from "./api.js";
+import { downloadUrl, keep, runJob, uploadFiles } from "./api.js";
 import { Select } from "./fields.js";
 import { chooseTheme, isDark } from "./figures.js";
 import { announce, attempts } from "./page.js";
@@ -28,7 +28,9 @@ export async function openFiles(files) {
   const archive = names.find((name) => /\.zip$/i.test(name));
   if (!given && !archive) throw new Error("No run file was given; its name ends with .toml, or .zip with its data.");
   const options = given ? { text: await given.text() } : { archive };
-  const { study, missing, files: unpacked } = await runJob("open-run-file", { options });
+  const open = () => runJob("open-run-file", { options });
+  const { study, missing, files: unpacked } = await open();
+  keep("opened", open);
   state.renew(unpacked);
   state.replace(study);
   saved.value = JSON.stringify(state.study);

@@ -4,18 +4,14 @@
 //   name       by which `result` finds it, and its inputs are known; the kind where nothing is said
 //   wait       ms after the last change of the inputs; `when` tells whether somebody looks; both of jobs that were start()ed
 //   part       (part, before) what the parts of a result, which come before it, make of what is shown
-//   done       (result, asked) after a result was computed
-//   asked      (result, asked) the inputs that a result stands for, where they are not those that were asked
+//   done, asked   (result, asked) after a result was computed; the inputs that it stands for, where they are not those asked
 //   manual     it is computed by run() alone; start() has results that are known shown again
-//   interrupts cancel() asks for what was found so far
-//   remember   how many results are kept, for undo; none of a job that leaves a file for downloads
+//   interrupts, remember   cancel() asks for what was found so far; how many results are kept, for undo
 //   follows    a slider: the result before is current as long as its study is the same and another one is on its way
-//   drafts     it follows, too: at once a draft, of the newest inputs when the draft before has come, and a result of stage
-//              "sharp" when the slider rests
-// curve.start()              from now on it is computed whenever its inputs have changed
-// curve.run(asked)           now; curve.cancel() keeps what is there, curve.resume() computes the rest; curve.put(asked, result)
-// curve.result               the newest one, of whatever inputs; curve.current: that of the inputs as they are, or null
-// curve.error                why there is none of the inputs as they are; curve.progress {done, total, label}; curve.ended
+//   drafts     it follows, too: at once a draft, and a result of stage "sharp" when the slider rests
+// curve.start()              from now on it is computed whenever its inputs have changed; curve.run(asked): now
+// curve.cancel(), resume()   keeps what is there, computes the rest; curve.put(asked, result); curve.progress; curve.ended
+// curve.result, current, error   the newest one, of whatever inputs; that of the inputs as they are, or null; why there is none
 //
 // isStale(result)            whether its inputs are others than those of the study and the page
 // result(name), newest(name)  what a job has of the inputs as they are, to its end, or null; what it has of whatever inputs
@@ -69,7 +65,7 @@ export function keyOf(name, { study, options = {} }) {
 }
 
 const jobs = signal(new Map());
-const whole = computed(() => keyOf("the whole study", { study: state.study }));
+const whole = computed(() => keyOf("the whole study", { study: state.study, options: state.renewals("") }));
 const origins = new WeakMap(); // result -> {job, key, about, study}
 const REST = 250; // ms without a change, after which a draft is refined
 const BEGUN = { done: 0, total: 0, label: "" };

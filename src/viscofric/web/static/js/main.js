@@ -1,6 +1,6 @@
 // The page: its steps, header, check of the document, and files that are dropped anywhere.
 
-import { getStart } from "./api.js";
+import { getStart, restarted } from "./api.js";
 import { homeless } from "./fields.js";
 import { Tools, attempt, failed, followKeys, guardWork, openFiles } from "./header.js";
 import { Job, newest, result } from "./jobs.js";
@@ -30,6 +30,7 @@ const STEPS = [
   ["export", "Export", results, "./steps/export.js"],
 ].map(([id, title, summary, module]) => ({ id, title, summary, module, content: signal(null) }));
 const FIRST = "contact";
+const RESTARTED = "The program behind this page was started again; your files were given to it, and all goes on.";
 const { steps } = page;
 for (const step of STEPS) steps.set(step.id, step);
 const check = new Job("export-run-file", { wait: 200, inputs: () => ({ study: state.study }) });
@@ -71,6 +72,7 @@ const Section = view(({ step }, self) => {
 const Main = view(() => {
   const elsewhere = homeless().map((problem) => explain(named(problem), state.step));
   return html`
+    <${Notes} aria-live="polite" list=${[restarted.value === state.study && RESTARTED]} />
     <${Notes} kind="error" aria-live="assertive" list=${[...elsewhere, check.error?.message, failed.value?.message]} />
     ${STEPS.map((step) => html`<${Section} key=${step.id} step=${step} />`)}
   `;

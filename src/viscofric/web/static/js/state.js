@@ -5,15 +5,11 @@
 // state.get("conditions.load")      a value, or undefined; paths like "material.dma[1]" reach into lists, a key of a list of
 //                                   tables, such as several [[material]], is that of the first, and "@key" or "@key.part" is a view's
 // state.set(path, value)            changes one key (undefined or null removes it, and a table that becomes empty)
-// state.change({path: value, …})    changes several keys as one step of undo
+// state.change({path: value, …})    changes several keys as one step of undo; state.replace(document): all of them
 // state.slide(path, value)          the same as set, for a slider: until state.settle() it is one step of undo
-// state.replace(document)           another document altogether
-// state.renew(names)                files of these names have other contents: results of them are outdated
-// state.renewals(name)              how often that happened
-// state.undo(), state.redo(), state.canUndo, state.canRedo
-// state.view(key, otherwise), state.setView(key, value)    what is chosen on the page but is no part of the study
-// state.edit(key, value)            the same as one step of undo
-// state.step                        the step that is looked at; state.lookAt(step)
+// state.renew(names), renewals(name)   files of these names have other contents: results are outdated; how often that happened
+// state.undo(), state.redo(), state.canUndo, state.canRedo; state.step, state.lookAt(step): the step that is looked at
+// state.view(key, otherwise), setView(key, value)    what is chosen on the page but is no part of the study; edit: with undo
 // shapeOf(study)                    what is in contact: "ball" … "cone", "made" or "scan"
 
 import { batch, computed, lasting, signal } from "./reactive.js";

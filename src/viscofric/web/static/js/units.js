@@ -5,10 +5,8 @@
 //
 // show(0.02, "speed") -> "20 mm/s"          number(0.02, "speed") -> 20         label("speed") -> "mm/s"
 // si(20, "speed") -> 0.02                   words(0.02, "speed") -> "20 mm/s", as run files write it ("30 degC")
-// parse("9.525 mm", "length") -> 0.009525   (null if it cannot be read; the run file's own check says why)
-// read("20", "speed") -> 0.02                the same of what people type, where a bare number has the user's unit
-// typed("20", "speed") -> "20 mm/s"          what people type, as run files write it
-// What is chosen is a signal: an effect or view that shows a unit follows it.
+// parse("9.525 mm", "length") -> 0.009525   (null if it cannot be read); read("20", "speed") -> 0.02: of what people type
+// typed("20", "speed") -> "20 mm/s"         what people type, as run files write it; a bare number has the user's unit
 
 import { lasting } from "./reactive.js";
 
