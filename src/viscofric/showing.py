@@ -60,13 +60,13 @@ class Shown:
 
     def __eq__(self, other: object) -> bool:
         """Whether all public fields are the same, arrays with all their numbers; some dataclasses have their own."""
-        if type(self) is not type(other) or not is_dataclass(self):
-            return NotImplemented
-        return self is other or _same_fields(self, other)
+        if not is_dataclass(self):  # models of pydantic compare their fields themselves
+            return super().__eq__(other)
+        return (self is other or _same_fields(self, other)) if type(self) is type(other) else NotImplemented
 
     def __hash__(self) -> int:
         if not is_dataclass(self):
-            return object.__hash__(self)
+            return super().__hash__()
         return hash((type(self), *(_hashed(getattr(self, one.name)) for one in _compared(self))))
 
     def _repr_html_(self) -> str:

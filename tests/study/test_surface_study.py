@@ -233,9 +233,10 @@ def test_check_shows_how_much_it_would_be(tmp_path: Path) -> None:
     assert "no-bands" in codes(found.notes)
 
 
-def test_a_topography_is_not_taken_for_a_surface() -> None:
+def test_heights_without_a_spacing_are_not_taken_for_a_surface() -> None:
+    heights = surfaces()[0].heights
     with refused("wrong-type", naming="surface"):
-        vf.solve_periodic(RUBBER, surfaces()[0], speed=1.0, pressure=1e4, temperature=300.0)  # type: ignore[arg-type]
+        vf.solve_periodic(RUBBER, heights, speed=1.0, pressure=1e4, temperature=300.0)  # type: ignore[arg-type]
 
 
 @pytest.mark.slow
