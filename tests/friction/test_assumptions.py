@@ -184,7 +184,7 @@ def test_warming_of_a_contact_does_not_depend_on_the_speeds_that_were_asked_besi
         friction = np.append(np.full(n - 1, 1e-6), 0.03)  # so that the last contact is the warmest
         made = friction_curves(speeds, np.full(n, 303.15), friction, load=5.0)
         made = replace(made, coulomb=np.append(np.zeros(n - 1), 0.3), slip=np.full(n, 1.0))
-        sizes = [ContactSize.of(rubber, ball, made, row, None).smallest for row in range(n)]
+        sizes = [one.smallest for one in ContactSize.all_of(rubber, ball, made)]
         warmest = warming.Warming.worst(rubber, ball, made, sizes, FILLED_RUBBER, STEEL)
         assert warmest.row == n - 1
         found.append(warmest.change)
