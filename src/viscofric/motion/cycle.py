@@ -148,11 +148,11 @@ def solve_cycle(
         track = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked)
     assert search.whole is not None
     assert search.found is not None
-    whole = assemble(search.whole, problem, one_period, method, notes=notes)
-    whole = replace(whole, warnings=(*whole.warnings, *shear_notes(problem, whole, coulomb, whole.temperature)))
-    run = whole
-    if asked is not None:
-        run = replace(assemble(track, problem, one_period, method, notes=notes), warnings=whole.warnings)
+    # On cells, the track has the errors by the cells, which the whole period of one grid has not.
+    run = assemble(track, problem, one_period, method, notes=notes)
+    whole = run if asked is None else assemble(search.whole, problem, one_period, method, notes=notes)
+    shear = shear_notes(problem, whole, coulomb, whole.temperature)
+    run, whole = (replace(one, warnings=(*one.warnings, *shear)) for one in (run, whole))
     return replace(CycleSolution.of(whole, search.found, problem.schedule.control, search.periods), run=run)
 
 
