@@ -144,6 +144,18 @@ def insist_on(value: object, name: str, *kinds: type, right: str = "") -> None:
         raise InputError(f"{name} = {brief(value)}: must be {wanted}.", code="wrong-type")
 
 
+def exactly_one(**given: object) -> str:
+    """Return the name of the one argument that is given, which is not None; `InputError` unless it is one."""
+    names = [name for name, value in given.items() if value is not None]
+    if len(names) == 1:
+        return names[0]
+    if len(given) == 2:
+        said = f"{' and '.join(given)}: {'both' if names else 'neither'} given"
+    else:
+        said = f"{', '.join(given)}: {' and '.join(names) or 'none of them'} given"
+    raise InputError(f"{said}; give exactly one of them.", code="give-one")
+
+
 def insist_on_function(value: object, name: str, *, needed: bool = False) -> None:
     """Refuse what cannot be called, except None if no function is needed."""
     if not (callable(value) or (value is None and not needed)):

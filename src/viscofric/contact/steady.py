@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arguments import flag, insist_on
+from viscofric.arguments import exactly_one, flag, insist_on
 from viscofric.contact.bodies import Layer, half_space_coupling
 from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
@@ -386,9 +386,7 @@ def _held(
 ) -> tuple[Scale, Control, dict[str, Any], str]:
     """Return the units, what is given in them, in SI, and in words."""
     geometry = indenter.geometry
-    if (load is None) == (indentation is None):
-        both = "neither" if load is None else "both"
-        raise InputError(f"load and indentation: {both} given; give exactly one of them.", code="give-one")
+    exactly_one(load=load, indentation=indentation)
     if load is not None:
         force = positive(load, geometry.load_unit, "load")
         control = Control(load=geometry.parabolic_load)

@@ -14,7 +14,7 @@ from viscofric.showing import Shown
 from viscofric.units import plain, shown_celsius, shown_speed
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import xarray
 
@@ -138,6 +138,11 @@ def modes_of(material: Material, kelvin: float) -> RetardationSpectrum:
     return material.modes_at(None if material.shift is None else kelvin)
 
 
+def modes_by_temperature(material: Material) -> Callable[[float], RetardationSpectrum]:
+    """Return what gives the modes at a temperature, K, and finds those of each once: points of curves share few."""
+    return cache(partial(modes_of, material))
+
+
 @dataclass(frozen=True)
 class ContactSize:
     """Size of one contact, as solved or between two of Hertz's."""
@@ -154,11 +159,11 @@ class ContactSize:
     ) -> list[ContactSize]:
         """Return the sizes at the points of friction curves, given the solved radii, m, if there are any."""
         plane_strain = 1.0 - material.poisson_ratio**2
-        spectrum_at = cache(partial(modes_of, material))
+        modes_at = modes_by_temperature(material)
         scale_at = cache(partial(Scale.for_load, indenter))
         found = []
         for row, kelvin in enumerate(curves.temperature.tolist()):
-            spectrum = spectrum_at(kelvin)
+            spectrum = modes_at(kelvin)
             scale = scale_at(spectrum.E0 / plane_strain, float(curves.load[row]))
             known = None if solved is None else float(solved[row])
             found.append(cls._of(spectrum, scale, float(curves.speed[row]), Place.of(curves, row), known))

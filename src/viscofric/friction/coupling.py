@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.coupling import LARGEST, REMEDY, ShearedContact, coupling_notes, sheared_compliance
-from viscofric.friction.assumption_check import AssumptionCheck, Place, modes_of, verdict
+from viscofric.friction.assumption_check import AssumptionCheck, Place, modes_by_temperature, modes_of, verdict
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from viscofric.contact.bodies import Layer
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 def shear_notes(
@@ -34,9 +35,11 @@ def shear_notes(
     kelvin = curves.temperature if rise is None else curves.temperature + rise
     area = curves.load / curves.mean_pressure
     radius = 0.5 * area if curves.load_unit == "N/m" else np.sqrt(area / math.pi)
+    rows = np.flatnonzero(coulomb != 0.0).tolist()
+    modes = (modes_of(bodies[row][0], float(kelvin[row])) for row in rows)
     return coupling_notes(
-        _sheared(curves, row, float(coulomb[row]), *bodies[row], float(radius[row]), float(kelvin[row]))
-        for row in np.flatnonzero(coulomb != 0.0).tolist()
+        _sheared(curves, row, float(coulomb[row]), *bodies[row], float(radius[row]), found)
+        for row, found in zip(rows, modes, strict=True)
     )
 
 
@@ -53,9 +56,10 @@ def check_coupling(
     if curves.coulomb is None or not np.any(np.isfinite(curves.coulomb)):
         return None
     worst: list[ShearedContact] = []
+    modes_at = modes_by_temperature(material)
     for row in np.flatnonzero(np.isfinite(curves.coulomb)).tolist():
-        kelvin, coulomb = float(curves.temperature[row]), float(curves.coulomb[row])
-        both = (_sheared(curves, row, coulomb, material, layer, one, kelvin) for one in radii[row])
+        modes, coulomb = modes_at(float(curves.temperature[row])), float(curves.coulomb[row])
+        both = (_sheared(curves, row, coulomb, material, layer, one, modes) for one in radii[row])
         found = sorted(both, key=lambda one: one.share)
         if not worst or found[1].share > worst[1].share:
             worst, place = found, Place.of(curves, row)
@@ -82,12 +86,11 @@ def _sheared(
     material: Material,
     layer: Layer | None,
     radius: float,
-    kelvin: float,
+    modes: RetardationSpectrum,
 ) -> ShearedContact:
-    """Return the contact of a point of curves, of a radius or half-width, m, at a temperature, K."""
+    """Return the contact of a point of curves, of a radius or half-width, m, with the material's modes there."""
     line, ratio = curves.load_unit == "N/m", material.poisson_ratio
     area = 2.0 * radius if line else math.pi * radius**2
-    modes = modes_of(material, kelvin)
     return ShearedContact(
         stress=abs(coulomb) * float(curves.load[row]) / area,
         friction=float(curves.viscoelastic[row]),

@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.contact.bodies import Layer
-from viscofric.friction.assumption_check import AssumptionCheck, modes_of, verdict
+from viscofric.friction.assumption_check import AssumptionCheck, modes_by_temperature, verdict
 from viscofric.notes import Note, Remedy
 from viscofric.units import plain, positive
 
@@ -229,14 +229,12 @@ def check_half_space(
     widest = max(sizes, key=lambda size: size.largest * size.smallest)
     given = None if thickness is None else positive(thickness, "m", "thickness")
     layer = Layer(THICK * widest.smallest if given is None else given)
-    modes = {kelvin: modes_of(material, kelvin) for kelvin in set(curves.temperature.tolist())}
-
-    def effect_at(row: int) -> tuple[_OnLayers, ThicknessEffect]:
-        spectrum = modes[float(curves.temperature[row])]
-        one = _OnLayers.of(spectrum, material.poisson_ratio, curves, row, sizes[row])
-        return one, one.contact.on(layer)
-
-    worst, effect = max(map(effect_at, range(len(curves))), key=lambda pair: abs(pair[1].friction))
+    modes_at, ratio = modes_by_temperature(material), material.poisson_ratio
+    contacts = (
+        _OnLayers.of(modes_at(kelvin), ratio, curves, row, sizes[row])
+        for row, kelvin in enumerate(curves.temperature.tolist())
+    )
+    worst, effect = max(((one, one.contact.on(layer)) for one in contacts), key=lambda pair: abs(pair[1].friction))
     enough = worst.contact.thickness_for(passes)
     limit = min(1.0 / THICK, widest.largest / enough)
     there = "" if str(worst.where) == str(widest.where) else f" ({worst.where})"

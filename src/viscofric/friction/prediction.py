@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from viscofric.arguments import flag, insist_on, insist_on_function
+from viscofric.arguments import exactly_one, flag, insist_on, insist_on_function
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
@@ -143,10 +143,9 @@ def predict_friction(
     if layer is not None:
         settings["layer"] = layer
     unit = indenter.geometry.load_unit
-    if load is None or loads is not None:
-        if load is not None or loads is None:
-            both = "neither" if load is None else "both"
-            raise InputError(f"load and loads: {both} given; give exactly one of them.", code="give-one", field="load")
+    exactly_one(load=load, loads=loads)
+    if load is None:
+        assert loads is not None
         forces = to_si_array(loads, unit, "loads")
         _insist_on_values(forces, "loads", unit)
         with at_work(workers) as processes:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arguments import exactly_one
 from viscofric.contact.bodies import unit_direction
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.motion.schedule import Schedule, make_schedule
@@ -116,7 +117,7 @@ class History(Shown):
         count = len(seconds)
         unit = _load_unit(load)
         given = {"load": load, "indentation": indentation, "pressure": pressure, "gap": gap}
-        control = _only(given)
+        control = exactly_one(**given)
         values = _column(given[control], unit if control == "load" and unit else CONTROLS[control], control, count)
         if control != "indentation" and np.any(values < 0.0):
             place = int(np.argmax(values < 0.0))
@@ -271,14 +272,6 @@ def _checked_time(time: Quantities) -> Array:
             f"time = {seconds[place]:g} s: is given more than twice; a jump has one point before it and one after it.",
         )
     return seconds
-
-
-def _only(given: dict[str, Any]) -> str:
-    names = [name for name, values in given.items() if values is not None]
-    if len(names) != 1:
-        found = "none of them given" if not names else f"{' and '.join(names)} given"
-        raise InputError(f"load, indentation, pressure, gap: {found}; give exactly one of them.", code="give-one")
-    return names[0]
 
 
 def _load_unit(load: Quantities | None) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from viscofric.arguments import numbers
+from viscofric.arguments import exactly_one, numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
@@ -247,9 +247,7 @@ def hurst_exponent(hurst: float) -> float:
 
 def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[float, float]:
     """Return the requested rms and the order of its moment: 0 for heights (m), 2 for slopes."""
-    if (rms_height is None) == (rms_slope is None):
-        both = "neither" if rms_height is None else "both"
-        raise InputError(f"rms_height and rms_slope: {both} given; give exactly one of them.", code="give-one")
+    exactly_one(rms_height=rms_height, rms_slope=rms_slope)
     if rms_height is not None:
         return positive(rms_height, "m", "rms_height"), 0.0
     return positive(rms_slope, "dimensionless", "rms_slope"), 2.0  # type: ignore[arg-type]

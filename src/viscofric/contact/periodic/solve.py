@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import number, whole_number
+from viscofric.arguments import exactly_one, number, whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import (
     Layer,
@@ -149,11 +149,7 @@ def solve_periodic(
     if not isinstance(surface, PeriodicSurface):
         raise InputError(f"surface = {brief(surface)}: must be a Topography or a PeriodicSurface.", code="wrong-type")
     sliding, toward = velocity(speed), unit_direction(direction)
-    if (pressure is None) == (gap is None):
-        both = "neither" if pressure is None else "both"
-        raise InputError(
-            f"pressure and gap: {both} given; give exactly one of them, mean pressure or mean gap.", code="give-one"
-        )
+    exactly_one(pressure=pressure, gap=gap)
     if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST:
         raise InputError(
             f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.", code="out-of-range"

@@ -15,7 +15,7 @@ import { state } from "./state.js";
 
 const PLACES = [0, 1, 2, 3].map((number) => `viscofric-stream-${number}`); // a browser has six connections to a server
 const LARGEST_UPLOAD = 20e6; // bytes
-const START = "start it again with: viscofric web. This page then goes on by itself";
+const START = "start it again with: viscofric web. This page then continues by itself";
 const ENDED = `The program behind this page ended before it answered; ${START}.`;
 const LOOK = 2000; // ms
 

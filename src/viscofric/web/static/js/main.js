@@ -30,7 +30,7 @@ const STEPS = [
   ["export", "Export", results, "./steps/export.js"],
 ].map(([id, title, summary, module]) => ({ id, title, summary, module, content: signal(null) }));
 const FIRST = "contact";
-const RESTARTED = "The program behind this page was started again; your files were given to it, and all goes on.";
+const RESTARTED = "The program behind this page was started again; your files were uploaded again.";
 const { steps } = page;
 for (const step of STEPS) steps.set(step.id, step);
 const check = new Job("export-run-file", { wait: 200, inputs: () => ({ study: state.study }) });
