@@ -14,19 +14,25 @@ Under a shear stress of μ times the pressure along x, −ln|x| has μ β (π/2)
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 from scipy.special import exp1, expi
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from viscofric.arrays import Array
 
 
-# From here on twenty terms of the asymptotic series (DLMF 6.12.1) are right to the last digit.
+# From here on twenty terms of the asymptotic series of b F(b) in 1/b (DLMF 6.12.1) are right to the last digit.
 _ASYMPTOTIC = 50.0
-_TERMS = 20
+_ASYMPTOTIC_SERIES = [(-1) ** k * math.factorial(k) for k in range(20)]
+# The part of E₁(b) without logarithm and Euler's constant, for |b| < 1 (DLMF 6.6.2).
+_POWER_SERIES = [0.0, *((-1) ** k / (k * math.factorial(k)) for k in range(1, 21))]
 
 
 def strip_potential(x: Array) -> Array:
@@ -84,30 +90,35 @@ def _antiderivative(a: Array) -> Array:
 
 def scaled_exponential_integral(b: Array) -> Array:
     """F(b) = e^b E₁(b) for b > 0, −e^b Ei(−b) for b < 0: the principal value of ∫_0^∞ e^(−z)/(z + b) dz."""
-    far = np.abs(b) > _ASYMPTOTIC
-    outer = np.where(far, b, _ASYMPTOTIC)
-    series, term = np.zeros_like(outer), 1.0 / outer
-    for k in range(1, _TERMS + 1):
-        series += term
-        term = -term * k / outer
-    inner = np.where(far, 1.0, b)
-    positive = np.exp(np.abs(inner)) * exp1(np.abs(inner))
-    negative = -np.exp(-np.abs(inner)) * expi(np.abs(inner))
-    return np.where(far, series, np.where(inner > 0.0, positive, negative))
+    ahead, behind = (b > 0.0) & (b <= _ASYMPTOTIC), (b <= 0.0) & (b >= -_ASYMPTOTIC)
+    return np.asarray(
+        np.piecewise(
+            b,
+            [ahead, behind],
+            [
+                lambda b: np.exp(b) * exp1(b),
+                lambda b: -np.exp(b) * expi(-b),
+                lambda b: polyval(1.0 / b, _ASYMPTOTIC_SERIES) / b,
+            ],
+        )
+    )
 
 
 def _memory_function(b: Array) -> Array:
-    """G(b) − γ; for small b by the power series of E₁ (DLMF 6.6.2), whose logarithm G does not have."""
-    near = np.abs(b) < 1.0
-    small = np.where(near, b, 0.5)
-    series, power = np.zeros_like(small), np.ones_like(small)
-    for k in range(1, _TERMS + 1):
-        power = -power * small / k
-        series += power / k
-    logarithm = np.log(np.abs(np.where(small == 0.0, 1.0, small)))
-    inside = np.expm1(small) * (logarithm + np.euler_gamma) + np.exp(small) * series
-    large = np.where(near, 1.0, b)
-    return np.where(near, inside, -np.log(np.abs(large)) - scaled_exponential_integral(large) - np.euler_gamma)
+    """G(b) − γ, finite at b = 0."""
+    return np.asarray(
+        np.piecewise(
+            b,
+            [np.abs(b) < 1.0],
+            [_memory_function_near, lambda b: -np.log(np.abs(b)) - scaled_exponential_integral(b) - np.euler_gamma],
+        )
+    )
+
+
+def _memory_function_near(b: Array) -> Array:
+    """G(b) − γ for |b| < 1 by the power series of E₁, whose logarithm G does not have."""
+    logarithm = np.log(np.abs(np.where(b == 0.0, 1.0, b)))
+    return np.asarray(np.expm1(b) * (logarithm + np.euler_gamma) + np.exp(b) * polyval(b, _POWER_SERIES))
 
 
 def line_memory_influence(x: Array, memory_length: float) -> tuple[Array, Array]:
@@ -117,10 +128,17 @@ def line_memory_influence(x: Array, memory_length: float) -> tuple[Array, Array]
     The dissipation is ∂K/∂x up to an odd function of x, which does no work; not for x = ±1/2.  For λ from 1e-8 to 1e10
     cells, rounding is about 1e-15 for every cell of distance.
     """
-    start, end = (x - 0.5) / memory_length, (x + 0.5) / memory_length
-    change = _memory_function(end) - _memory_function(start)
+    ends = np.stack((x - 0.5, x + 0.5))
+    if in_row := x.ndim == 1 and bool(np.all(np.diff(x) == 1.0)):  # each cell begins where the one before ends
+        ends = np.append(ends[0], ends[1, -1:])
+    ends /= memory_length
+
+    def change_of(function: Callable[[Array], Array]) -> Array:
+        return np.diff(function(ends), axis=-1 if in_row else 0).reshape(x.shape)
+
+    change = change_of(_memory_function)
     displacement = strip_potential(x) + memory_length * change
     if memory_length > 1.0:
         return displacement, change
     # A short memory: ∂K/∂x is nearly that of the logarithm, −ln|end/start|, which is odd and left out.
-    return displacement, scaled_exponential_integral(start) - scaled_exponential_integral(end)
+    return displacement, -change_of(scaled_exponential_integral)
