@@ -17,6 +17,7 @@ _FINISHED = {
     "cases": 75,
     "summary": "75 cases, results ready",
     "failed": 1,
+    "key_numbers": [{"label": "cases", "value": "75", "kind": "plain", "remark": "1 failed"}],
     "failures": ["30 °C, 1 mm/s: it did not converge."],
     "warnings": [],
     "notes": ["The rubber is synthetic."],

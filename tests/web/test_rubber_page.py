@@ -197,7 +197,8 @@ def test_files_are_dropped_anywhere_and_removed(tab: Tab) -> None:
     assert tab.value("page.state.state.get('material.dma')") == "Gummi (1).csv"
     tab.page.get_by_role("button", name="Remove Gummi (1).csv").click()
     tab.until("page.state.state.get('material.dma') === undefined")
-    tab.until("!document.querySelector('#step-sweeps .figure')")
+    tab.until("!document.querySelector('#step-sweeps .figure[data-inputs]')")
+    assert "Drop DMA sweeps above" in tab.text("#figure-isotherms-storage-modulus .plot-empty")
 
 
 @pytest.mark.slow  # a browser

@@ -23,7 +23,7 @@ _WORDS = """[...document.querySelectorAll('.step:not([hidden]) :is(.key-numbers,
 
 
 #: Labels of numbers without a definition.
-_UNDEFINED = """[...document.querySelectorAll('.step:not([hidden]) :is(.key-numbers dt, .more-numbers th)')]
+_UNDEFINED = """[...document.querySelectorAll('.step:not([hidden]) :is(.key-numbers dt, .more-numbers td:first-child)')]
   .filter((one) => !one.querySelector('.term')).map((one) => one.textContent)"""
 
 

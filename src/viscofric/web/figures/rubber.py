@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from viscofric.web.figures.shift import law_table, limits_in_words, shift_figures, verdict_numbers
+from viscofric.web.figures.shift import law_table, shift_figures, verdict_numbers
 from viscofric.web.figures.spectrum import modes_table, spectrum_figures, spectrum_numbers_shown
 from viscofric.web.figures.sweeps import moduli_of_material
 
 
 def rubber_view(found: dict[str, Any]) -> dict[str, Any]:
-    """Return what is shown of a result of the job ``rubber``; ``limits`` says where its law is valid.
+    """Return what is shown of a result of the job ``rubber``.
 
     Columns that figures have of their own are left out of ``shift`` and ``check``.
     """
@@ -32,7 +32,6 @@ def rubber_view(found: dict[str, Any]) -> dict[str, Any]:
         "key_numbers": spectrum_numbers_shown(found),
         "verdict_numbers": verdict_numbers(found) if shift and check else [],
         "summary": {"shift": _shift_summary(found), "spectrum": _spectrum_summary(spectrum)},
-        "limits": limits_in_words(shift["material"]) if shift else "",
     }
 
 

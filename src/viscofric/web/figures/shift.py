@@ -108,7 +108,8 @@ def _factors(shift: dict[str, Any]) -> Spec:
         TEMPERATURE,
         _LOG_ALPHA,
         traces,
-        "Bars and bands are 95 %. Dotted lines are extrapolated; they end at the limits of validity.",
+        f"{_limits_in_words(shift['material'])} Bars and bands are 95 %. Dotted lines are extrapolated; they end at "
+        "the limits of validity.",
         marks=[{"x": shift["reference"], "label": "reference"}],
     )
 
@@ -240,8 +241,8 @@ def _causal(found: dict[str, Any]) -> Spec:
         REDUCED_FREQUENCY,
         axis("log₁₀ demanded/measured"),
         traces,
-        "log₁₀ of each modulus computed from the other, over the measured one; open points at the ends are not "
-        "evaluated.",
+        f"{found['sentence']} Drawn: log₁₀ of each modulus computed from the other, over the measured one; open points "
+        "at the ends are not evaluated.",
         marks=[{"y": found["allowed"], "label": "allowed rms of E′"}, {"y": -found["allowed"]}],
     )
 
@@ -273,7 +274,7 @@ def verdict_numbers(found: dict[str, Any]) -> list[Spec]:
     return [one for one in numbers if one]
 
 
-def limits_in_words(material: dict[str, Any]) -> str:
+def _limits_in_words(material: dict[str, Any]) -> str:
     """Return what law is used and where it is valid."""
     if not material["limits"]:
         return str(material["words"])

@@ -58,6 +58,7 @@ _REFERENCE = field(
     "Reference temperature",
     "temperature",
     help="The shift factor is 1 at this temperature.",
+    also={"material.fixed_shift_factors": None},  # they are about the reference before
 )
 MAKING = [
     field("material.name", "Name"),

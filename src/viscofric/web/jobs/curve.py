@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 _BETWEEN_PARTS = 0.12  # s
 _DIGITS = 6
+_MOST_REASONS = 5
 
 
 class Options(BaseModel):
@@ -67,8 +68,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     dict
         For each case ``friction``, ``error``, ``lower``, ``upper``, ``interpolated`` and what else
         is known of it (null where it is not), and ``doubts``, a list of words: "extrapolated", "shift", "strain",
-        "unresolved", "failed".  Then ``master`` (friction along the master curve), ``failures``, ``warnings``,
-        ``notes`` and ``checks``, in sentences, and what is drawn (`curve_parts`).
+        "unresolved", "failed".  Then ``master`` (friction along the master curve), ``failures``, also grouped
+        as ``missing``, ``warnings``, ``notes`` and ``checks``, in sentences, and what is drawn (`curve_parts`).
 
     Raises
     ------
@@ -97,6 +98,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         **curve_parts(found),
         "master": master_curve(contacts, along),
         **listed("failures", [one.note for one in requested.failures]),
+        "missing": _missing([one.note for one in requested.failures], len(found["speed"])),
         **listed(
             "warnings",
             [
@@ -108,6 +110,16 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         **listed("notes", [*_notes(contacts, checked), *said], "page"),
         "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points, law)]),
     }
+
+
+def _missing(failures: list[Note], count: int) -> list[str]:
+    """Return how many of the cases have no solution, and why, those of one reason together."""
+    if not failures:
+        return []
+    from viscofric.report.texts.study import grouped_failures
+
+    said = f"{len(failures)} of {count} conditions have no solution."
+    return [said, *grouped_failures(failures, _MOST_REASONS)]
 
 
 def _unresolved(doubts_of: list[list[str]]) -> list[Note]:

@@ -33,14 +33,18 @@ class Options(BaseModel):
     pack: bool = False
 
 
+#: What only a run file without problems has.
+_OF_SOUND = ("cases", "about", "files", "download")
+
+
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Write and check a run file.
 
     Returns
     -------
     dict
-        ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it has and
-        ``files`` that it names, None where there are problems; ``summary``;
+        ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it has,
+        ``files`` that it names, and ``about``, both in words, None where there are problems; ``summary``;
         ``download``, if it was to be packed.
 
     Raises
@@ -53,18 +57,21 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         if options.pack:
             raise DocumentError(problems)
         shown = list(map(beside_field, problems))
-        return {"text": text, "problems": shown, "cases": None, "summary": "", "files": None, "download": None}
+        return {"text": text, "problems": shown, "summary": "", **dict.fromkeys(_OF_SOUND)}
     download = None
     if options.pack:
         files = [(path.name, path) for path in checked.inputs]
         download = offered(archive(context.downloads / ARCHIVE, [(RUN_FILE, text), *files]), "run file and data")
-    cases = len(checked.sweep().cases)
+    cases, names = len(checked.sweep().cases), [path.name for path in checked.inputs]
+    counted = f"{cases} case{'' if cases == 1 else 's'}"
+    reads = names[0] if len(names) == 1 else f"{len(names)} data files, which the zip contains"
     return {
         "text": text,
         "problems": [],
         "cases": cases,
-        "summary": f"run file: {cases} case{'' if cases == 1 else 's'}",
-        "files": [path.name for path in checked.inputs],
+        "about": f"It has {counted}.{f' It reads {reads}.' if names else ''}",
+        "summary": f"run file: {counted}",
+        "files": names,
         "download": download,
     }
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from viscofric.notes import listed
+from viscofric.web.figures.spec import number
 from viscofric.web.jobs.export_files import archive, lay_out, offered
 from viscofric.web.study_text import study_of
 
@@ -49,7 +50,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     Returns
     -------
     dict
-        ``downloads``, a list of ``name``, ``title`` and ``size``; ``cases`` and ``failed``, their numbers; ``summary``;
+        ``downloads``, a list of ``name``, ``title`` and ``size``; ``cases`` and ``failed``, their numbers;
+        ``key_numbers``, the same to be shown; ``summary``;
         ``failures``, ``warnings`` and ``notes``, sentences; ``synthetic``.
 
     Raises
@@ -76,14 +78,19 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     context.progress(0, 1, _STAGES["report"])
     figures, report = write_figures_and_report(results.tree, results.folder)
     downloads = _downloads(results, figures, report, context.downloads)
-    cases = int(results.dataset["friction_coefficient"].size)
+    cases, failed = int(results.dataset["friction_coefficient"].size), int(results.dataset["failed"].sum())
+    warnings = list(dict.fromkeys(results.warnings))
     return {
         "downloads": downloads,
         "cases": cases,
         "summary": f"{cases} cases, results ready",
-        "failed": int(results.dataset["failed"].sum()),
+        "failed": failed,
+        "key_numbers": [
+            number("cases", str(cases), remark=f"{failed} failed" if failed else "all solved"),
+            number("warnings", str(len(warnings)), remark="listed below" if warnings else ""),
+        ],
         "failures": grouped_failures(results.failures, _MOST_SHOWN),
-        **listed("warnings", dict.fromkeys(results.warnings), "page"),
+        **listed("warnings", warnings, "page"),
         **listed("notes", dict.fromkeys(results.notes), "page"),
         "synthetic": results.tree.attrs.get("data_origin") == "synthetic",
     }

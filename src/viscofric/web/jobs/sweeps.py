@@ -57,7 +57,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     dict
         ``source``: "dma", "ramps", "creep", "relaxation", "master_curve", "file" or "catalogue".  Of sweeps ``files``
         (what each was taken for), ``left_open`` (keys of [material] that the files leave open), ``isotherms``,
-        ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K), ``specimens`` (files that
+        ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K), their ``range``
+        (K), ``specimens`` (files that
         differ where they should agree), and ``steps`` (`step_curves`) of tests beside them; of ramps and step tests see
         `read_other`.  Of other sources ``about`` (words), ``synthetic`` and ``notes``.  Then what is shown
         (`sweeps_view`).
@@ -69,7 +70,14 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     table, _ = checked_tables(_with_reference(study), context)
     found = _read(table, study, context)
-    return found | sweeps_view(found, table.deformation)
+    return found | {"range": _measured_range(found)} | sweeps_view(found, table.deformation)
+
+
+def _measured_range(found: dict[str, Any]) -> list[float] | None:
+    """Return the lowest and the highest measured temperature, K."""
+    curves = found.get("ramps") or found.get("isotherms") or (found.get("steps") or {}).get("curves") or []
+    kelvin = [float(value) for one in curves for value in np.ravel(one["temperature"])]
+    return [min(kelvin), max(kelvin)] if kelvin else None
 
 
 def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict[str, Any]:

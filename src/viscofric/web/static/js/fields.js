@@ -10,6 +10,7 @@
 //   slider     [low, high], SI: a slider below the box, where that has one value
 //   options    [[value, text], …] or words; `otherwise` is the value without the key, or what a range begins with
 //   sets       {value: {path: value, …}}: other keys that a choice changes; null removes a key
+//   also       {path: value, …}: other keys that any change of a box changes
 //   keys       {path: value, …}: what a switch turns on
 //   spacing    of a range: ["log", "linear"]
 //   when       [{path: true | false | [value, …]}, …]: it is shown if all of one entry hold; "shape" is that of the contact
@@ -55,7 +56,7 @@ export const Select = view(({ options, value, onChange, ...rest }, self) => {
 });
 
 /** What a box needs for the value at a path: text of a field's kind turned into it, and the reverse. */
-function at(path, { as, kind, unit, list, onChange = (value) => state.set(path, value) }) {
+function at(path, { as, kind, unit, list, also, onChange = (value) => state.change({ [path]: value, ...also }) }) {
   const one = (text) => {
     if (as === "number") return Number.isNaN(Number(text)) ? text : Number(text);
     if (unit) return Number.isNaN(Number(text)) ? text.trim() : `${text.trim()} ${unit}`;
@@ -74,18 +75,23 @@ function at(path, { as, kind, unit, list, onChange = (value) => state.set(path, 
   };
 }
 
-/** A slider of a quantity, even in its logarithm; a drag is one step of undo. */
 const STEPS = 400;
+
+/** A slider between two values, even in their logarithm or, if it is `linear`, in themselves; `move` gets the value. */
+export function Slider({ ends, linear, value, move, ...rest }) {
+  const [to, from] = linear ? [Number, Number] : [Math.log, Math.exp];
+  const [low, high] = ends.map(to);
+  const at = Math.round((STEPS * (to(value) - low)) / (high - low));
+  return html`<input type="range" min="0" max=${STEPS} step="1" value=${Number.isFinite(at) ? at : 0}
+    onInput=${({ target }) => move(from(low + (target.value / STEPS) * (high - low)))} ...${rest} />`;
+}
+
+/** The slider of a field; a drag is one step of undo. */
 function slider({ path, kind = "plain", label, slider: ends, step }) {
-  if (!ends) return null;
   const now = units.parse(listed(state.get(path))[0], kind);
-  const ratio = Math.log(ends[1] / ends[0]) / STEPS;
-  const move = ({ target }) => {
-    const value = ends[0] * Math.exp(ratio * Number(target.value));
-    state.slide(path, step === 1 ? Math.round(value) : units.words(value, kind, 3));
-  };
-  return html`<input type="range" min="0" max=${STEPS} step="1" value=${now > 0 ? Math.round(Math.log(now / ends[0]) / ratio) : 0}
-    aria-label="${label}: slider" aria-valuetext=${units.show(now, kind)} onInput=${move} onChange=${state.settle} />`;
+  const move = (value) => state.slide(path, step === 1 ? Math.round(value) : units.words(value, kind, 3));
+  return ends && html`<${Slider} ...${{ ends, value: now, move }} aria-label="${label}: slider"
+    aria-valuetext=${units.show(now, kind)} onChange=${state.settle} />`;
 }
 
 const isRange = (value) => value && typeof value === "object" && !Array.isArray(value);
@@ -155,8 +161,8 @@ function onOff({ keys }, own, self) {
   return html`<input type="checkbox" role="switch" checked=${given.length > 0} onChange=${take} ...${own} />`;
 }
 
-function ticks({ path, options }, own) {
-  const now = listed(state.get(path));
+function ticks({ path, options, otherwise }, own) {
+  const now = listed(state.get(path) ?? otherwise);
   const known = options.map(([word]) => word);
   const turn = (word, on) => {
     const chosen = known.filter((one) => (one === word ? on : now.includes(one)));

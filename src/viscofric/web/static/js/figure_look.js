@@ -1,6 +1,6 @@
 // Colours of figures, light and dark, and one look for each temperature: blue where cold, red where warm.
 
-import { signal } from "./reactive.js";
+import { lasting, signal } from "./reactive.js";
 
 // Okabe and Ito's colours, cold to warm, as in the reports; [on light, on dark]
 const HUES = {
@@ -21,7 +21,7 @@ const DASHES = ["solid", "9px,3px", "3px,3px", "9px,3px,3px,3px"];
 export const ORDER = ["blue", "vermilion", "green", "purple", "orange", "sky"]; // of curves that say nothing
 
 const darkSystem = matchMedia("(prefers-color-scheme: dark)");
-const chosenTheme = signal(document.documentElement.dataset.theme); // none: as the system
+const chosenTheme = lasting("localStorage", "viscofric.theme", null); // none: as the system; see theme.js
 const systemIsDark = signal(darkSystem.matches);
 darkSystem.addEventListener("change", () => (systemIsDark.value = darkSystem.matches));
 
@@ -29,14 +29,7 @@ darkSystem.addEventListener("change", () => (systemIsDark.value = darkSystem.mat
 export const isDark = () => (chosenTheme.value ? chosenTheme.value === "dark" : systemIsDark.value);
 
 /** Have the page "light" or "dark", also after a reload. */
-export function chooseTheme(theme) {
-  chosenTheme.value = document.documentElement.dataset.theme = theme;
-  try {
-    localStorage.setItem("viscofric.theme", theme);
-  } catch {
-    // Without storage the choice holds until the page is left.
-  }
-}
+export const chooseTheme = (theme) => (chosenTheme.value = document.documentElement.dataset.theme = theme);
 
 const parts = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
 

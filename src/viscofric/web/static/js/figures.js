@@ -26,18 +26,8 @@ export { chooseTheme, hue, isDark, temperatureColour } from "./figure_look.js";
 const MOST_ROWS = 2000;
 const COLUMNS = ["x", "y", "lower", "upper", "error"];
 
-let plotly = null;
-
-/** Plotly, once it has come. */
-function drawing() {
-  plotly ??= new Promise((resolve, reject) => {
-    if (window.Plotly) return resolve(window.Plotly);
-    const script = document.getElementById("plotly");
-    script.addEventListener("load", () => resolve(window.Plotly));
-    script.addEventListener("error", () => reject(new Error("The drawing library could not be loaded.")));
-  });
-  return plotly;
-}
+/** Plotly, once it has come; index.html has it fetched from the start. */
+const drawing = () => import("../vendor/plotly-cartesian.min.js").then(() => window.Plotly);
 
 /** Hand a file to the user. */
 export function save(name, content, type = "text/plain") {
@@ -272,3 +262,16 @@ export const Figure = view((given, self) => {
     </div>
   </figure>`;
 });
+
+/**
+ * Figures of a result, or of the first of several results that has them, each a card.  `ids` are ids or [id, title]: one with a
+ * title is there from the start, and is `empty` till there is a result.
+ */
+export const Figures = ({ of, ids, ...rest }) =>
+  ids.map((one) => {
+    const [id, title] = [one].flat();
+    const found = [of].flat().find((result) => result?.figures[id]);
+    if (!found && !title) return null;
+    const about = { of: found, id, ...(title && { title }), ...(!found && { height: 160 }), ...rest };
+    return html`<section class="card" key=${id}><${Figure} ...${about} /></section>`;
+  });

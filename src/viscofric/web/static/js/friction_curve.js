@@ -1,6 +1,5 @@
 // The card of the friction curve: computed after each change, its points drawn as they are known, till then the one before.
 
-import { curveTraces, ghostTraces, liveTrace, speedsOf } from "./curve_traces.js";
 import { Select } from "./fields.js";
 import { Figure } from "./figures.js";
 import { Job, isStale } from "./jobs.js";
@@ -8,29 +7,111 @@ import { announce, waits } from "./page.js";
 import { computed, html, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
-import { Button, Card, Folded, Notes, Progress } from "./views.js";
+import { Button, Card, Checks, Folded, Notes, Progress } from "./views.js";
+
+// What is drawn of a curve, {speed, reduced_speed, curves of its cases (figures/curve.py), friction, …}: points as they become
+// known, bands and doubts at the end, other curves in grey.  A look is {view: "speed" | "shifted", quantity, combination}.
+
+const GREY = "grey";
+// a curve on its way: what is known to the accuracy filled, what lies between contacts that may be refined open
+const DRAFT = [
+  { y: "friction", mode: "lines", width: 1, legend: false, dash: "3px,3px" },
+  { y: "known", mode: "markers", size: 6 },
+  { y: "open", mode: "markers", size: 5, open: true, legend: false },
+];
+const COLUMNS = ["y", "lower", "upper", "error", "text"];
+
+const isThere = (value) => value !== null && value !== undefined;
+const along = (curve, view) => (view === "shifted" ? curve.reduced_speed : curve.speed);
+const ofCombination = ({ curves }, { combination }) => curves.filter((one) => one.combination === combination);
+
+/** A part of a curve at those of its rows that have a value; its columns are named. */
+function placed(curve, view, rows, part) {
+  const data = rows.filter((at) => isThere(curve[part.y]?.[at]));
+  const read = (values) => (at) => (Array.isArray(values) ? values[at] : values);
+  const found = COLUMNS.filter((name) => part[name]).map((name) => [
+    name,
+    data.map(read(curve[part[name]] ?? part[name])),
+  ]);
+  return { ...part, data, x: data.map(read(along(curve, view))), ...Object.fromEntries(found) };
+}
+
+/** All speeds of the cases, with a little space: a figure that stays where it is while points come. */
+function speedsOf(curve, look) {
+  const all = ofCombination(curve, look).flatMap(({ rows }) => rows.map((at) => along(curve, look.view)[at]));
+  const gap = all.length > 1 ? 1.15 : 3;
+  return [Math.min(...all) / gap, Math.max(...all) * gap];
+}
+
+/** The traces of a curve: a line for each temperature, and rings around what is doubtful. */
+function curveTraces(curve, look) {
+  const { view, quantity } = look;
+  const parts = curve.parts?.[quantity] ?? (quantity === "friction" ? DRAFT : []);
+  const lines = ofCombination(curve, look).flatMap(({ temperature, rows }) =>
+    parts.map((part) => ({ temperature, group: `T${temperature}`, ...placed(curve, view, rows, part) })),
+  );
+  // the legend is there from the start
+  const shown = lines.filter((trace) => trace.x.length > 0 || trace.legend !== false);
+  return curve.parts ? [...masterLine(curve, look), ...shown, ...ringed(curve, look)] : shown;
+}
+
+function ringed(curve, look) {
+  const rows = ofCombination(curve, look)
+    .flatMap((one) => one.rows)
+    .filter((at) => curve.doubts[at].length > 0);
+  const ring = { mode: "markers", symbol: "circle", open: true, size: 13, colour: "orange", decoration: true };
+  const trace = placed(curve, look.view, rows, { name: "doubtful", y: look.quantity, text: "remarks", ...ring });
+  return trace.x.length ? [trace] : [];
+}
+
+function masterLine({ master }, { view, quantity }) {
+  if (view !== "shifted" || quantity !== "friction" || !master) return [];
+  const { reduced_speed: x, friction: y, lower, upper } = master;
+  return [{ name: "master curve", x, y, lower, upper, mode: "lines", colour: GREY, width: 1.2 }];
+}
+
+/** Another curve in grey; none where something else than friction is shown. */
+function ghostTraces(curve, look, name, dash) {
+  if (!curve || look.quantity !== "friction") return [];
+  const combination = Math.min(look.combination, curve.combinations.length - 1);
+  const part = { y: "friction", mode: "lines", colour: GREY, width: 1.6, dash, decoration: true, name, group: name };
+  return ofCombination(curve, { combination }).map(({ rows }, index) => ({
+    ...placed(curve, look.view, rows, part),
+    legend: index === 0,
+  }));
+}
+
+/** Where the live contact is on the curve. */
+function liveTrace(live, { view, quantity }) {
+  if (!live || quantity !== "friction") return [];
+  const { friction_coefficient: friction, reduced_speed: reduced } = live.numbers;
+  const star = { mode: "markers", symbol: "star", size: 13, colour: "purple", decoration: true };
+  const x = view === "shifted" ? reduced.value : live.speed;
+  return [
+    { name: "live contact", x: [x], y: [friction.value], text: [units.show(live.temperature, "temperature")], ...star },
+  ];
+}
 
 const VIEWS = [
   ["speed", "against speed"],
   ["shifted", "against reduced speed α(T)·v"],
 ];
-const MOST_FAILURES = 5;
 
 const missingOf = (result) => result.friction.filter((value) => value === null).length;
-const hasPoints = (curve) => Boolean(curve?.columns.friction.some((value) => value !== null));
+const hasPoints = (curve) => Boolean(curve?.friction.some((value) => value !== null));
 
 /** The curve's points as they come: the first part has the cases, the others values of some. */
 function drafted(part, before) {
   if (part.layout) {
     const none = part.layout.speed.map(() => null);
-    return { layout: part.layout, columns: { friction: none, known: none, open: none } };
+    return { ...part.layout, friction: none, known: none, open: none };
   }
-  const [friction, known, open] = ["friction", "known", "open"].map((name) => before.columns[name].slice());
+  const [friction, known, open] = ["friction", "known", "open"].map((name) => before[name].slice());
   part.cases.forEach((at, index) => {
     friction[at] = part.friction[index];
     [known[at], open[at]] = part.known[index] ? [friction[at], null] : [null, friction[at]];
   });
-  return { layout: before.layout, columns: { friction, known, open } };
+  return { ...before, friction, known, open };
 }
 
 /** The study; without its measurement, unless that tells the law of an interface. */
@@ -41,26 +122,18 @@ function predicted() {
 
 export const curve = new Job("curve", { wait: 350, remember: 6, part: drafted, inputs: predicted });
 
-/** What is drawn of the job's result or of its parts: {source, layout, columns, result}. */
-function curveOf(source) {
-  if (!source) return null;
-  return source.layout
-    ? { source, result: null, ...source }
-    : { source, layout: source, columns: source, result: source };
-}
-
-/** The newest curve, of whatever inputs. */
-const drawn = computed(() => curveOf(curve.result));
+/** The newest curve, of whatever inputs; it has `parts` once all is known. */
+const drawn = computed(() => curve.result);
 const pinned = signal(null); // a curve that is kept for comparison
 const asked = { quantity: signal("friction"), combination: signal(0) };
 let before = null; // the curve that is shown in grey till there is something to show
 
 /** Which of the combinations of all else that varies is shown. */
 export const combination = computed(() =>
-  Math.min(asked.combination.value, (drawn.value?.layout.combinations.length ?? Infinity) - 1),
+  Math.min(asked.combination.value, (drawn.value?.combinations.length ?? Infinity) - 1),
 );
 const quantity = computed(() => {
-  const { quantities = {} } = drawn.value?.layout ?? {};
+  const { quantities = {} } = drawn.value ?? {};
   return quantities[asked.quantity.value] ? asked.quantity.value : "friction";
 });
 const against = () => state.view("curve.view", "speed");
@@ -72,16 +145,17 @@ const pointsOf = ({ friction, speed }) => {
 const endOf = ({ cancelled, seconds }) =>
   cancelled ? "Cancelled." : `${pointsOf(curve.result)} in ${units.plainNumber(seconds, 2)} s`;
 
-function caption({ result, ...shownCurve }, shifted) {
+function caption(shownCurve, shifted) {
   if (!hasPoints(shownCurve)) return before ? "Grey: previous curve." : "";
-  const known = result
-    ? result.lower?.some((value) => value !== null) && "Bands: 95 %, from the material's uncertainty."
+  const { parts: whole, lower, doubts } = shownCurve;
+  const known = whole
+    ? lower?.some((value) => value !== null) && "Bands: 95 %, from the material's uncertainty."
     : "Filled points have the requested accuracy; open ones are interpolated and may still be refined.";
   const parts = [
     shifted &&
       "Each temperature is shifted by its shift factor: where the curves coincide, time–temperature superposition holds.",
     known,
-    result?.doubts.some((words) => words.length > 0) && "Ringed points are doubtful; hover to see why.",
+    whole && doubts.some((words) => words.length > 0) && "Ringed points are doubtful; hover to see why.",
     "Click a point to see its contact below.",
   ];
   return parts.filter(Boolean).join(" ");
@@ -90,7 +164,7 @@ function caption({ result, ...shownCurve }, shifted) {
 /** What the figure shows of a curve and of the live contact. */
 function drawing(shownCurve, live) {
   const look = { view: against(), quantity: quantity.value, combination: combination.value };
-  const axis = shownCurve.layout.quantities[look.quantity];
+  const axis = shownCurve.quantities[look.quantity];
   const shifted = look.view === "shifted";
   const traces = [
     ...ghostTraces(pinned.value, look, "kept", "6px,4px"),
@@ -98,14 +172,14 @@ function drawing(shownCurve, live) {
     ...curveTraces(shownCurve, look),
     ...liveTrace(isStale(live.result) ? null : live.result, look),
   ];
-  const speed = shifted ? `α(T)·v at ${units.show(shownCurve.layout.reference, "temperature")}` : "speed";
+  const speed = shifted ? `α(T)·v at ${units.show(shownCurve.reference, "temperature")}` : "speed";
   return {
-    of: shownCurve.source,
+    of: shownCurve,
     title: `${axis.label[0].toUpperCase()}${axis.label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
     caption: curve.error ? "Previous curve." : caption(shownCurve, shifted),
     x: { label: speed, kind: "speed", log: true, range: speedsOf(shownCurve, look) },
     y: { ...axis, log: state.view("curve.log", false), zero: 1.06 },
-    temperatures: shownCurve.layout.temperature,
+    temperatures: shownCurve.temperature,
     traces,
   };
 }
@@ -113,8 +187,8 @@ function drawing(shownCurve, live) {
 const Curve = view(({ live, onPick }) => {
   const pick = (point) => {
     const at = point?.customdata;
-    const { layout } = drawn.peek() ?? {};
-    if (layout && Number.isInteger(at)) onPick({ speed: layout.speed[at], temperature: layout.temperature[at] });
+    const { speed, temperature } = drawn.peek() ?? {};
+    if (speed && Number.isInteger(at)) onPick({ speed: speed[at], temperature: temperature[at] });
   };
   const x = { label: "speed", kind: "speed", log: true };
   const shownCurve = drawn.value;
@@ -126,8 +200,7 @@ const Curve = view(({ live, onPick }) => {
 
 /** What is shown, of what there is of this kind of contact and this study. */
 const Tools = view(() => {
-  const { quantities = {}, combinations = [] } = drawn.value?.layout ?? {};
-  const { result } = drawn.value ?? {};
+  const { quantities = {}, combinations = [], parts } = drawn.value ?? {};
   const pin = () => {
     pinned.value = pinned.value ? null : drawn.value;
     announce(pinned.value ? "The curve is kept, in grey." : "The kept curve is removed.");
@@ -145,30 +218,21 @@ const Tools = view(() => {
       <input type="checkbox" checked=${state.view("curve.log", false)}
         onChange=${({ target }) => state.setView("curve.log", target.checked)} />log scale
     </label>
-    <${Button} kind="small" disabled=${!pinned.value && !result} onClick=${pin}>
+    <${Button} kind="small" disabled=${!pinned.value && !parts} onClick=${pin}>
       ${pinned.value ? "Remove the kept curve" : "Keep for comparison"}
     <//>
   </div>`;
 });
 
-function failuresOf(result) {
-  const missing = missingOf(result);
-  if (!missing) return [];
-  const more = missing > MOST_FAILURES ? ` The first ${MOST_FAILURES}:` : "";
-  const said = `${missing} of ${result.speed.length} conditions have no solution.${more}`;
-  return [said, ...result.failures.slice(0, MOST_FAILURES)];
-}
-
-const MARKS = { passed: "✓ ", warning: "Warning: ", noted: "Unknown: " };
 const Words = view(() => {
-  const { source: of, result } = drawn.value ?? {};
-  const failures = curve.current && result ? failuresOf(result) : [];
-  const { checks = [], notes = [] } = result ?? {};
+  const of = drawn.value;
+  const { checks = [], notes = [] } = of ?? {};
   return html`
-    <${Notes} kind="error" list=${curve.error ? [waits("the friction curve", curve.error)] : failures} />
-    <${Notes} of=${of} kind="warning" list=${result?.warnings} />
+    <${Notes} kind="error" list=${[curve.error && waits("the friction curve", curve.error)]} />
+    <${Notes} of=${of} kind="error" list=${of?.missing} />
+    <${Notes} of=${of} kind="warning" list=${of?.warnings} />
     <${Folded} title="Checks" hidden=${checks.length + notes.length === 0}>
-      <${Notes} of=${of} list=${checks.map(({ verdict, words }) => `${MARKS[verdict]}${words}`)} />
+      <${Checks} of=${of} list=${checks} />
       <${Notes} of=${of} list=${notes} />
     <//>
   `;

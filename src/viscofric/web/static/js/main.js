@@ -4,7 +4,7 @@ import { getStart, restarted } from "./api.js";
 import { homeless } from "./fields.js";
 import { Tools, attempt, failed, followKeys, guardWork, openFiles } from "./header.js";
 import { Job, newest, result } from "./jobs.js";
-import { contactOf, explain, goTo, isSynthetic, named, page, sourceOf } from "./page.js";
+import { bringSweeps, contactOf, explain, goTo, isSynthetic, named, page, sourceOf } from "./page.js";
 import { effect, html, render, signal, view } from "./reactive.js";
 import { state } from "./state.js";
 import * as units from "./units.js";
@@ -78,33 +78,32 @@ const Main = view(() => {
   `;
 });
 
-/** Projects dropped are opened; files beside a place for files go to the first of the step, or else to that of the data. */
+const isProject = ({ name }) => /\.(toml|zip)$/i.test(name);
+
+/** Projects dropped are opened; other files go to the place for files below them or that the step shows, or to the data. */
 function takeFilesAnywhere() {
-  const place = () =>
-    [...document.querySelectorAll(".step:not([hidden]) .drop-field")]
-      .find((one) => one.checkVisibility())
-      ?.querySelector("input");
-  document.addEventListener("dragover", (event) => event.preventDefault());
-  document.addEventListener("drop", (event) => {
-    if (event.defaultPrevented) return;
+  const take = async (files) => {
+    if (files.some(isProject)) return openFiles(files);
+    bringSweeps();
+    return (await import("./rubber/source.js")).takeTests(files);
+  };
+  const drags = (is) => document.body.classList.toggle("dragging", is);
+  document.addEventListener("dragleave", ({ relatedTarget }) => relatedTarget || drags(false));
+  document.addEventListener("dragover", (event) => {
     event.preventDefault();
-    const { files } = event.dataTransfer;
-    if (files.length === 0) return;
-    if ([...files].some(({ name }) => /\.(toml|zip)$/i.test(name))) return attempt(() => openFiles([...files]));
-    const given = new DataTransfer();
-    for (const file of files) given.items.add(file);
-    const hand = (left) => {
-      const input = place();
-      if (!input) return left > 0 && setTimeout(() => hand(left - 1), 50);
-      input.files = given.files;
-      input.dispatchEvent(new Event("change"));
-      return true;
-    };
-    if (!place()) {
-      state.setView("sweeps.source", "dma");
-      goTo("sweeps");
+    drags(event.dataTransfer.types.includes("Files"));
+  });
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    drags(false);
+    const files = [...event.dataTransfer.files];
+    const seen = [...document.querySelectorAll(".drop-field")].find((one) => one.checkVisibility());
+    const place = (event.target.closest(".drop-field") ?? seen)?.querySelector("input");
+    if (!place || files.some(isProject)) attempt(() => take(files));
+    else {
+      place.files = event.dataTransfer.files;
+      place.dispatchEvent(new Event("change"));
     }
-    setTimeout(() => hand(40));
   });
 }
 

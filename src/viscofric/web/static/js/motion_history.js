@@ -125,30 +125,31 @@ export const PointTable = view(({ rows, columns, wrong, refused, onChange, onRef
   </table>`;
 });
 
-/** The ranges of the sketch: of the time, and of each lane. */
+/** The scales of the sketch, of the time and of each lane: {low, high} of the values, and {from, to} where they are drawn. */
 function scalesOf(rows, columns) {
   const times = rows.map((row) => row[0]);
+  const end = times.at(-1) > times[0] ? times.at(-1) : times[0] + 1;
   const lanes = [1, 2].map((at) => {
     const values = rows.map((row) => row[at]);
     const [low, most] = [Math.min(0, ...values), Math.max(0, ...values)];
     const span = most - low || { load: 10, speed: 0.1 }[columns[at][1]] || 1e-3;
-    return [low - (low < 0 ? 0.12 * span : 0), low + 1.12 * span];
+    const top = GAP + (at - 1) * (LANE + GAP);
+    return { low: low - (low < 0 ? 0.12 * span : 0), high: low + 1.12 * span, from: top + LANE, to: top };
   });
-  return { time: [times[0], times.at(-1) > times[0] ? times.at(-1) : times[0] + 1], lanes };
+  return [{ low: times[0], high: end, from: EDGE, to: WIDE - EDGE }, ...lanes];
 }
+const drawnAt = ({ low, high, from, to }, value) => from + ((value - low) / (high - low)) * (to - from);
+const valueAt = ({ low, high, from, to }, place) => low + ((place - from) / (to - from)) * (high - low);
 
 /** The rows with a point moved to where a pointer is, in coordinates of the sketch. */
-function moved({ row, lane, rows, scales }, at) {
-  const [low, most] = scales.lanes[lane];
-  const value = low + (1 - (at.y - GAP - lane * (LANE + GAP)) / LANE) * (most - low);
-  const snapped = Math.round((100 * value) / (most - low)) * ((most - low) / 100);
+function moved({ row, lane, rows, scales: [times, ...lanes] }, at) {
+  const step = (lanes[lane].high - lanes[lane].low) / 100;
+  const value = Math.round(valueAt(lanes[lane], at.y) / step) * step;
   const least = lane === 0 ? 0 : -Infinity; // no negative loads
-  const [from, to] = scales.time;
-  const time = from + ((at.x - EDGE) / (WIDE - 2 * EDGE)) * (to - from);
-  const step = 10 ** Math.floor(Math.log10((to - from) / 100));
+  const beat = 10 ** Math.floor(Math.log10((times.high - times.low) / 100));
   const [earliest, latest] = [rows[row - 1]?.[0] ?? 0, rows[row + 1]?.[0] ?? Infinity];
-  const within = Math.min(Math.max(Math.round(time / step) * step, earliest), latest);
-  return rows.with(row, rows[row].with(0, rounded(within, 9)).with(lane + 1, rounded(Math.max(snapped, least), 3)));
+  const time = Math.min(Math.max(Math.round(valueAt(times, at.x) / beat) * beat, earliest), latest);
+  return rows.with(row, rows[row].with(0, rounded(time, 9)).with(lane + 1, rounded(Math.max(value, least), 3)));
 }
 
 const held = signal(null); // {row, lane, rows, scales} of the point that is dragged
@@ -156,11 +157,8 @@ const held = signal(null); // {row, lane, rows, scales} of the point that is dra
 /** The sketch of the rows over time, one lane for each column but the first; its points can be dragged. */
 export const Sketch = view(({ rows: given, columns, onChange }) => {
   const { rows, scales } = held.value ?? { rows: given, scales: scalesOf(given, columns) };
-  const x = (time) => EDGE + ((time - scales.time[0]) / (scales.time[1] - scales.time[0])) * (WIDE - 2 * EDGE);
-  const y = (value, lane) => {
-    const [low, most] = scales.lanes[lane];
-    return GAP + lane * (LANE + GAP) + (1 - (value - low) / (most - low)) * LANE;
-  };
+  const x = (time) => drawnAt(scales[0], time);
+  const y = (value, lane) => drawnAt(scales[lane + 1], value);
   const hold = (event) => {
     const { row, lane } = event.target.dataset;
     if (event.button !== 0 || row === undefined) return;

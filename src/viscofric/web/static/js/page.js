@@ -71,14 +71,11 @@ export function named({ field, message }) {
   return { field, message: field ? about : message };
 }
 
-/** Bring a link of the rail into sight.  Not by scrollIntoView: from there on, the tab key would pass over the skip link. */
+/** Bring a link into the middle of the rail.  Not by scrollIntoView: the tab key would then pass over the skip link. */
 function scrollRailTo(link) {
   const rail = link.closest(".rail");
   const [outer, inner] = [rail.getBoundingClientRect(), link.getBoundingClientRect()];
-  rail.scrollBy(
-    Math.min(inner.left - outer.left, 0) || Math.max(inner.right - outer.right, 0),
-    Math.min(inner.top - outer.top, 0) || Math.max(inner.bottom - outer.bottom, 0),
-  );
+  rail.scrollBy(inner.x - outer.x - (outer.width - inner.width) / 2, inner.y - outer.y - (outer.height - inner.height) / 2);
 }
 
 /** Show a step, and put the focus on its heading. */
@@ -94,6 +91,12 @@ export function goTo(id, { focus = true } = {}) {
     window.scrollTo(0, 0);
     document.getElementById(`title-${id}`).focus({ preventScroll: true });
   });
+}
+
+/** The step of the data, ready for files of tests. */
+export function bringSweeps() {
+  state.setView("sweeps.source", "dma");
+  goTo("sweeps");
 }
 
 /** Keys of [material] that say where it comes from, each with its words. */

@@ -51,25 +51,16 @@ export const Radios = ({ name, value, options, onChange, children, ...rest }) =>
     )}
   </div>`;
 
-/** A place to drop files, which opens the file chooser when it is clicked: onFiles([File, …]). */
+/** A place to drop files (main.js hands them to it), which opens the file chooser when it is clicked: onFiles([File, …]). */
 export const Drop = view(({ label, help, accept, multiple = true, onFiles }, self) => {
   const id = `files-${self.number}`;
-  const take = (files) => files.length > 0 && onFiles([...files]);
   const chosen = ({ target }) => {
-    take(target.files);
+    if (target.files.length > 0) onFiles([...target.files]);
     target.value = "";
-  };
-  const over = (is) => (event) => {
-    event.preventDefault();
-    event.currentTarget.classList.toggle("over", is);
-  };
-  const dropped = (event) => {
-    over(false)(event);
-    take(event.dataTransfer.files);
   };
   return html`<div class="drop-field">
     <input type="file" class="hidden-input" id=${id} accept=${accept} multiple=${multiple} onChange=${chosen} />
-    <label class="drop" for=${id} onDragEnter=${over(true)} onDragOver=${over(true)} onDragLeave=${over(false)} onDrop=${dropped}>
+    <label class="drop" for=${id}>
       <${Icon} name="file" /><strong>${label}</strong>${help && html`<span class="help">${help}</span>`}
     </label>
   </div>`;
@@ -87,6 +78,14 @@ export const Folded = ({ title, children, ...rest }) =>
 export const Notes = view(({ of, list = [], kind = "note", ...rest }) => {
   const sentences = list.filter(Boolean).map((sentence) => html`<li>${sentence}</li>`);
   return html`<ul ...${shown(of, `notes ${kind}`)} hidden=${sentences.length === 0} ...${rest}>${sentences}</ul>`;
+});
+
+/** What was checked, each with its verdict. */
+export const Checks = view(({ of, list = [] }) => {
+  const one = ({ name, verdict, words }) => html`<li class=${verdict.replaceAll(" ", "-")}>
+    <strong>${[name, verdict === "noted" ? "unknown" : verdict].filter(Boolean).join(": ")}.${" "}</strong>${words}
+  </li>`;
+  return list.length > 0 && html`<ul ...${shown(of, "checks")}>${list.map(one)}</ul>`;
 });
 
 /** A number of a result (figures/spec.py) in the user's units: its label, its value, and its error with what is remarked. */

@@ -34,8 +34,6 @@ export function draggable(plot, { can, onStart, onMove, onEnd }) {
     return ((event.clientX - held.from) / x._length) * (x.range[1] - x.range[0]);
   };
 
-  const show = (by) => window.Plotly.restyle(plot, { x: [held.x.map((value) => value * 10 ** by)] }, [held.index]);
-
   plot.addEventListener(
     "pointerdown",
     (event) => {
@@ -57,14 +55,14 @@ export function draggable(plot, { can, onStart, onMove, onEnd }) {
     const by = decades(event);
     held.moved ||= Math.abs(event.clientX - held.from) > 3;
     if (!held.moved) return;
-    show(by);
+    moveTrace(plot, held.index, held.x, by);
     onMove?.(held.index, by);
   });
   const release = (event, keep) => {
     if (!held || event.pointerId !== held.pointer) return;
     const { index, moved } = held;
     const by = decades(event);
-    if (moved && !keep) show(0);
+    if (moved && !keep) moveTrace(plot, index, held.x, 0);
     held = null;
     if (moved) onEnd?.(index, keep ? by : 0);
   };

@@ -1,16 +1,16 @@
 // Step 2: isotherms shifted onto one another; the shift factors, the laws that describe them, and whether superposition holds.
 
-import { Figure } from "../figures.js";
+import { Figure, Figures } from "../figures.js";
 import { Form } from "../fields.js";
-import { explain, page } from "../page.js";
+import { bringSweeps, explain, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
-import * as units from "../units.js";
 import { Button, Card, Drop, Notes, Numbers, Pick, Progress, Table, shown } from "../views.js";
-import { TESTS, isMade, rubber, shownRubber } from "./made.js";
 import { Shifted, startShifted } from "./shifted.js";
-import { failed, takeFactors } from "./source.js";
+import { TESTS, failed, isMade, rubber, shownRubber, takeFactors } from "./source.js";
 
+const FACTORS = ["shift-factors", "Shift factor against temperature"];
+const EMPTY = "DMA sweeps at several temperatures are shifted here. Add them in step 1, Data.";
 const diagram = signal("diagram-van_gurp_palmen");
 
 /** The laws that were compared, each with a button where shift factors are those of the sweeps. */
@@ -32,30 +32,21 @@ const Laws = view(({ of }) => {
 
 /** Shift factors, their laws, and whether superposition holds. */
 const Factors = view(({ of }) => {
-  const { figures, tables, check } = of;
-  const card = (title, id, more) =>
-    figures[id] && html`<${Card} title=${title}><${Figure} id=${id} of=${of} />${more}<//>`;
-  const names = Object.keys(figures).filter((name) => name.startsWith("diagram-"));
-  const diagrams = names.map((name) => [name, figures[name].title]);
-  const causal = check?.kramers_kronig && html`<p class="help">${check.kramers_kronig.sentence}</p>`;
+  const { figures = {}, tables = {} } = of ?? {};
+  const diagrams = Object.entries(figures).filter(([name]) => name.startsWith("diagram-"));
   return html`
     <div class="grid">
-      ${figures["shifted-steps"] && html`<div class="card"><${Figure} id="shifted-steps" of=${of} /></div>`}
-      ${card("Shift factors", "shift-factors", html`<p ...${shown(of, "help")}>${units.filled(of.limits)}</p>`)}
-      ${card("Residuals of each law", "law-residuals")}
+      <${Figures} of=${of} ids=${["shifted-steps", FACTORS, "law-residuals"]} empty=${EMPTY} />
     </div>
     ${tables.laws && html`<${Laws} of=${of} />`}
     <div class="grid thirds">
-      ${
-        diagrams.length > 0 &&
-        html`<${Card} title="Validity of superposition">
-          <${Pick} label="Diagram" options=${diagrams} value=${diagram.value} onChange=${(key) => (diagram.value = key)} />
-          <${Figure} id="superposition-diagram" of=${of} spec=${figures[diagram.value]} />
-        <//>`
-      }
-      ${card("Distance of neighbouring isotherms", "neighbour-distances")}
-      ${card("Consistency of E′ and E″", "kramers-kronig", causal)}
-      ${card("Vertical shift", "vertical-shift")}
+      <${Card} title="Validity of superposition">
+        <${Pick} label="Diagram" options=${diagrams.map(([name, { title }]) => [name, title])} value=${diagram.value}
+          onChange=${(key) => (diagram.value = key)} />
+        <${Figure} id="superposition-diagram" title="Loss angle against modulus" of=${of} spec=${figures[diagram.value]}
+          height=${diagrams.length ? undefined : 160} empty=${EMPTY} />
+      <//>
+      <${Figures} of=${of} ids=${["neighbour-distances", "kramers-kronig", "vertical-shift"]} />
     </div>
   `;
 });
@@ -63,7 +54,10 @@ const Factors = view(({ of }) => {
 /** How sweeps are shifted; nothing of it holds for a rubber that is ready. */
 const Settings = view(() => {
   if (!isMade())
-    return html`<${Card} title="Shift"><p class="help">A predefined material has its own shift factors.</p><//>`;
+    return html`<${Card} title="Shift">
+      <p class="help">This material brings its own shift factors. DMA sweeps of yours are shifted here.</p>
+      <${Button} kind="small" onClick=${bringSweeps}>Add DMA sweeps<//>
+    <//>`;
   const given = state.get("material.shift_factors");
   return html`<${Card} title="Shift">
     <div class="panel">
@@ -109,7 +103,11 @@ export default view(() => {
       <div><${Settings} /></div>
       <div>${of?.check && html`<${Verdict} of=${of} />`}<${Notes} of=${of} kind="warning" list=${of?.notes} /></div>
     </div>
-    ${of?.shift?.isotherms?.length > 0 && html`<${Shifted} of=${of} />`}
-    ${of?.shift && html`<${Factors} of=${of} />`}
+    ${
+      of?.shift?.isotherms?.length > 0
+        ? html`<${Shifted} of=${of} />`
+        : html`<${Figures} ids=${[["shifted-isotherms", "Shifted isotherms"]]} empty=${EMPTY} />`
+    }
+    <${Factors} of=${of} />
   `;
 });

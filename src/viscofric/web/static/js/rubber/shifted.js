@@ -9,7 +9,7 @@ import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Pick } from "../views.js";
 import { draggable, moveTrace } from "./drag.js";
-import { decades, named, rubber, shownRubber, worded } from "./made.js";
+import { decades, named, rubber, shownRubber, worded } from "./source.js";
 
 const QUANTITIES = [
   ["storage_modulus", "E′"],
@@ -50,15 +50,6 @@ export function startShifted() {
   watch(
     () => [inputsOf(shownRubber()), chosen.value?.temperature].join(),
     () => (moved.value = 0),
-  );
-  watch(
-    () => state.get(REFERENCE),
-    (reference) => {
-      const about = state.view("held", {})[JSON.stringify(held())];
-      if (!state.get(HELD) || about === undefined || about === reference) return;
-      state.set(HELD, undefined);
-      announce("The fixed isotherms were released: their factors referred to another reference temperature.");
-    },
   );
 }
 
@@ -157,22 +148,15 @@ function inWords(one, by) {
 }
 
 // Shift factors fixed manually, in the run file's words: { "60 degC" = -2.1 }.  Factors are about a reference, and would
-// mean something else about another one: they are released when it changes.
+// mean something else about another one: its field removes them (also, in forms/others.py).
 
 const HELD = "material.fixed_shift_factors";
-const REFERENCE = "material.reference_temperature";
-const MOST_KNOWN = 50;
 
 const held = () => state.get(HELD) ?? {};
 const keyOf = (kelvin) =>
   Object.keys(held()).find((key) => Math.abs((units.parse(key, "temperature") ?? -1) - kelvin) < 0.5);
 
-function setHeld(factors) {
-  // with undo, any of those before may come back
-  const before = Object.entries(state.view("held", {})).slice(1 - MOST_KNOWN);
-  state.setView("held", { ...Object.fromEntries(before), [JSON.stringify(factors)]: state.get(REFERENCE) });
-  state.set(HELD, Object.keys(factors).length ? factors : undefined);
-}
+const setHeld = (factors) => state.set(HELD, Object.keys(factors).length ? factors : undefined);
 
 function hold(kelvin, log10) {
   setHeld({ ...held(), [keyOf(kelvin) ?? worded(kelvin)]: Number(log10.toFixed(4)) });

@@ -1,9 +1,41 @@
-// What becomes of [material] when files are brought, chosen or removed.
+// The material of the study: what becomes of [material] when files are brought, chosen or removed; and the job that makes it when
+// it is first needed and again after each change, with what else the steps about it share.
 
 import * as api from "../api.js";
+import { Job } from "../jobs.js";
 import { attempts, page, sourceKey, sources } from "../page.js";
 import { state } from "../state.js";
-import { FIRST_REFERENCE, TESTS } from "./made.js";
+import * as units from "../units.js";
+
+/** Sources that are tests; files of them are sorted by what they hold, and sweeps and step tests go together. */
+export const TESTS = ["dma", "creep", "relaxation", "ramps"];
+
+/** The reference of sweeps until the user, or the sweeps themselves, say another. */
+export const FIRST_REFERENCE = "30 degC";
+
+/** Whether the rubber is made of measurements; a predefined one has its own shift factors and spectrum. */
+export const isMade = () => ![null, "catalogue", "file"].includes(sourceKey(state.get("material")));
+
+/** The job that makes the material; its part is the material without its bands. */
+export const rubber = new Job("rubber", {
+  remember: 6,
+  inputs: () => {
+    const { material, uncertainty, data_origin } = state.study;
+    return sourceKey(material) ? { study: { material, uncertainty, data_origin } } : null;
+  },
+});
+
+/** What is shown of it: also that of earlier inputs, while another one is made. */
+export const shownRubber = () => (rubber.error ? null : rubber.result);
+
+/** "60 °C", as the user's units have it. */
+export const named = (kelvin) => units.show(kelvin, "temperature");
+
+/** A temperature as a run file writes it, near enough to name one isotherm. */
+export const worded = (kelvin) => `${Number((kelvin - 273.15).toFixed(2))} degC`;
+
+/** "0.12 decades" */
+export const decades = (value, digits = 2) => `${value.toFixed(digits).replace("-", "−")} decades`;
 
 const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "assumed_shift"];
 const OF_SHIFTS = ["fixed_shift_factors", "shift_factors", "shift_factor_columns", "shift_factor_sheet"];
@@ -31,7 +63,7 @@ const first = () => [state.get("material") ?? {}].flat()[0];
 const inOrder = new Intl.Collator("en", { numeric: true }).compare;
 
 /** What a study calls the rubber of some files: the first one's name without its ending. */
-const named = (value) => {
+const calledAfter = (value) => {
   const names = [value].flat();
   return names.length > 1 ? `${names.length} sweep files` : names[0].replace(/\.[A-Za-z0-9]{1,9}$/, "");
 };
@@ -48,7 +80,7 @@ export function choose(source, value, { origin, ...beside } = {}) {
   const [before, ...others] = [state.get("material")].flat();
   const material = { ...materialOf(source, single, before), ...beside };
   // The title that the page began with is not that of another rubber.
-  const title = state.get("title") === page.start.study.title ? `Friction of ${named(single)}` : state.get("title");
+  const title = state.get("title") === page.start.study.title ? `Friction of ${calledAfter(single)}` : state.get("title");
   state.change({ material: others.length ? [material, ...others] : material, data_origin: origin, title });
 }
 

@@ -1,13 +1,13 @@
 // Step 3: the spectrum, E'(ω) and E''(ω) at any temperature with their bands, and what the fit leaves unexplained.
 
 import { Form } from "../fields.js";
-import { Figure } from "../figures.js";
+import { Figure, Figures } from "../figures.js";
 import { Job } from "../jobs.js";
 import { explain, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Numbers, Pick, Progress, Table } from "../views.js";
-import { isMade, rubber, shownRubber, worded } from "./made.js";
+import { isMade, rubber, shownRubber, worded } from "./source.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
 const moduli = new Job("moduli", {
@@ -24,6 +24,7 @@ const moduli = new Job("moduli", {
   },
 });
 
+const EMPTY = "Modes are fitted to the master curve. Choose a material, or add DMA sweeps, in step 1, Data.";
 const KINDS = [
   ["retardation", "Retardation C(τ)"],
   ["relaxation", "Relaxation E(τ)"],
@@ -32,26 +33,19 @@ const kind = signal("retardation");
 
 /** The figures of a material; the moduli are those at the chosen temperature. */
 const Modulus = view(({ of }) => html`<${Card} title="Modulus against frequency">
-  ${of.shift && html`<${Temperature} of=${of} />`}
-  <${Figure} id="modulus" height=${430} of=${moduli.result ?? of} />
+  ${of?.shift && html`<${Temperature} of=${of} />`}
+  <${Figure} id="modulus" title="E′ and E″" height=${430} of=${of && (moduli.result ?? of)} empty=${EMPTY} />
 <//>`);
 
 const Others = view(({ of }) => {
-  const { figures, tables } = of;
+  const { figures = {}, tables = {} } = of ?? {};
   return html`
-    <${Card} title="Loss tangent"><${Figure} id="loss-tangent" of=${moduli.result ?? of} /><//>
-    ${
-      figures["spectrum-residuals"] &&
-      html`<${Card} title="Residuals of the fit"><${Figure} id="spectrum-residuals" of=${of} /><//>`
-    }
-    ${
-      tables.modes &&
-      html`<${Card} title="Spectrum">
-        <${Pick} label="Spectrum" options=${KINDS} value=${kind.value} onChange=${(one) => (kind.value = one)} />
-        <${Figure} id="modes" of=${of} spec=${figures[`modes-${kind.value}`]} />
-        <details><summary>Table of modes</summary><${Table} of=${of} ...${tables.modes} /></details>
-      <//>`
-    }
+    <${Figures} of=${[of && moduli.result, of]} ids=${[["loss-tangent", "tan δ"], "spectrum-residuals"]} empty=${EMPTY} />
+    <${Card} title="Spectrum">
+      <${Pick} label="Spectrum" options=${KINDS} value=${kind.value} onChange=${(one) => (kind.value = one)} />
+      <${Figure} id="modes" title="Modes" of=${of} spec=${figures[`modes-${kind.value}`]} empty=${EMPTY} />
+      ${tables.modes && html`<details><summary>Table of modes</summary><${Table} of=${of} ...${tables.modes} /></details>`}
+    <//>
   `;
 });
 
@@ -103,8 +97,8 @@ export default view(() => {
     <${Notes} of=${of} kind="warning" list=${of ? [...(fit?.notes ?? []), ...notes, ...(of.band?.notes ?? [])] : []} />
     <div class="columns">
       <div><${Settings} /></div>
-      <div>${of && html`<${Modulus} of=${of} />`}</div>
+      <div><${Modulus} of=${of} /></div>
     </div>
-    ${of && html`<div class="grid thirds"><${Others} of=${of} /></div>`}
+    <div class="grid thirds"><${Others} of=${of} /></div>
   `;
 });

@@ -1,19 +1,15 @@
 // Step 4, with which the page opens: what slides, its friction curve, and one contact that follows two sliders.
 
 import { uploadFiles } from "../api.js";
-import { Box, Form } from "../fields.js";
+import { Box, Form, Slider } from "../fields.js";
 import { Figure } from "../figures.js";
 import { FrictionCard, combination, curve } from "../friction_curve.js";
 import { Job } from "../jobs.js";
-import { attempts, goTo, page, waits } from "../page.js";
+import { attempts, bringSweeps, goTo, page, waits } from "../page.js";
 import { computed, html, view } from "../reactive.js";
 import { shapeOf, state } from "../state.js";
 import * as units from "../units.js";
-import { Button, Card, Drop, Notes, Numbers, Term, shown, told } from "../views.js";
-
-const STEPS = 400; // of the speed's slider
-const DECADE = 1; // beyond the speeds of the study, on either side
-const BEYOND = 15; // K beyond its temperatures
+import { Button, Card, Drop, Notes, Numbers, Table, Term, shown, told } from "../views.js";
 
 const position = () => state.view("contact.position", {});
 const moveTo = (where, keep = state.edit) => keep("contact.position", { ...position(), ...where });
@@ -24,48 +20,44 @@ const contact = new Job("contact", {
     return speed ? { study: state.study, options: { speed, temperature, combination: combination.value } } : null;
   },
 });
-const speeds = () => {
-  const ends = units.ends(state.get("conditions.speed"), "speed") ?? [1e-3, 1];
-  return [Math.log10(ends[0]) - DECADE, Math.log10(ends[1]) + DECADE];
-};
-const kelvins = () => {
-  const ends = units.ends(state.get("conditions.temperature"), "temperature") ?? [303.15, 363.15];
-  return [ends[0] - BEYOND, ends[1] + BEYOND];
-};
+/** The ends of a quantity of the study, or others where it has none that can be read. */
+const endsOf = (name, otherwise) => units.ends(state.get(`conditions.${name}`), name) ?? otherwise;
 const rounded = (value, digits) => Number(value.toPrecision(digits));
-const CONTROLS = [
-  { name: "speed", label: "Speed", steps: STEPS, ends: speeds, to: Math.log10, from: (at) => rounded(10 ** at, 3) },
-  {
-    name: "temperature",
-    label: "Temperature",
-    steps: 240,
-    ends: kelvins,
-    to: (kelvin) => kelvin,
-    from: (kelvin) => rounded(273.15 + Math.round(2 * (kelvin - 273.15)) / 2, 7),
+// they reach a decade, and 15 K, beyond the study
+const CONTROLS = {
+  speed: {
+    label: "Speed",
+    ends: () => endsOf("speed", [1e-3, 1]).map((end, at) => end * [0.1, 10][at]),
+    rounds: (speed) => rounded(speed, 3),
   },
-];
+  temperature: {
+    label: "Temperature",
+    linear: true,
+    ends: () => endsOf("temperature", [303.15, 363.15]).map((end, at) => end + [-15, 15][at]),
+    rounds: (kelvin) => rounded(273.15 + Math.round(2 * (kelvin - 273.15)) / 2, 7),
+  },
+};
 
 let drags = false; // a drag is one step of undo
 
 /** A slider with a number field: both show and change one of the two coordinates. */
-const Control = view(({ name, label, steps, ends, to, from }) => {
+const Control = view(({ name }) => {
+  const { label, linear, ends, rounds } = CONTROLS[name];
   const value = position()[name];
-  const [low, high] = ends();
   const id = `live-${name}`;
   const take = (text = "") => {
     const typed = units.read(text, name);
     if (Number.isFinite(typed) && typed > 0) moveTo({ [name]: typed });
   };
-  const slide = ({ target }) => {
-    moveTo({ [name]: from(low + (Number(target.value) / steps) * (high - low)) }, drags ? state.setView : state.edit);
+  const move = (to) => {
+    moveTo({ [name]: rounds(to) }, drags ? state.setView : state.edit);
     drags = true;
   };
-  const at = Math.round(steps * Math.min(Math.max((to(value) - low) / (high - low), 0), 1));
   return html`<div class="field live-control">
     <label for=${id} class="field-label">${label}</label>
     <div class="row">
-      <input type="range" id=${id} min="0" max=${steps} step="1" value=${at} aria-valuetext=${units.show(value, name)}
-        onInput=${slide} onChange=${() => (drags = false)} />
+      <${Slider} id=${id} ends=${ends()} ...${{ linear, value, move }} aria-valuetext=${units.show(value, name)}
+        onChange=${() => (drags = false)} />
       <${Box} id="${id}-number" class="live-number" aria-label="${label}, as a number" take=${take}
         value=${() => units.show(position()[name], name)} />
     </div>
@@ -88,15 +80,14 @@ const Failed = view(() => {
 /** The pictures of the contact, or their empty frames, and the numbers that are not the main ones. */
 const Pictures = view(({ of }) => {
   const shared = { of, empty: "Computing the contact." };
-  const row = ({ label, value, remark }) =>
-    html`<tr><th scope="row"><${Term} label=${label} /></th><td>${value}</td><td>${remark}</td></tr>`;
+  const row = ({ label, value, remark }) => [html`<${Term} label=${label} />`, value, remark];
   return html`<div class="grid contact-figures ${of && !of.map ? "without-map" : ""}">
     ${of?.map !== null && html`<${Figure} id="pressure-map" title="Contact pressure" ...${shared} />`}
     <${Figure} id="pressure-profile" title="Pressure along the motion" ...${shared} />
     <${Figure} id="surface-profile" title="Rubber and indenter" ...${shared} />
-    <div class="more-numbers" tabindex="0" role="group" aria-labelledby="more-numbers">
-      <h3 id="more-numbers">Results with their numerical errors</h3>
-      <table ...${shown(of)}><tbody>${of?.more_numbers.map(told).map(row)}</tbody></table>
+    <div class="more-numbers">
+      <${Table} of=${of} caption="Results with their numerical errors" head=${["result", "value", "error"]}
+        rows=${of?.more_numbers.map(told).map(row) ?? []} />
     </div>
   </div>`;
 });
@@ -119,10 +110,6 @@ const Welcome = view(() => {
   const name = state.get("material.catalogue");
   if (name === undefined || name !== page.start.study.material?.catalogue)
     return html`<div class="intro"><p>Change shape, load, speed or temperature, and the friction is computed again.</p></div>`;
-  const useMine = () => {
-    state.setView("sweeps.source", "dma");
-    goTo("sweeps");
-  };
   return html`<div class="intro">
     <section class="welcome" aria-label="What this page does">
       <p>
@@ -131,7 +118,7 @@ const Welcome = view(() => {
         alone. The example is a synthetic material: change shape, load, speed or temperature, and the result updates.
       </p>
       <div class="row">
-        <${Button} kind="main" onClick=${useMine}>Use my DMA file<//>
+        <${Button} kind="main" onClick=${bringSweeps}>Use my DMA file<//>
         <${Button} onClick=${() => goTo("measurement")}>Compare with my friction test<//>
         <span class="help">Your files stay on this computer.</span>
       </div>
@@ -188,8 +175,8 @@ const ContactForm = view(() => {
 
 // where the sliders begin: what a reload keeps, or the middle of the study
 if (!position().speed || !position().temperature) {
-  const [[low, high], [cold, warm]] = [speeds(), kelvins()];
-  const middle = { speed: rounded(10 ** (0.5 * (low + high)), 2), temperature: rounded(0.5 * (cold + warm), 7) };
+  const [[low, high], [cold, warm]] = [CONTROLS.speed.ends(), CONTROLS.temperature.ends()];
+  const middle = { speed: rounded(Math.sqrt(low * high), 2), temperature: rounded(0.5 * (cold + warm), 7) };
   moveTo(middle, state.setView);
 }
 for (const job of [curve, contact]) job.start();
@@ -201,7 +188,7 @@ export default () => html`
     <div>
       <${FrictionCard} live=${contact} onPick=${moveTo} />
       <${Card} title="One contact, live">
-        <div class="live-controls">${CONTROLS.map((one) => html`<${Control} ...${one} />`)}<${Status} /></div>
+        <div class="live-controls"><${Control} name="speed" /><${Control} name="temperature" /><${Status} /></div>
         <${Failed} />
         <${Found} />
       <//>

@@ -11,19 +11,19 @@ import { Button, Card, Icon, Notes, Numbers, Progress, shown } from "../views.js
 const size = (bytes) => (bytes < 1e6 ? `${Math.max(1, Math.round(bytes / 1e3))} kB` : `${(bytes / 1e6).toFixed(1)} MB`);
 
 /** Copies a text, and says so. */
-function Copy({ text }) {
-  const copy = async ({ currentTarget: { lastChild: words } }) => {
-    try {
-      await navigator.clipboard.writeText(text());
-      announce("Copied.");
-      words.textContent = "Copied";
-    } catch {
-      words.textContent = "Select and copy it";
-    }
-    setTimeout(() => (words.textContent = "Copy"), 2000);
+const Copy = view(({ text }, self) => {
+  const say = (words) => {
+    self.words = words;
+    self.setState({});
   };
-  return html`<${Button} kind="small" symbol="copy" onClick=${copy}>Copy<//>`;
-}
+  const copy = async () => {
+    const done = navigator.clipboard.writeText(text());
+    say(await done.then(() => "Copied", () => "Select and copy it"));
+    announce(self.words);
+    setTimeout(say, 2000);
+  };
+  return html`<${Button} kind="small" symbol="copy" onClick=${copy}>${self.words ?? "Copy"}<//>`;
+});
 
 const Download = ({ name }) =>
   html`<a class="button small" href=${downloadUrl(name)} download=${name}><${Icon} name="down" />${name}</a>`;
@@ -49,10 +49,7 @@ function coloured(text) {
 
 const RunFile = view(() => {
   const of = newest("export-run-file");
-  const { text = "", cases, problems = [] } = of ?? {};
-  const files = of?.files ?? [];
-  const reads = files.length === 1 ? files[0] : `${files.length} data files, which the zip contains`;
-  const about = `It has ${cases} case${cases === 1 ? "" : "s"}.${files.length ? ` It reads ${reads}.` : ""}`;
+  const { text = "", about, problems = [] } = of ?? {};
   const wrong = problems.map(({ field, message }) => (field ? `${field}: ${message}` : message));
   return html`<${Card} title="Run file">
     <${Field} path="title" label="Title of the study and report" />
@@ -60,7 +57,7 @@ const RunFile = view(() => {
       <${Copy} text=${() => text} />
       <${Button} kind="small" onClick=${() => startOver()}>Start over<//>
     </div>
-    ${cases && html`<p class="help">${about}</p>`}
+    ${about && html`<p class="help">${about}</p>`}
     <${Notes} kind="error" list=${wrong} />
     <pre ...${shown(of)} tabindex="0" role="group" aria-label="Run file">${coloured(text.trimEnd())}</pre>
     <p class="help">“Save project” downloads it with its data; run it in its folder: <code>viscofric run study.toml</code></p>
@@ -88,11 +85,7 @@ const run = async () => {
 const Study = view(() => {
   const of = study.current; // files of another study are none of this one
   const changed = study.result && !of && !study.progress && "The study has changed; run it again.";
-  const { cases, failed: missing, warnings = [], downloads = [], failures = [], notes = [] } = of ?? {};
-  const numbers = [
-    { label: "cases", value: String(cases), remark: missing ? `${missing} failed` : "all solved" },
-    { label: "warnings", value: String(warnings.length), remark: warnings.length ? "listed below" : "" },
-  ];
+  const { warnings = [], downloads = [], failures = [], notes = [] } = of ?? {};
   return html`<${Card} title="Results and report">
     <p class="help">
       Solves every case to the requested accuracy, with the material's uncertainty, and writes a report, tables and
@@ -105,7 +98,7 @@ const Study = view(() => {
     </div>
     <${Notes} list=${[changed]} />
     <${Notes} kind="error" list=${study.error ? [explain(study.error, "export")] : failures} />
-    <${Numbers} of=${of} list=${of ? numbers : []} />
+    <${Numbers} of=${of} />
     ${of && html`<ul class="downloads" aria-label="Results">${downloads.map((one) => html`<${FileLine} ...${one} />`)}</ul>`}
     <${Notes} of=${of} kind="warning" list=${warnings} />
     <${Notes} of=${of} list=${notes} />

@@ -1,13 +1,11 @@
 // Step 6: measured friction beside the prediction for the page's rubber and ball, and what else follows from the test.
 
-import { Figure } from "../figures.js";
+import { Figure, Figures } from "../figures.js";
 import { announce } from "../page.js";
 import { html, view } from "../reactive.js";
-import { Card, Folded, Notes, Numbers, Table } from "../views.js";
-import { Identification } from "./measurement_identify.js";
-import { MasterCurve, master } from "./measurement_master.js";
-import { Checks, Run, agreement, measured, shownMeasured } from "./measurement_parts.js";
-import { Source } from "./measurement_source.js";
+import { Card, Checks, Folded, Notes, Numbers, Table } from "../views.js";
+import { Identification, MasterCurve, master } from "./measurement_analysis.js";
+import { Run, Source, agreement, measured, shownMeasured } from "./measurement_source.js";
 
 agreement.done = ({ sentences }) => sentences.length && announce(sentences[0]);
 for (const job of [measured, agreement, master]) job.start();
@@ -31,22 +29,13 @@ const Comparison = view(() => {
   <//>`;
 });
 
-/** What else follows from the test. */
-const Others = view(() => {
-  const of = shownMeasured();
-  const found = OTHERS.filter((id) => of?.figures[id]);
-  return html`<div class="grid thirds" hidden=${!of?.curves}>
-    ${found.map((id) => html`<section class="card" key=${id}><${Figure} id=${id} height=${300} of=${of} /></section>`)}
-  </div>`;
-});
-
-export default () => html`
+export default view(() => html`
   <p>
     Traction test: separation of Coulomb and viscoelastic friction, comparison with the prediction, friction master
     curve, and material identified from friction.
   </p>
   <div class="columns"><div><${Source} /></div><div><${Comparison} /></div></div>
-  <${Others} />
+  <div class="grid thirds"><${Figures} of=${shownMeasured()} ids=${OTHERS} height=${300} /></div>
   <${MasterCurve} />
   <${Identification} />
-`;
+`);

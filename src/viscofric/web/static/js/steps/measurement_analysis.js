@@ -1,4 +1,5 @@
-// The rubber behind measured friction: what fixes its level, the computation, and its result.
+// What follows from measured friction: all temperatures on one curve, by the rubber's shift factors and by those found from
+// friction itself; and the rubber behind it, with what fixes its level.
 
 import { downloadUrl, uploadFiles } from "../api.js";
 import { Form, given } from "../fields.js";
@@ -8,8 +9,43 @@ import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Table } from "../views.js";
-import { master } from "./measurement_master.js";
-import { Run, alone, ofMeasured, shownMeasured } from "./measurement_parts.js";
+import { Facts, Run, agreement, alone, ofMeasured, shownMeasured } from "./measurement_source.js";
+
+const fields = page.start.forms.master;
+export const master = ofMeasured("master", () => ({ beside: !alone(), law: given(fields).law }));
+
+/** The figure of a master curve; by the material's shift factors with the prediction, which is made with them, if it is known. */
+function specOf(of, name) {
+  const spec = of?.figures[`master-${name}`];
+  const { figures, along } = (name === "by_rubber" && agreement.current) || {};
+  if (!spec || !figures?.along || Math.abs(along.reference - of.by_rubber.reference) > 0.01) return spec;
+  const points = spec.traces.filter(({ temperature }) => temperature !== undefined);
+  return { ...spec, traces: [...figures.along.traces, ...points] };
+}
+
+/** The card of the friction master curve. */
+export const MasterCurve = view(() => {
+  const of = master.error ? null : master.result;
+  const { found, by_rubber: byRubber, refusal, notes = [] } = of ?? {};
+  const drawn = found && (!byRubber || given(fields).shifted === "found") ? "found" : "by_rubber";
+  const offered = { "@friction.beside": true, "@friction.shifted": found && byRubber, "@friction.law": found };
+  const refused = refusal && `Shift factors cannot be determined from friction alone: ${refusal}`;
+  return html`<${Card} title="Friction master curve" hidden=${!shownMeasured()?.curves}>
+    <${Form} of=${fields.filter(({ path }) => offered[path])} />
+    <${Run} job=${master} label="Shifting" />
+    <div class="grid">
+      <${Figure} id="friction-master-curve" title="Friction at one temperature" height=${340} of=${of}
+        spec=${specOf(of, drawn)} />
+      <${Figure} id="friction-shift-factors" title="Shift factors" height=${340} of=${of}
+        empty="Friction at one temperature determines no shift factor." />
+    </div>
+    <${Notes} of=${of} list=${[refused, ...notes]} />
+    <${Facts} of=${of} list=${found?.words ?? byRubber?.words} />
+    <div class="row">
+      ${found && html`<a class="button small" download="shift_factors_from_friction.csv" href=${downloadUrl(found.download)}>Shift factors (CSV)</a>`}
+    </div>
+  <//>`;
+});
 
 /** Shift factors of friction where they can be found, else of the page's material, until the user chooses. */
 const suggested = () => (master.current?.refusal && master.current.by_rubber ? "rubber" : "friction");
@@ -22,7 +58,7 @@ function middle() {
 }
 
 /** The fields; the placeholder of the temperature counts where nothing was typed. */
-function fields() {
+function anchorFields() {
   const own = {
     "@identify.shift": { otherwise: suggested() },
     "@identify.temperature": { placeholder: middle(), otherwise: units.typed(middle(), "temperature") },
@@ -30,12 +66,12 @@ function fields() {
   return page.start.forms.identify.map((one) => ({ ...one, ...own[one.path] }));
 }
 
-function options() {
-  const { shift, anchor: of, ...about } = given(fields());
+function identifyOptions() {
+  const { shift, anchor: of, ...about } = given(anchorFields());
   return { shift, beside: !alone(), anchor: of === "nothing" ? undefined : { of, ...about } };
 }
 
-const identify = ofMeasured("identify", options, { manual: true });
+const identify = ofMeasured("identify", identifyOptions, { manual: true });
 
 /** Make the identified rubber that of the page. */
 async function take({ download }) {
@@ -52,7 +88,7 @@ export const Identification = view(() => {
   // which factors to use is not known before
   const known = master.current || master.error || master.ended;
   return html`<${Card} title="Material identified from friction" hidden=${!shownMeasured()?.curves}>
-    <${Form} of=${fields()} />
+    <${Form} of=${anchorFields()} />
     <div class="row"><${Button} kind="main" disabled=${!known} onClick=${() => identify.run()}>Identify the material<//></div>
     <${Run} job=${identify} label="Identifying" />
     ${of && html`<${Identified} of=${of} />`}
