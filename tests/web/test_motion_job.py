@@ -43,6 +43,12 @@ def test_a_history_has_the_numbers_of_the_library(desk: Desk) -> None:
     labels = [message for event, message in desk.reported if event == "progress"]
     assert labels[-1]["done"] == labels[-1]["total"] == 1.0
     assert labels[-1]["label"] == "300 ms of 300 ms"
+    # the pressure along the motion is that of the load, at each time
+    x, pressure = np.array(found["animation"]["x"]), np.array(found["animation"]["pressure"])
+    assert pressure.shape == (len(found["animation"]["time"]), len(x))
+    load = np.trapezoid(np.pi * np.abs(x) * pressure, x, axis=1)
+    at = np.interp(found["animation"]["time"], found["time"], found["load"])
+    assert load == pytest.approx(at, rel=0.02, abs=0.05)
 
 
 def test_a_jump_is_drawn_before_and_after_it(desk: Desk) -> None:
@@ -57,6 +63,7 @@ def test_an_impact_has_the_numbers_of_the_library(desk: Desk) -> None:
     found = desk.run(motion, BALL, impact={"mass": 0.033, "speed": 0.5}, temperature=303.15)
     solved = vf.solve_impact(rubber(), vf.Ball("9.525 mm"), mass=0.033, speed=0.5, temperature=303.15)
     (contact,) = found["contacts"]
+    assert "animation" not in found  # an impact keeps no pressures
     assert contact["restitution"] == pytest.approx(solved.restitution, rel=ROUNDING)
     assert contact["contact_time"] == pytest.approx(solved.contact_time, rel=ROUNDING)
 
@@ -92,3 +99,5 @@ def test_a_rough_surface_moves_along_its_direction(desk: Desk) -> None:
     assert found["direction"] == pytest.approx([0.0, 1.0], abs=1e-9)
     assert found["position_y"][-1] == pytest.approx(1e-4)
     assert found["friction_coefficient"][-1] > 0.0
+    assert found["figures"]["motion-pressure"]["x"]["label"] == "y"
+    assert np.shape(found["animation"]["pressure"])[1] == len(found["animation"]["x"]) == 16

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -99,6 +99,56 @@ def test_a_history_is_edited_dragged_and_solved(tab: Tab) -> None:
     solved(tab)
     page.locator(f"{_STEP} .notes.error:not([hidden])").first.wait_for()
     assert page.get_by_label("Time of point 4").get_attribute("aria-invalid") == "true"
+
+
+_TIME = "Time of the pressure"
+_DRAWN = "Array.from(document.querySelector('#figure-motion-pressure .plot').data[0].y)"
+
+
+def expected(tab: Tab, at: int) -> list[float]:
+    """Return the pressure of a time in the user's unit."""
+    found: list[float] = tab.value(
+        "page.units.number(page.jobs.newest('motion').animation.pressure[given[0]], 'pressure')", at
+    )
+    return found
+
+
+@pytest.mark.parametrize("moves", [True, False])
+def test_the_pressure_is_played_and_reached_by_keyboard(browser: Browser, server: Server, moves: bool) -> None:
+    look: dict[str, Any] = {"color_scheme": "dark", "reduced_motion": "no-preference" if moves else "reduce"}
+    with opened_tab(browser, server, "#motion", **look) as tab:
+        page, slider = tab.page, tab.page.get_by_label(_TIME)
+        assert slider.is_disabled()  # there is nothing to play
+        assert "press Solve" in tab.text("#figure-motion-pressure .plot-empty")
+        solved(tab)
+        last = tab.value("page.jobs.newest('motion').animation.time.length") - 1
+        assert slider.input_value() == "0"
+        for key, at in (("End", last), ("ArrowLeft", last - 1), ("Home", 0)):
+            slider.press(key)
+            tab.until("page.figures.areDrawn()")
+            assert slider.input_value() == str(at)
+            assert tab.value(_DRAWN) == pytest.approx(expected(tab, at))
+        page.get_by_role("button", name="Play" if moves else "Next", exact=True).press("Enter")
+        if moves:
+            page.get_by_role("button", name="Pause", exact=True).wait_for()
+            tab.until(f"Number(document.querySelector('[aria-label=\"{_TIME}\"]').value) > 0")
+            page.get_by_role("button", name="Pause", exact=True).press("Space")
+            paused = slider.input_value()
+            page.wait_for_timeout(300)
+            assert 0 < int(slider.input_value()) == int(paused) < last
+            page.get_by_role("button", name="Play", exact=True).click()
+            tab.until(f"document.querySelector('[aria-label=\"{_TIME}\"]').value === '{last}'")
+            page.get_by_role("button", name="Play", exact=True).wait_for()  # it stops at the end
+        else:
+            page.wait_for_timeout(300)
+            assert 0 < int(slider.input_value()) < last  # one step, without a motion
+        tab.until("page.figures.areDrawn()")
+        assert tab.value(_DRAWN) == pytest.approx(expected(tab, int(slider.input_value())))
+        assert "255, 255, 255" not in (
+            page.locator("#figure-motion-pressure svg.main-svg").first.get_attribute("style") or ""
+        )
+        assert tab.findings() == []
+        tab.screenshot(f"motion-pressure-{'dark' if moves else 'reduced'}")
 
 
 def test_a_mass_hits_the_material(tab: Tab) -> None:

@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import plain
 from viscofric.web.figures.spec import Spec, around, axis, axis_of, figure, kind_of, line, number, quantity
 
 if TYPE_CHECKING:
     import xarray
 
+    from viscofric.arrays import Array
     from viscofric.motion.impact_solution import ImpactContact
+    from viscofric.motion.solution import TransientSolution
 
 _SIZES = {
     "contact_radius": "radius",
@@ -19,6 +22,8 @@ _SIZES = {
     "rear": "behind the axis",
     "half_width": "half-width across",
 }
+#: Times and points of the pressure over time.
+_FRAMES, _POINTS, _FRAME_DIGITS = 120, 121, 4
 _ENERGIES = {"work": "work on the material", "stored": "stored", "dissipated": "dissipated"}
 
 
@@ -34,6 +39,52 @@ def motion_view(data: xarray.Dataset, contacts: tuple[ImpactContact, ...], steps
         numbers = [*_of_history(data), {**balance, "remark": steps}]
         summary = f"{data.sizes['time']} times{', stopped' if data.attrs['interrupted'] else ''}"
     return {"figures": _figures(data), "key_numbers": numbers, "summary": summary}
+
+
+def pressures(solved: TransientSolution) -> dict[str, Any]:
+    """Return the pressure along the motion over time, through the indenter's axis or, on waves, the highest pressure.
+
+    Returns
+    -------
+    dict
+        ``animation``: ``time`` (s), ``x`` (m, from the indenter's axis) and ``pressure`` (Pa, a row for each time).
+        ``figures``: "motion-pressure", of the first time.  Empty where no pressures were kept.
+    """
+    if not solved.has_pressures:
+        return {}
+    times = np.unique(solved.time)
+    times = times[np.unique(np.linspace(0, len(times) - 1, _FRAMES).round().astype(int))]
+    waves = solved.geometry == "periodic"
+    along = "y" if waves and abs(solved.direction[1]) > abs(solved.direction[0]) else "x"
+    lines = [_line_of(solved.pressure_at(float(time)), along, waves) for time in times]
+    pressed = [np.abs(x[p > 0.0]).max() for x, p in lines if np.any(p > 0.0)]
+    if not pressed:
+        return {}
+    reach = 1.15 * max(pressed)
+    grid = lines[-1][0] if waves else np.linspace(-reach, reach, _POINTS)
+    rows = [p if waves else np.interp(grid, x, p, left=0.0, right=0.0) for x, p in lines]
+    found = {"time": plain(times), "x": plain(grid, _FRAME_DIGITS), "pressure": plain(np.array(rows), _FRAME_DIGITS)}
+    spec = figure(
+        "Pressure along the motion",
+        axis(along if waves else "along the motion, from the axis", "length", range=[grid[0], grid[-1]]),
+        axis("pressure", "pressure", range=[0.0, 1.05 * float(np.max(rows))]),
+        [line("animation.x", "animation.pressure[0]", fill="tozeroy")],
+        "On the line of the highest pressure." if waves else "On the line of motion through the indenter's axis.",
+        marks=[] if waves else [{"x": 0.0}],
+    )
+    return {"animation": found, "figures": {"motion-pressure": plain(spec)}}
+
+
+def _line_of(pressure: xarray.DataArray, along: str, waves: bool) -> tuple[Array, Array]:
+    """Return positions (m) and pressures (Pa) along the motion."""
+    if "r" in pressure.dims:
+        r, p = pressure["r"].values, pressure.values
+        return np.concatenate([-r[::-1], r]), np.concatenate([p[::-1], p])
+    across = {"x": "y", "y": "x"}[along]
+    if across in pressure.dims:
+        rest = pressure.max(along).values if waves else -np.abs(pressure[across].values)
+        pressure = pressure.isel({across: int(np.argmax(rest))})
+    return pressure[along].values, pressure.values
 
 
 def _over_time(data: xarray.Dataset, title: str, y: Spec, names: dict[str, str | None]) -> Spec:

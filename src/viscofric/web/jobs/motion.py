@@ -15,7 +15,7 @@ from viscofric.friction.cases.surfaces import surface_of
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import prefixed
 from viscofric.study.run_file.tables import kelvin
-from viscofric.web.figures.motion import motion_view
+from viscofric.web.figures.motion import motion_view, pressures
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.context import JobError
 from viscofric.web.jobs.rubbers import notes_without_folder, study_rubber
@@ -125,7 +125,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         The data set of the solution as plain types, ``steps``, ``rejected_steps``, ``temperature`` (K), ``warnings``
-        and ``notes``; of an impact also ``contacts``, what each of them has done.  Then what is shown (`motion_view`).
+        and ``notes``; of an impact also ``contacts``, what each of them has done.  Then what is shown (`motion_view`,
+        `pressures`).
 
     Raises
     ------
@@ -151,10 +152,16 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     warnings = list(solved.warnings)
     (notes if rubber.frequency_range is None else warnings).extend(doubts)
     data = solved.to_dataset()
+    shown, over_time = (
+        motion_view(data, contacts, f"{whole.steps} steps, {whole.rejected_steps} rejected"),
+        pressures(whole),
+    )
+    shown["figures"] = over_time.pop("figures", {}) | shown["figures"]
     return {
         **record(data, _DIGITS),
+        **over_time,
         **({"contacts": plain([one._asdict() for one in contacts], _DIGITS)} if contacts else {}),
-        **plain(motion_view(data, contacts, f"{whole.steps} steps, {whole.rejected_steps} rejected"), _DIGITS),
+        **plain(shown, _DIGITS),
         "steps": whole.steps,
         "rejected_steps": whole.rejected_steps,
         "temperature_of_contact": plain(case.temperature),

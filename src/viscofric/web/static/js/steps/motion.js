@@ -143,8 +143,56 @@ const Drawing = view(() => {
   <//>`;
 });
 
+const LASTS = 5000; // ms that the pressure is played
+const REDUCED = matchMedia("(prefers-reduced-motion: reduce)");
+const frame = signal(0); // of the pressure over time
+const plays = signal(false);
+
+/** Play the pressure from the shown time, or from the start, until it is paused, or something else is looked at. */
+function play(of) {
+  const { time } = of.animation;
+  const from = time[frame.value + 1] === undefined ? 0 : frame.value;
+  const [rate, end] = [(time.at(-1) - time[0]) / LASTS, time.at(-1)];
+  const begun = performance.now() - (time[from] - time[0]) / rate;
+  const tick = () => {
+    const now = time[0] + rate * (performance.now() - begun);
+    plays.value &&= now < end && motion.result === of && state.step === "motion";
+    frame.value = Math.max(time.findLastIndex((one) => one <= now), from);
+    if (plays.value) requestAnimationFrame(tick);
+  };
+  plays.value = true;
+  tick();
+}
+
+/** The pressure along the motion at one time; who wants no motion is given steps. */
+const Pressure = view(({ of, id, title, empty }) => {
+  const { time = [0] } = of?.animation ?? {};
+  const last = time.length - 1;
+  const at = Math.min(frame.value, last);
+  const to = (next) => {
+    plays.value = false;
+    frame.value = next;
+  };
+  const [label, act] = plays.value
+    ? ["Pause", () => to(at)]
+    : REDUCED.matches
+      ? ["Next", () => to(at < last ? Math.min(at + Math.ceil(last / 10), last) : 0)]
+      : ["Play", () => play(of)];
+  const words = units.show(time[at], "time");
+  const traces = of?.figures[id].traces.map((one) => ({ ...one, y: `animation.pressure[${at}]` }));
+  return html`<div>
+    <${Figure} ...${{ of, id, title, empty }} spec=${of && { ...of.figures[id], title: `${title} at ${words}`, traces }} />
+    <div class="slider-row">
+      <${Button} kind="small" disabled=${last < 1} onClick=${act}>${label}<//>
+      <input type="range" aria-label="Time of the pressure" min="0" max=${last} value=${at} disabled=${last < 1}
+        aria-valuetext=${words} onInput=${({ target }) => to(Number(target.value))} />
+    </div>
+  </div>`;
+});
+
 // figures before there is a result
 const FRAMES = {
+  "motion-pressure": { title: "Pressure along the motion" },
   "motion-load": { title: "Load over time" },
   "motion-indentation": { title: "Indentation over time" },
   "motion-contact": { title: "Contact over time" },
@@ -166,9 +214,10 @@ const Found = view(() => {
     <${Numbers} of=${of} />
     ${of && html`<p class="help">${about}</p>`}
     <div class="grid contact-figures">
-      ${Object.entries(of?.figures ?? FRAMES).map(
-        ([id, { title }]) => html`<${Figure} key=${id} ...${{ of, id, title }} empty="Not solved yet." />`,
-      )}
+      ${Object.entries(of?.figures ?? FRAMES).map(([id, { title }]) => {
+        const Shown = id === "motion-pressure" ? Pressure : Figure;
+        return html`<${Shown} key=${id} ...${{ of, id, title }} empty="Set the history, then press Solve." />`;
+      })}
     </div>
     <${Notes} of=${of} list=${of?.notes} />
   <//>`;
