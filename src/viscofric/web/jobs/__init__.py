@@ -47,6 +47,8 @@ KINDS: dict[str, Kind] = {
     "agreement": Kind("viscofric.web.jobs.agreement"),
     "master": Kind("viscofric.web.jobs.master", seconds=120.0),
     "identify": Kind("viscofric.web.jobs.identify"),
+    # how it is known
+    "published": Kind("viscofric.web.jobs.published", seconds=300.0),
     # what is taken away
     "open-run-file": Kind("viscofric.web.jobs.open_run_file", seconds=30.0, memory=2 * _GB),
     "export-run-file": Kind("viscofric.web.jobs.export_run_file", seconds=60.0, memory=2 * _GB),

@@ -10,6 +10,7 @@ import { computed, html, view } from "../reactive.js";
 import { shapeOf, state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Drop, Notes, Numbers, Table, Term, shown, told } from "../views.js";
+import { Published } from "./published.js";
 
 const position = () => state.view("contact.position", {});
 const moveTo = (where, keep = state.edit) => keep("contact.position", { ...position(), ...where });
@@ -194,4 +195,5 @@ export default () => html`
       <//>
     </div>
   </div>
+  <${Published} />
 `;

@@ -1,0 +1,73 @@
+"""Job ``published``: published and independent results, each beside what viscofric computes here and now."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel, ConfigDict
+
+from viscofric.verification import run_checks
+from viscofric.verification.published import PUBLISHED
+from viscofric.web.figures.spec import Spec, table
+
+if TYPE_CHECKING:
+    from viscofric.verification import Comparison, Outcome
+    from viscofric.web.jobs.context import Context
+
+_HEAD = ["case", "quantity", "published", "computed", "difference", "allowed"]
+_SIGNS = {"at least": "≥ ", "at most": "≤ "}
+
+
+class Options(BaseModel):
+    """There are none."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
+    """Compute all comparisons of ``viscofric verify --published``; the study does not count.
+
+    Returns
+    -------
+    dict
+        ``said``, how many numbers agree, where and when they were computed; ``checks``, each with ``title``,
+        ``verdict``, ``origin`` (sentences) and ``table``.
+    """
+    from viscofric import __version__
+
+    begun, number = time.perf_counter(), itertools.count()
+    outcomes = list(run_checks(PUBLISHED, lambda check: context.progress(next(number), len(PUBLISHED), check.title)))
+    all_of = [one for outcome in outcomes for one in outcome.comparisons]
+    said = (
+        f"{sum(one.passed for one in all_of)} of {len(all_of)} published numbers agree within the allowed difference. "
+        f"The computed ones are of viscofric {__version__}, computed on this computer in "
+        f"{time.perf_counter() - begun:.1f} s; the published ones are stored in it."
+    )
+    return {"said": said, "checks": [_shown(outcome) for outcome in outcomes]}
+
+
+def _shown(outcome: Outcome) -> Spec:
+    check = outcome.check
+    origin = [
+        f"Source: {check.source}.",
+        check.obtained and f"Obtained: {check.obtained}.",
+        check.unstated and f"Not stated there: {check.unstated}.",
+        f"Allowed difference: {check.reason}.",
+        outcome.trouble,
+    ]
+    return {
+        "title": check.title,
+        "verdict": "agrees" if outcome.passed else "does not agree",
+        "origin": [one.replace("..", ".") for one in origin if one],
+        "table": table(check.title, _HEAD, [_row(one) for one in outcome.comparisons]),
+    }
+
+
+def _row(one: Comparison) -> list[Any]:
+    def difference(value: float) -> str:
+        return f"{100.0 * value:.2g} %" if one.measure == "relative" else f"{value:.2g}"
+
+    expected = f"{_SIGNS[one.measure]}{one.expected:.5g}" if one.measure in _SIGNS else one.expected
+    return [one.case, one.quantity, expected, one.computed, difference(one.error), difference(one.bound)]
