@@ -195,7 +195,7 @@ const Curve = view(({ live, onPick }) => {
   const found = shownCurve && drawing(shownCurve, live);
   if (hasPoints(shownCurve)) before = shownCurve;
   return html`<${Figure} id="friction-curve" title="Friction against speed" x=${x} y=${{ label: "friction coefficient μ" }}
-    empty=${curve.error ? "No curve yet." : "Computing the first points."} onClick=${pick} ...${found} />`;
+    empty=${curve.error ? "No curve yet: see the message below." : "Computing the first points."} onClick=${pick} ...${found} />`;
 });
 
 /** What is shown, of what there is of this kind of contact and this study. */

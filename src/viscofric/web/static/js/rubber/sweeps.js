@@ -129,6 +129,7 @@ const Source = view(({ result, error }) => {
 });
 
 const MEASURED = ["dma", "ramps"]; // sources whose moduli are shown as measured
+const NOTHING = "Nothing is read yet. Drop the files of your tests, or choose a material of the catalogue.";
 const MODULI = [
   ["isotherms-storage-modulus", "Storage modulus"],
   ["isotherms-loss-modulus", "Loss modulus"],
@@ -178,7 +179,7 @@ export default view(() => {
           <div class="waiting"><${Progress} job=${sweeps} label="Reading" cancels=${false} /></div>
           <${Numbers} of=${of} />
           <${Notes} kind="error" aria-live="assertive" list=${[said]} />
-          <${Notes} of=${of} list=${of ? [...(of.about ?? []), ...of.notes] : []} />
+          <${Notes} of=${of} list=${of ? [...(of.about ?? []), ...of.notes] : [!said && NOTHING]} />
           ${of && html`<${ReadFiles} of=${of} />`}
         <//>
         <${Amplitude} />

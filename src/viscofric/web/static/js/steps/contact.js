@@ -80,7 +80,7 @@ const Failed = view(() => {
 
 /** The pictures of the contact, or their empty frames, and the numbers that are not the main ones. */
 const Pictures = view(({ of }) => {
-  const shared = { of, empty: "Computing the contact." };
+  const shared = { of, empty: contact.error ? "No contact yet: see the message above." : "Computing the contact." };
   const row = ({ label, value, remark }) => [html`<${Term} label=${label} />`, value, remark];
   return html`<div class="grid contact-figures ${of && !of.map ? "without-map" : ""}">
     ${of?.map !== null && html`<${Figure} id="pressure-map" title="Contact pressure" ...${shared} />`}

@@ -28,16 +28,17 @@ export const MasterCurve = view(() => {
   const of = master.error ? null : master.result;
   const { found, by_rubber: byRubber, refusal, notes = [] } = of ?? {};
   const drawn = found && (!byRubber || given(fields).shifted === "found") ? "found" : "by_rubber";
-  const offered = { "@friction.beside": true, "@friction.shifted": found && byRubber, "@friction.law": found };
+  const there = Boolean(shownMeasured()?.curves);
+  const offered = { "@friction.beside": there, "@friction.shifted": found && byRubber, "@friction.law": found };
   const refused = refusal && `Shift factors cannot be determined from friction alone: ${refusal}`;
-  return html`<${Card} title="Friction master curve" hidden=${!shownMeasured()?.curves}>
+  return html`<${Card} title="Friction master curve">
     <${Form} of=${fields.filter(({ path }) => offered[path])} />
     <${Run} job=${master} label="Shifting" />
     <div class="grid">
       <${Figure} id="friction-master-curve" title="Friction at one temperature" height=${340} of=${of}
-        spec=${specOf(of, drawn)} />
+        spec=${specOf(of, drawn)} empty="Drop a traction test above: its temperatures are shifted onto one curve here." />
       <${Figure} id="friction-shift-factors" title="Shift factors" height=${340} of=${of}
-        empty="Friction at one temperature determines no shift factor." />
+        empty="Friction determines shift factors: drop a traction test at two temperatures or more." />
     </div>
     <${Notes} of=${of} list=${[refused, ...notes]} />
     <${Facts} of=${of} list=${found?.words ?? byRubber?.words} />
@@ -87,7 +88,11 @@ export const Identification = view(() => {
   identify.done = ({ sentences: [first] }) => announce(`The material is identified. ${first}`);
   // which factors to use is not known before
   const known = master.current || master.error || master.ended;
-  return html`<${Card} title="Material identified from friction" hidden=${!shownMeasured()?.curves}>
+  if (!shownMeasured()?.curves)
+    return html`<${Card} title="Material identified from friction">
+      <p class="help">Drop a traction test above: the modulus is inferred from its friction here.</p>
+    <//>`;
+  return html`<${Card} title="Material identified from friction">
     <${Form} of=${anchorFields()} />
     <div class="row"><${Button} kind="main" disabled=${!known} onClick=${() => identify.run()}>Identify the material<//></div>
     <${Run} job=${identify} label="Identifying" />
