@@ -38,6 +38,13 @@ def test_without_any_material_each_step_shows_its_figures_and_says_what_to_do(ta
         for name, words in found.items():
             assert _SAYS_WHAT_TO_DO.search(words), (name, words)
         tab.screenshot(f"empty-{step}")
+        # what is wrong is said once, in the words of the page
+        said = tab.value(
+            "[...document.querySelectorAll('.notes.error li')]"
+            ".filter((one) => one.checkVisibility()).map((one) => one.textContent)"
+        )
+        assert [words for words in said if "no material yet" in words] == said[:1], said
+        assert not any("[" in words for words in said), said  # no key of a run file
     assert "Nothing is read yet" in tab.text("#step-sweeps .notes.note")
     assert "traction test" in tab.text("#step-measurement .card:last-child")
 

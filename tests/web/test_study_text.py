@@ -107,3 +107,11 @@ def test_a_fresh_page_distinguishes_the_synthetic_rubber_from_published_ones() -
     assert synthetic == {name: name.startswith("synthetic") for name in synthetic}
     assert all(one["description"] for one in reported["catalogue"])
     assert start({"title": "mine"})["study"] == {"title": "mine"}
+
+
+def test_without_a_material_the_page_says_where_one_comes_from(tmp_path: Path) -> None:
+    without = {name: table for name, table in FIRST_STUDY.items() if name != "material"}
+    with pytest.raises(DocumentError) as error:
+        study_of({**without, "conditions": {**FIRST_STUDY["conditions"], "load": "10 X"}}, tmp_path)
+    assert {one.where: one.code for one in error.value.mistakes}["material"] == "no-material"
+    assert {one.where for one in error.value.mistakes} == {"material", "conditions.load"}

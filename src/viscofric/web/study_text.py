@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 RUN_FILE = "study.toml"
 _HEAD = "# Made on the local page of viscofric; to be run with: viscofric run study.toml\n"
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
+_NO_MATERIAL = Note(
+    "no-material",
+    "There is no material yet: drop DMA sweeps, or choose a material of the catalogue, in step 1, Data.",
+    "material",
+)
 _LONGEST_LINE = 100
 _DEEPEST = 10
 #: Keys of a run file, in its order.
@@ -71,7 +76,8 @@ def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
         study = parse_study(text, path)
     except StudyError as error:
         whole = error.note.reworded(lambda text: text.replace(f"{path}: ", ""))
-        raise DocumentError(error.mistakes or [whole]) from None
+        mistakes = [one for one in error.mistakes or [whole] if one.where != "material" or "material" in document]
+        raise DocumentError(mistakes + ([] if "material" in document else [_NO_MATERIAL])) from None
     for file in study.inputs:
         if file.parent != folder or file.name in ("", ".."):
             words = f"{brief(str(file))} lies elsewhere; drop the file on the page, and give its name alone."

@@ -23,7 +23,7 @@ export class JobError extends Error {
   name = "JobError";
 
   constructor({ message, field = null, problems = [{ message, field }], values = {} }) {
-    super(message);
+    super(problems.length === 1 ? problems[0].message : message);
     Object.assign(this, { field, problems, values });
   }
 }

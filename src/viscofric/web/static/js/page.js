@@ -1,6 +1,6 @@
 // What all steps share of the page: what it began with, its steps, and sentences for those who look and those who listen.
 
-import { homeOf } from "./fields.js";
+import { homeOf, homeless } from "./fields.js";
 import { html, signal } from "./reactive.js";
 import { page, state } from "./state.js";
 import { Button } from "./views.js";
@@ -59,8 +59,9 @@ export function explain(error, here) {
   return html`${error.message} ${go}`;
 }
 
-/** The same for the contact's step, which does not repeat the sentence at the field. */
+/** The same for the contact's step, which does not repeat the sentence at the field or at the top. */
 export function waits(what, error) {
+  if (homeless().some(({ field }) => field === error.field)) return `Follow the message at the top to update ${what}.`;
   const beside = homeOf(error.field) !== undefined && stepOf(error.field) === "contact";
   return beside ? `Fix the marked field to update ${what}.` : explain(error, "contact");
 }
