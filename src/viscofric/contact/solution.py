@@ -311,19 +311,23 @@ class ContactSolution(Plotted):
         return self.load / self.contact_area
 
     @property
-    def numbers(self) -> xarray.Dataset:
-        """All numbers and errors with units and long names; ``ancillary_variables`` names the error of each."""
+    def number_values(self) -> dict[str, float | None]:
+        """All numbers and errors by name, SI; None where there is none.  `numbers` has them with units and names."""
         found = self.diagnostics
         # With shear, the pressure's work alone is not what the material dissipates.
-        line, moves = self.geometry == "line", math.isfinite(self.speed) and self.coulomb == 0.0
-        values = {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
+        moves = math.isfinite(self.speed) and self.coulomb == 0.0
+        return {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
             "energy_balance": found.energy,
             "cells": max(found.shape),
             "friction_force_error": found.friction_error * self.load,
             "power": self.friction_force * self.speed if moves else None,
             "power_error": found.friction_error * self.load * abs(self.speed) if moves else None,
         }
-        return labelled_numbers(LINE_NUMBERS if line else NUMBERS, values)
+
+    @property
+    def numbers(self) -> xarray.Dataset:
+        """All numbers and errors with units and long names; ``ancillary_variables`` names the error of each."""
+        return labelled_numbers(LINE_NUMBERS if self.geometry == "line" else NUMBERS, self.number_values)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return pressure and displacement over x and y, and all `numbers`; the main results also as attributes."""

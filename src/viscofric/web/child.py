@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from viscofric.datasets import plain
 from viscofric.errors import ViscofricError, brief
 from viscofric.serving import at_most, limit_memory
-from viscofric.web.jobs import WARM
+from viscofric.web.jobs import LATER, WARM
 from viscofric.web.jobs.context import Context, beside_field
 from viscofric.web.study_files import check_confined
 
@@ -39,6 +39,7 @@ _LARGEST_FILE = 200_000_000  # bytes, of one that a job writes
 _NO_MEMORY = "There was not enough memory for this; request less accuracy or fewer points."
 _DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 _NICE = 5  # the server and the browser go first
+_IDLE = 2.0  # s without a job, after which what later jobs need is imported
 
 
 def main(parent: int, warm: Iterable[str] = WARM) -> None:
@@ -59,10 +60,16 @@ def main(parent: int, warm: Iterable[str] = WARM) -> None:
     for module in warm:
         import_module(module)
     desk.send(0, "ready", {})
+    later = list(LATER)
     while True:
         # an interrupt that came as its job ended reaches the loop; there is nothing left to interrupt then
         with contextlib.suppress(KeyboardInterrupt):
-            desk.work(desk.jobs.get())
+            try:
+                job = desk.jobs.get(timeout=_IDLE if later else None)
+            except queue.Empty:
+                import_module(later.pop(0))
+            else:
+                desk.work(job)
 
 
 def _end_with(parent: int) -> None:

@@ -58,3 +58,5 @@ KINDS: dict[str, Kind] = {
 
 #: What a process imports before its first job, the most urgent first.
 WARM = ("viscofric.contact.steady", "viscofric.study.run_file", "viscofric.web.jobs.warm")
+#: What it imports when it has nothing else to do: the first figure and the curve need none of it.
+LATER = ("xarray", "viscofric.web.jobs.sweeps", "viscofric.web.jobs.rubber")

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from viscofric.contact.fields.surface import surface_displacement
+from viscofric.contact.solution import ERRORS, ContactSolution
 from viscofric.datasets import plain
 from viscofric.notes import listed
 from viscofric.web.figures.contact import contact_view
@@ -17,7 +18,6 @@ from viscofric.web.figures.contact import contact_view
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.contact.solution import ContactSolution
     from viscofric.friction.cases.case import Case
     from viscofric.friction.cases.indenter_case import IndenterCase
     from viscofric.friction.cases.surface_case import SurfaceCase
@@ -282,11 +282,17 @@ def _with_error(value: float | None, error: float | None = None) -> dict[str, fl
 
 def _numbers(solution: ContactSolution | PeriodicSolution, more: dict[str, float]) -> dict[str, Any]:
     """Return the numbers of a contact, each with its error where it has one, and `more` without errors."""
-    data = solution.numbers
-    errors = {name: number.attrs.get("ancillary_variables") for name, number in data.items()}
+    if isinstance(solution, ContactSolution):  # the first figure does not wait for xarray
+        values = {name: value for name, value in solution.number_values.items() if value is not None}
+        errors = {name: error for name, error in ERRORS.items() if {name, error} <= values.keys()}
+    else:
+        data = solution.numbers
+        values = {str(name): number.item() for name, number in data.items()}
+        beside = {name: data[name].attrs.get("ancillary_variables") for name in values}
+        errors = {name: error for name, error in beside.items() if error}
     own = {
-        str(name): _with_error(data[name].item(), None if error is None else data[error].item())
-        for name, error in errors.items()
+        name: _with_error(value, values.get(errors.get(name) or ""))
+        for name, value in values.items()
         if name not in errors.values()
     }
     found: dict[str, Any] = plain(own | {name: _with_error(value) for name, value in more.items()}, _DIGITS)

@@ -1,10 +1,8 @@
-"""What the first job of a process would wait for, done before there is one; a process imports it when it is idle."""
-
-import xarray
+"""What the first jobs of a process would wait for, done before there is one."""
 
 from viscofric import units
-from viscofric.web.jobs import contact, curve, rubber, sweeps
+from viscofric.web.jobs import contact, curve
 
 units.registry()  # a second of reading all units there are
 
-__all__ = ["contact", "curve", "rubber", "sweeps", "xarray"]
+__all__ = ["contact", "curve"]
