@@ -133,9 +133,16 @@ def test_ticks_of_a_log_axis_are_read_at_once(tab: Tab) -> None:
     assert {"20", "50", "100", "200"} <= set(tab.value(f"{plot}.layout.xaxis.ticktext"))
 
 
-def test_a_printed_page_has_no_buttons(tab: Tab) -> None:
-    buttons = "[...document.querySelectorAll('button, .button')].filter((one) => one.checkVisibility()).length"
-    assert tab.value(buttons) > 0
-    tab.page.emulate_media(media="print")
-    assert tab.value(buttons) == 0
-    tab.page.emulate_media(media="screen")
+def test_a_printed_page_has_no_buttons_and_dark_ink(tab: Tab) -> None:
+    controls = "button:not(.term), .button, .drop, input[type=range], .progress, nav, details:not([open])"
+    seen = f"[...document.querySelectorAll('{controls}')].filter((one) => one.checkVisibility()).length"
+    ink = "getComputedStyle(document.querySelector('.step:not([hidden]) h1')).color"
+    tab.page.get_by_role("button", name="change to dark").click()
+    assert tab.value(ink) == "rgb(228, 232, 236)"
+    for step in ("contact", "sweeps", "motion", "measurement", "export"):
+        tab.step(step)
+        assert tab.value(seen) > 0
+        tab.page.emulate_media(media="print")
+        assert tab.value(seen) == 0, step
+        assert tab.value(ink) == "rgb(29, 35, 41)", step
+        tab.page.emulate_media(media="screen")
