@@ -29,7 +29,7 @@ _PATIENCE = 3  # updates of the contact set without a smaller residual before sp
 _FEW_DIRECTIONS = (6, 12)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
 _FEW_PRODUCTS = 300  # enough for most contacts, without the following methods
-_FIRST_STEPS = (5, 7)  # of the splitting on each grid, likewise
+_FIRST_STEPS = (3, 5)  # of the splitting on each grid, likewise
 _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not converge; then twice as many, and so on
 # In turn, with more directions: oblique motions in particular may not converge with the whole of it.
