@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.notes import Note, note_of
 
 if TYPE_CHECKING:
@@ -50,15 +50,13 @@ def numbers(values: object, name: str, *, infinite: bool = False, missing: bool 
     try:
         found = real(values)
     except ValueError as error:
-        raise InputError(
-            f"{name} = {brief(values)}: must be an array of numbers, but contains {error}.", code="not-a-number"
+        raise wrong_argument(
+            name, values, f"must be an array of numbers, but contains {error}.", "not-a-number"
         ) from None
     allowed = np.isfinite(found) | (np.isinf(found) & infinite) | (np.isnan(found) & missing)
     if not allowed.all():
         wrong = float(found[~allowed].flat[0])
-        raise InputError(
-            f"{name} = {brief(values)}: must hold finite numbers; {wrong} cannot be used.", code="not-a-number"
-        )
+        raise wrong_argument(name, values, f"must hold finite numbers; {wrong} cannot be used.", "not-a-number")
     return found
 
 
@@ -99,9 +97,9 @@ def number(value: object, name: str) -> float:
     try:
         found = real(value)
     except ValueError as error:
-        raise InputError(f"{name} = {brief(value)}: must be a number, not {error}.", code="not-a-number") from None
+        raise wrong_argument(name, value, f"must be a number, not {error}.", "not-a-number") from None
     if found.ndim or not math.isfinite(float(found)):
-        raise InputError(f"{name} = {brief(value)}: must be a number, finite and only one.", code="not-a-number")
+        raise wrong_argument(name, value, "must be a number, finite and only one.", "not-a-number")
     return float(found)
 
 
@@ -110,30 +108,28 @@ def whole_number(value: object, name: str, least: int, most: int | None = None, 
     whole = isinstance(value, Integral) and not isinstance(value, (bool, np.bool_, np.timedelta64))
     if not whole or not least <= value <= (LARGEST_WHOLE if most is None else most):  # type: ignore[operator]
         limits = f", {least} or more" if most is None else f" from {least} to {most}"
-        raise InputError(
-            f"{name} = {brief(value)}: must be {right or f'a whole number{limits}'}.", code="not-a-whole-number"
-        )
+        raise wrong_argument(name, value, f"must be {right or f'a whole number{limits}'}.", "not-a-whole-number")
     return int(value)  # type: ignore[call-overload, no-any-return]
 
 
 def flag(value: object, name: str) -> bool:
     """Return True or False, and refuse other values that Python accepts as truth values."""
     if not isinstance(value, (bool, np.bool_)):
-        raise InputError(f"{name} = {brief(value)}: must be True or False.", code="wrong-type")
+        raise wrong_argument(name, value, "must be True or False.", "wrong-type")
     return bool(value)
 
 
 def text(value: object, name: str) -> str:
     """Return a text, and refuse anything else."""
     if not isinstance(value, str):
-        raise InputError(f"{name} = {brief(value)}: must be text.", code="wrong-type")
+        raise wrong_argument(name, value, "must be text.", "wrong-type")
     return value
 
 
 def sentences(values: Iterable[str], name: str) -> tuple[Note, ...]:
     """Return several texts as notes; a single text is refused, rather than split into letters."""
     if not isinstance(values, (tuple, list)) or not all(isinstance(one, str) for one in values):
-        raise InputError(f"{name} = {brief(values)}: must be a tuple of texts.", code="wrong-type")
+        raise wrong_argument(name, values, "must be a tuple of texts.", "wrong-type")
     return tuple(map(note_of, values))
 
 
@@ -141,7 +137,7 @@ def insist_on(value: object, name: str, *kinds: type, right: str = "") -> None:
     """Refuse a value of none of the kinds; `right` describes the right one in words."""
     if not isinstance(value, kinds):
         wanted = right or " or ".join(kind.__name__ for kind in kinds)
-        raise InputError(f"{name} = {brief(value)}: must be {wanted}.", code="wrong-type")
+        raise wrong_argument(name, value, f"must be {wanted}.", "wrong-type")
 
 
 def exactly_one(**given: object) -> str:
@@ -159,7 +155,7 @@ def exactly_one(**given: object) -> str:
 def insist_on_function(value: object, name: str, *, needed: bool = False) -> None:
     """Refuse what cannot be called, except None if no function is needed."""
     if not (callable(value) or (value is None and not needed)):
-        raise InputError(f"{name} = {brief(value)}: must be a function.", code="wrong-type")
+        raise wrong_argument(name, value, "must be a function.", "wrong-type")
 
 
 def check_cost(sizes: Iterable[Any], name: str) -> None:

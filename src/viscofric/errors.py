@@ -87,7 +87,7 @@ def check_choice(value: object, name: str, *choices: str) -> None:
     """Raise `InputError` unless a value is one of the choices."""
     if not isinstance(value, str) or value not in choices:
         *others, last = map(repr, choices)
-        raise InputError(f"{name} = {brief(value)}: must be {', '.join(others)} or {last}.", code="wrong-choice")
+        raise wrong_argument(name, value, f"must be {', '.join(others)} or {last}.", "wrong-choice")
 
 
 class ViscofricError(Exception):
@@ -150,13 +150,14 @@ class ViscofricError(Exception):
 
     def reworded(self, change: Callable[[str], str]) -> Self:
         """Return the error with its text changed, such as with the user's own file names."""
-        return self._with(self.note.reworded(change))
+        return self.with_note(self.note.reworded(change))
 
     def at(self, where: str) -> Self:
         """Return the error with the place named before its sentence."""
-        return self._with(self.note.at(where))
+        return self.with_note(self.note.at(where))
 
-    def _with(self, note: Note) -> Self:
+    def with_note(self, note: Note) -> Self:
+        """Return the error with another note."""
         other = copy.copy(self)
         other.note = note
         other.args = (other.words("python"),)
@@ -165,6 +166,11 @@ class ViscofricError(Exception):
 
 class InputError(ViscofricError, ValueError):
     """A value given to viscofric cannot be used: wrong unit, sign, range or shape."""
+
+
+def wrong_argument(name: str, value: object, problem: str, code: str, field: str | None = None) -> InputError:
+    """Return the error of an argument's value; its note has the name, for readers who typed an option instead."""
+    return InputError(f"{name} = {brief(value)}: {problem}", code=code, field=field, values={"argument": name})
 
 
 class DataFileError(InputError):

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast
 import numpy as np
 
 from viscofric.arguments import LARGEST, insist_on, numbers, real
-from viscofric.errors import InputError, ViscofricError, brief, not_imported
+from viscofric.errors import InputError, ViscofricError, not_imported, wrong_argument
 
 if TYPE_CHECKING:
     import pint
@@ -98,7 +98,7 @@ def registry() -> pint.UnitRegistry[Any]:
 
 def _wrong(code: str, name: str, value: object, unit: str, reason: str, right: str = "") -> InputError:
     right = right or f"write, for example, {_EXAMPLE.get(unit, f'a quantity in {unit}')}"
-    return InputError(f"{name} = {brief(value)}: {reason}; {right}.", code=code)
+    return wrong_argument(name, value, f"{reason}; {right}.", code)
 
 
 def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
@@ -316,9 +316,7 @@ def share(value: Quantity, name: str, *, example: float) -> float:
     """Convert like `to_si` and insist on a pure number between 0 and 1, such as the example."""
     number = to_si(value, "dimensionless", name)
     if not 0.0 < number < 1.0:
-        raise InputError(
-            f"{name} = {brief(value)}: must lie between 0 and 1, such as {example:g}.", code="out-of-range"
-        )
+        raise wrong_argument(name, value, f"must lie between 0 and 1, such as {example:g}.", "out-of-range")
     return number
 
 
@@ -327,7 +325,7 @@ def checked_poisson_ratio(value: Quantity, name: str = "poisson_ratio", *, above
     number = to_si(value, "dimensionless", name)
     if not (number >= 0.0 if above is None else number > above) or number > 0.5:
         limits = "lie between 0 and 0.5" if above is None else f"be above {above:g} and at most 0.5"
-        raise InputError(f"{name} = {brief(value)}: must {limits}.", code="poisson-ratio")
+        raise wrong_argument(name, value, f"must {limits}.", "poisson-ratio")
     return number
 
 
@@ -346,7 +344,7 @@ def two_lengths(value: Quantity | tuple[Quantity, Quantity], name: str = "spacin
     """Return two lengths above zero, along x and y, m; a single one stands for both."""
     pair = value if isinstance(value, (tuple, list)) else (value, value)
     if len(pair) != 2:
-        raise InputError(f"{name} = {brief(value)}: must be one length or two, those of x and y.", code="wrong-count")
+        raise wrong_argument(name, value, "must be one length or two, those of x and y.", "wrong-count")
     return positive(pair[0], "m", name), positive(pair[1], "m", name)
 
 

@@ -19,7 +19,7 @@ from click.testing import CliRunner, Result
 from cli.refusals import refusal, refusal_of
 from marks import apart
 from viscofric.cli import main
-from viscofric.cli.run import print_outcome
+from viscofric.cli.run import NOT_ACCURATE, print_outcome
 from viscofric.notes import Note, codes
 from viscofric.study import open_results
 from viscofric.study.results.file import save_results
@@ -214,7 +214,7 @@ def test_missed_accuracy_is_a_warning_and_a_number_and_no_failure(tmp_path: Path
     accuracy = 1e-3
     """
     result = call("run", write(tmp_path, study=surface), "--json")
-    assert result.exit_code == 0, result.output
+    assert result.exit_code == NOT_ACCURATE, result.output
     finished = json.loads(result.stdout.splitlines()[-1])
     results = open_results(tmp_path / "study.results")
     cases = results.dataset

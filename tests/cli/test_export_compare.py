@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from cli.refusals import refusal
+from refusals import refused
 from study.sweeps import made_results, made_sweep
 from viscofric.cli import main
 
@@ -82,3 +83,29 @@ def test_what_cannot_be_compared_has_an_exit_status_of_its_own(pair: tuple[Path,
     done = call("compare", pair[0], tmp_path)
     assert done.exit_code == 2
     assert done.stderr.startswith("Error: ")
+
+
+def test_a_point_and_a_line_contact_are_not_compared(pair: tuple[Path, Path], tmp_path: Path) -> None:
+    import viscofric as vf
+    from viscofric.friction.curve_files import write_friction_curves
+
+    rubber, about = vf.synthetic_fluoroelastomer(), {"speeds": [0.02, 0.2], "temperatures": "60 degC", "accuracy": 0.05}
+    for name, body, load in (("N", vf.Ball("1 cm"), "25 N"), ("m", vf.Cylinder("1 cm"), "25 N/m")):
+        curves = vf.predict_friction(rubber, body, load=load, **about)
+        write_friction_curves(curves, tmp_path / f"{name}.csv")
+    assert call("compare", tmp_path / "N.csv", tmp_path / "N.csv").exit_code == 0
+    found = call("compare", tmp_path / "N.csv", tmp_path / "m.csv")
+    assert found.exit_code == 2
+    assert "N/m" in found.stderr
+    with refused("other-geometry"):
+        vf.compare_results(tmp_path / "N.csv", tmp_path / "m.csv")
+
+
+def test_report_has_the_exit_status_of_the_run(pair: tuple[Path, Path], tmp_path: Path) -> None:
+    for folder, status in ((pair[0], 3), (pair[1], 0)):
+        done = call("report", folder, "--out", tmp_path, "--json")
+        assert done.exit_code == status, done.output
+        found = json.loads(done.stdout)
+        assert found["exit_status"] == status
+        assert len(found["failures"]) == (1 if status else 0)
+        assert done.stderr.count("Failed: ") == (1 if status else 0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import sys
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.output import json_option, print_json
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ _PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thi
     type=click.Path(path_type=Path, file_okay=False),
     help="Results folder to check instead of STUDY: compare every stored contact, and results.nc, with its checksum.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print the findings as JSON, in SI units.")
+@json_option("Print the findings as JSON, in SI units.")
 def command(study: Path | None, results: Path | None, as_json: bool) -> None:
     """Validate a run file and its data files, and estimate the work; nothing is solved.
 
@@ -58,7 +58,7 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         found = check_study(parse_study(text, study), study)
     record = _record(found, study)
     if as_json:
-        click.echo(json.dumps(record, indent=2, ensure_ascii=False))
+        print_json(record)
         return
     for word, line in _lines(found, record, study):
         click.echo(f"{word:10} {line}")
@@ -79,7 +79,7 @@ def _check_results(folder: Path, as_json: bool) -> None:
             "damaged": {str(path): reason for path, reason in found.damaged.items()},
             "unverified": [str(path) for path in found.unverified],
         }
-        click.echo(json.dumps(record, indent=2, ensure_ascii=False))
+        print_json(record)
     else:
         files = found.cases + found.finished
         click.echo(f"contacts   {found.cases} stored")

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import sys
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+
+from viscofric.cli.files import CSV, DASH
+from viscofric.cli.output import json_option, out_option, print_json, write_rows
 
 if TYPE_CHECKING:
     from viscofric.study.results.compare import ResultsComparison, VariableDifference
@@ -29,8 +32,9 @@ Example:
     metavar="SHARE",
     help="Largest relative difference accepted as equal; 0: identical digits [default: twice the stated errors].",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
-def command(first: Path, second: Path, tolerance: float | None, as_json: bool) -> None:
+@out_option("Write the table of differences (CSV); `-` prints it.", endings=CSV)
+@json_option("Print everything as JSON, in SI units.")
+def command(first: Path, second: Path, tolerance: float | None, out: Path | None, as_json: bool) -> None:
     """Compare two results case by case: folders of studies, results.nc files or tables of friction curves (CSV).
 
     Exit status: 0 equal, 1 different, 2 not comparable.
@@ -43,9 +47,13 @@ def command(first: Path, second: Path, tolerance: float | None, as_json: bool) -
     except ViscofricError as error:
         click.echo(f"Error: {error}", err=True)
         sys.exit(TROUBLE)
+    if out is not None:
+        from viscofric.study.results.case_table import shown_place
+
+        write_rows(out, [asdict(one) | {"where": shown_place(one.where)} for one in found.differences])
     if as_json:
-        click.echo(json.dumps(_record(first, second, found), indent=2, ensure_ascii=False, allow_nan=False))
-    else:
+        print_json(_record(first, second, found))
+    elif out != DASH:
         _print(first, second, found)
     sys.exit(0 if found.equal else DIFFERENT)
 
@@ -94,8 +102,6 @@ def _verdict(found: ResultsComparison) -> str:
 
 
 def _record(first: Path, second: Path, found: ResultsComparison) -> dict[str, Any]:
-    from dataclasses import asdict
-
     return {
         "format": "viscofric comparison 1",
         "inputs": {"first": str(first), "second": str(second), "tolerance": found.tolerance},

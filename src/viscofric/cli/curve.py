@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +15,11 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import CSV, DASH, FILE, OUT, PICTURES, check_ending, refuse_to_overwrite, write_curves
+from viscofric.cli.files import CSV, DASH, refuse_to_overwrite, write_curves
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.run import NOT_ACCURATE
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
@@ -57,9 +58,9 @@ Example:
     help="Bootstrap samples of a material fitted to sweeps, for the 95 % band of its friction; 20 or more, 0 for none.",
 )
 @click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
-@click.option("--out", type=OUT, help="Write the friction curves (CSV); `-` prints them instead of the table.")
-@click.option("--picture", type=FILE, help="Draw friction against speed (PNG, SVG or PDF).")
-@click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
+@out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
+@picture_option("Draw friction against speed")
+@json_option("Print the friction curves as JSON, in SI units.")
 def command(
     out: Path | None,
     picture: Path | None,
@@ -70,8 +71,6 @@ def command(
 
     Quantities carry their unit. Each contact is solved to the requested accuracy.
     """
-    check_ending(picture, "--picture", PICTURES)
-    check_ending(out, "--out", CSV)
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, inputs_of(parameters))
@@ -99,12 +98,25 @@ def command(
                 **settings,
             )
         if as_json:
-            click.echo(json.dumps(_record(curves, rubber, shape.record, parameters), indent=2, ensure_ascii=False))
+            print_json(_record(curves, rubber, shape.record, parameters))
         elif out != DASH:
             _print(name, rubber, curves)
         print_notes(curves.notes)
         for written in write_curves(curves, out, picture, predicted=True, synthetic=rubber.synthetic):
             click.echo(written, err=as_json or out == DASH)
+    beyond = _beyond_accuracy(curves, parameters["accuracy"])
+    if beyond:
+        said = f"{beyond} of {len(curves)} points have an estimated error beyond --accuracy {parameters['accuracy']:g}."
+        click.echo(f"Warning: {said}", err=True)
+        click.get_current_context().exit(NOT_ACCURATE)
+
+
+def _beyond_accuracy(curves: FrictionCurves, accuracy: float) -> int:
+    """Return the number of points whose estimated error exceeds the accuracy; friction near zero as the solver does."""
+    from viscofric.contact.free.estimates import FRICTION_FLOOR
+
+    sizes = abs(curves.viscoelastic).clip(min=FRICTION_FLOOR)
+    return int((curves.viscoelastic_error > accuracy * sizes * (1.0 + 1e-9)).sum())
 
 
 def _kelvins(material: Material, given: list[float]) -> list[float]:

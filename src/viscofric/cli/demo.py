@@ -7,17 +7,13 @@ from pathlib import Path
 
 import click
 
+from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option
+
 
 @click.command(name="demo")
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, file_okay=False),
-    default=Path("viscofric-demo"),
-    show_default=True,
-    help="Folder for the results.",
-)
-def command(output: Path) -> None:
+@out_option("Folder for the results.", FOLDER, default=Path("viscofric-demo"))
+@json_option(RUN_JSON)
+def command(out: Path, as_json: bool) -> None:
     """Run the built-in example: DMA and friction data of a SYNTHETIC fluoroelastomer.
 
     The data are calculated from stated parameters, with noise; nothing was measured.
@@ -26,4 +22,4 @@ def command(output: Path) -> None:
 
     click.echo("Built-in example: a SYNTHETIC fluoroelastomer; nothing in it was measured.", err=True)
     with as_file(files("viscofric") / "example") as folder:
-        run_and_report(folder / "study.toml", output, resume=True)
+        run_and_report(folder / "study.toml", out, resume=True, as_json=as_json)

@@ -128,13 +128,17 @@ def write_fields(path: Path, solution: ContactSolution) -> None:
     Parameters
     ----------
     path : Path
-        Ends in ``.nc`` (netCDF) or ``.csv`` (a line for each cell: x, y, pressure, displacement).  Replaced if it
-        exists.
+        Ends in ``.nc`` (netCDF) or ``.csv`` (a line for each cell: x, y, pressure, displacement; `-` prints it).
+        Replaced if it exists.
     solution : ContactSolution
     """
     from viscofric.files import write_atomically
 
-    write_atomically(path, _table(solution) if path.suffix.lower() == ".csv" else _netcdf(path, solution.to_dataset()))
+    if path.suffix.lower() == ".nc":
+        write_atomically(path, _netcdf(path, solution.to_dataset()))
+        return
+    with to_be_written(path) as target:
+        write_atomically(target, _table(solution))
 
 
 def write_dataset(path: Path, data: xarray.Dataset) -> None:

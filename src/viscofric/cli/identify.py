@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +9,8 @@ import click
 
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import FILE, JSON, PICTURES, Source, check_ending, plainly, refuse_to_overwrite
+from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 from viscofric.notes import listed
@@ -141,11 +141,11 @@ Example:
 @click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
 @click.option("--name", default="rubber identified from friction", show_default=True, help="Name of the material.")
 @separation_options
-@click.option("--out", type=FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
-@click.option("--picture", type=FILE, help="Draw the modulus with its limits (PNG, SVG or PDF).")
+@out_option("Write the material (JSON), for `solve`, run files and `material`.", FILE, endings=JSON)
+@picture_option("Draw the modulus with its limits")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
-@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
+@json_option("Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...],
     out: Path | None,
@@ -160,8 +160,6 @@ def command(
     SOURCES are tables of friction curves (CSV, as written by `viscofric measure --out`), files of a tribometer, or
     `-` for standard input. Friction hardly determines the magnitude of the modulus: give an anchor or a prior.
     """
-    check_ending(picture, "--picture", PICTURES)
-    check_ending(out, "--out", JSON)
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, sources)
@@ -196,7 +194,7 @@ def command(
             inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
             inputs |= chosen(parameters) | settings
             record = identification_record(found, inputs) | listed("notes", curves.notes)
-            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False, default=str))
+            print_json(record)
         else:
             _print(found)
         print_notes(curves.notes)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -18,7 +17,8 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import DASH, DATA, FILE, OUT, PICTURES, check_ending, refuse_to_overwrite, write_dataset
+from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_dataset
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -54,20 +54,14 @@ Examples:
 @click.option(
     "--accuracy", type=float, default=1e-4, show_default=True, help="Target error of the restitution, absolute."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print inputs and results as JSON, in SI units.")
-@click.option(
-    "-o", "--out", type=OUT, help="Write the contact over time, or the curve of several (.csv or .nc); `-` prints it."
-)
-@click.option(
-    "--picture", type=FILE, help="Draw the contact over time, or the restitution of several (PNG, SVG or PDF)."
-)
+@json_option()
+@out_option("Write the contact over time, or the curve of several (.csv or .nc); `-` prints it.", endings=DATA)
+@picture_option("Draw the contact over time, or the restitution of several")
 def command(as_json: bool, out: Path | None, picture: Path | None, **parameters: Any) -> None:
     """Solve the impact of a body of revolution of given mass: restitution, contact time, largest force.
 
     Quantities carry their unit. Several speeds or temperatures give the restitution curve.
     """
-    check_ending(out, "--out", DATA)
-    check_ending(picture, "--picture", PICTURES)
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, inputs_of(parameters))
@@ -95,7 +89,7 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
             }
             from viscofric.report.texts.motion import impact_record
 
-            click.echo(json.dumps(impact_record(inputs, result, seconds), ensure_ascii=False, allow_nan=False))
+            print_json(impact_record(inputs, result, seconds), indent=None)
         elif out != DASH:
             synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
             click.echo(f"{name}{synthetic}, {parameters['mass']}\n")

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import CSV, FILE, PICTURES, Source, check_ending, plainly, refusal, refuse_to_overwrite
+from viscofric.cli.files import CSV, DASH, Source, plainly, refusal, refuse_to_overwrite, to_be_written
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 
@@ -58,10 +58,10 @@ Example:
     help="Relative standard error shared by all points of a temperature, to include in the errors of α.",
 )
 @separation_options
-@click.option("--out", type=FILE, help="Write the shift factors with their errors (CSV).")
-@click.option("--picture", type=FILE, help="Draw master curve and shift factors (PNG, SVG or PDF).")
+@out_option("Write the shift factors with their errors (CSV); `-` prints them instead of the table.", endings=CSV)
+@picture_option("Draw master curve and shift factors")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
-@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
+@json_option("Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
 ) -> None:
@@ -71,8 +71,6 @@ def command(
     `-` for standard input. If the curves do not overlap, friction determines no shift factors: those of --shift are
     used; without --shift, that is an error.
     """
-    check_ending(picture, "--picture", PICTURES)
-    check_ending(out, "--out", CSV)
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, sources)
@@ -100,12 +98,12 @@ def command(
                 name: parameters[name] for name in ("reference", "law", "ball", "level_error")
             }
             record = shift_record(master, law, agreement, inputs | settings) | {"law_explanation": why or None}
-            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
-        else:
+            print_json(record)
+        elif out != DASH:
             _print(master, known, law, why, agreement)
         print_notes((*curves.notes, *master.notes))
         for written in _write(master, known, out, picture, synthetic):
-            click.echo(written, err=as_json)
+            click.echo(written, err=as_json or out == DASH)
 
 
 def _shifted(
@@ -175,8 +173,9 @@ def _write(
     """Write the requested files, and return the messages about them."""
     said = []
     if out is not None:
-        master.shift_factors.save(out)
-        said.append(f"factors  {out}")
+        with to_be_written(out) as path:
+            master.shift_factors.save(path)
+        said += [] if out == DASH else [f"factors  {out}"]
     if picture is not None:
         from viscofric.report.figures.friction import shifted_figure
         from viscofric.report.figures.saving import save_picture

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,15 +10,12 @@ from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import (
     CSV,
     DASH,
-    FILE,
-    OUT,
-    PICTURES,
     Source,
-    check_ending,
     plainly,
     refuse_to_overwrite,
     write_curves,
 )
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
@@ -36,14 +32,10 @@ Example:
 @click.command(name="measure", epilog=_EXAMPLE)
 @click.argument("runs", nargs=-1, required=True, type=Source())
 @separation_options
-@click.option("--out", type=OUT, help="Write the friction curves (CSV); `-` prints them instead of the table.")
-@click.option(
-    "--picture",
-    type=FILE,
-    help="Draw viscoelastic and Coulomb friction against speed (PNG, SVG or PDF).",
-)
+@out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
+@picture_option("Draw viscoelastic and Coulomb friction against speed")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
-@click.option("--json", "as_json", is_flag=True, help="Print the friction curves as JSON, in SI units.")
+@json_option("Print the friction curves as JSON, in SI units.")
 def command(
     runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
 ) -> None:
@@ -53,8 +45,6 @@ def command(
     rubber, Coulomb friction with the slip, the zero offset of the force cell with neither. Several files make one
     test; `-` is standard input.
     """
-    check_ending(picture, "--picture", PICTURES)
-    check_ending(out, "--out", CSV)
     for target in (out, picture):
         if target is not None:
             refuse_to_overwrite(target, runs)
@@ -67,7 +57,7 @@ def command(
         if as_json:
             inputs = {"runs": [plainly(str(path)) for path in runs], **settings}
             record = friction_record(curves, inputs)
-            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+            print_json(record)
         elif out != DASH:
             _print(curves)
         print_notes(curves.notes)

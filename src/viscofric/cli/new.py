@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli.files import refusal
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
@@ -50,11 +51,16 @@ _EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words 
     is_flag=True,
     help=f"Also write {SCHEMA}, with which editors complete and check the run file; without FOLDER, print it.",
 )
-def command(folder: Path | None, template: str, schema: bool) -> None:
+@out_option("Folder to write into, instead of FOLDER.", FOLDER)
+@json_option("Print the written files as JSON.")
+def command(folder: Path | None, template: str, schema: bool, out: Path | None, as_json: bool) -> None:
     """Write an example study to FOLDER: a commented run file and SYNTHETIC data to replace by your own.
 
     With - instead of FOLDER, only the run file is printed.
     """
+    if folder is not None and out is not None:
+        raise click.UsageError("FOLDER and --out are both given; they are the same.")
+    folder = folder or out
     if folder is None:
         if not schema:
             raise click.UsageError("give the FOLDER to write the study into, or - to print its run file.")
@@ -71,7 +77,10 @@ def command(folder: Path | None, template: str, schema: bool) -> None:
     if schema:
         contents[SCHEMA] = _schema().encode()
     _write(folder, contents)
-    click.echo(f"run file {folder / 'study.toml'}")
+    if as_json:
+        print_json({"run_file": folder / "study.toml", "files": [folder / name for name in contents]})
+    else:
+        click.echo(f"run file {folder / 'study.toml'}")
 
 
 def template_text(name: str) -> str:

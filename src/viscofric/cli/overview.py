@@ -51,7 +51,7 @@ COMMANDS = {name: words for group in GROUPS.values() for name, words in group.it
 _ABOUT = "Hysteresis friction (rolling resistance) of rubber, from laboratory data."
 _STATUSES = (
     "0 success, 1 bad input or not solved, 2 wrong usage, 3 some cases",
-    "failed, 130 interrupted, 143 terminated.",
+    "failed, 4 accuracy not reached, 130 interrupted, 143 terminated.",
 )
 
 

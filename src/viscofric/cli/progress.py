@@ -12,6 +12,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
 
+from viscofric.datasets import plain
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import TracebackType
@@ -143,7 +145,7 @@ class JsonProgress(Silent):
         self._line({"event": event, **values})
 
     def _line(self, values: dict[str, Any]) -> None:
-        self._output.write(json.dumps(values, ensure_ascii=False) + "\n")
+        self._output.write(json.dumps(plain(values, digits=None), ensure_ascii=False, allow_nan=False) + "\n")
         self._output.flush()
 
 

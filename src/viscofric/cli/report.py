@@ -2,29 +2,33 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
 
+from viscofric.cli.errors import reported_errors
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json
+
 
 @click.command(name="report")
 @click.argument("results", type=click.Path(path_type=Path))
-@click.option(
-    "--output",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for report.html and figures [default: RESULTS].",
-)
-def command(results: Path, output: Path | None) -> None:
-    """Write figures and report of a study again, from its RESULTS folder."""
-    from viscofric.errors import ViscofricError
+@out_option("Folder for report.html and figures [default: RESULTS].", FOLDER)
+@json_option("Print the written files, and what the report says of failed cases and checks, as JSON.")
+def command(results: Path, out: Path | None, as_json: bool) -> None:
+    """Write figures and report of a study again, from its RESULTS folder; the exit status is that of `run`."""
+    from viscofric.cli.run import outcome_record, print_outcome, status_of
     from viscofric.report import write_figures_and_report
     from viscofric.study import open_results
 
-    try:
+    with reported_errors("run_file"):
         found = open_results(results)
-        figures, report = write_figures_and_report(found.tree, found.folder if output is None else output)
-        for figure in figures:
-            click.echo(f"figure   {figure}")
-        click.echo(f"report   {report}")
-    except ViscofricError as error:
-        raise click.ClickException(str(error)) from error
+        figures, report = write_figures_and_report(found.tree, found.folder if out is None else out)
+        print_outcome(found, quiet=True)
+        if as_json:
+            print_json(outcome_record(found, figures, report))
+        else:
+            for figure in figures:
+                click.echo(f"figure   {figure}")
+            click.echo(f"report   {report}")
+    sys.exit(status_of(found))

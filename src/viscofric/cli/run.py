@@ -10,12 +10,15 @@ import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.errors import print_doubtful_checks
+from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from viscofric.study import StudyResults
 
-SOME_CASES_FAILED = 3
+SOME_CASES_FAILED, NOT_ACCURATE = 3, 4
+#: Checks of the numbers themselves; others judge the assumptions and the data.
+_NUMERICAL = ("Accuracy", "Energy balance", "Contact conditions")
 # As many notes and kinds of failure are printed; the report has them all.
 _MOST_LINES = 5
 # Checks that a study reports as warnings, notes or failures of its own.
@@ -32,12 +35,7 @@ _REPORTED_OTHERWISE = (
 
 @click.command(name="run")
 @click.argument("study", type=click.Path(path_type=Path))
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for the results [default: STUDY.results beside the run file].",
-)
+@out_option("Folder for the results [default: STUDY.results beside the run file].", FOLDER)
 @click.option(
     "--resume",
     is_flag=True,
@@ -50,11 +48,11 @@ _REPORTED_OTHERWISE = (
 )
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes on this machine.")
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://10.0.0.1:8786.")
-@click.option("--json", "as_json", is_flag=True, help="Print progress as JSON, one object a line.")
+@json_option(RUN_JSON)
 @click.option("-q", "--quiet", is_flag=True, help="Print only errors, warnings and failed cases.")
 def command(
     study: Path,
-    output: Path | None,
+    out: Path | None,
     resume: bool,
     finished_only: bool,
     workers: int | None,
@@ -67,7 +65,7 @@ def command(
     STUDY is a run file (TOML). Every contact is stored as soon as it is solved: --resume continues an interrupted
     study, with identical results. The results do not depend on the number of workers.
     """
-    folder = study.with_suffix(".results") if output is None else output
+    folder = study.with_suffix(".results") if out is None else out
     run_and_report(
         study,
         folder,
@@ -110,26 +108,43 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         terminated = isinstance(stop, Terminated)
         click.echo(("Terminated." if terminated else "Interrupted.") + _kept(output), err=True)
         sys.exit(TERMINATED if terminated else INTERRUPTED)
-    written = {
-        "figures": [str(figure) for figure in figures],
-        "data": str(results.folder / "results.nc"),
-        "report": str(report),
-    }
-    listener.write(
-        "finished",
-        **listed("failures", results.failures),
-        **listed("warnings", results.warnings),
-        beyond_accuracy=results.beyond_accuracy,
-        **written,
-    )
+    listener.write("finished", **outcome_record(results, figures, report))
     print_outcome(results, quiet=quiet or as_json)
     if not (quiet or as_json):
         for figure in figures:
             click.echo(f"figure   {figure}")
-        click.echo(f"data     {written['data']}")
+        click.echo(f"data     {results.folder / 'results.nc'}")
         click.echo(f"report   {report}")
+    if status := status_of(results):
+        sys.exit(status)
+
+
+def outcome_record(results: StudyResults, figures: list[Path], report: Path) -> dict[str, Any]:
+    """Return the failures, warnings, notes and checks of a study, and the files of its report, in plain types."""
+    from viscofric.report.texts.checks import all_checks
+
+    return {
+        **listed("failures", results.failures),
+        **listed("warnings", results.warnings),
+        **listed("notes", results.notes),
+        "checks": [check.record("run_file") for check in all_checks(results.tree)],
+        "beyond_accuracy": results.beyond_accuracy if "prediction" in results.tree.children else 0,
+        "exit_status": status_of(results),
+        "figures": figures,
+        "data": results.folder / "results.nc",
+        "report": report,
+    }
+
+
+def status_of(results: StudyResults) -> int:
+    """Return the exit status of results: failed cases, or a numerical check that is not met."""
+    from viscofric.report.texts.checks import all_checks
+
     if results.failures:
-        sys.exit(SOME_CASES_FAILED)
+        return SOME_CASES_FAILED
+    checks = all_checks(results.tree)
+    unmet = (check.verdict == "failed" or (check.name in _NUMERICAL and check.holds is False) for check in checks)
+    return NOT_ACCURATE if any(unmet) else 0
 
 
 def _insist_on(*written: Path) -> None:

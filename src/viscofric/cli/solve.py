@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from dataclasses import replace
@@ -20,8 +19,9 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import DATA, FILE, PICTURES, check_ending, refuse_to_overwrite, write_fields
+from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.notes import Note, note_of
 
@@ -77,17 +77,15 @@ Example:
 @click.option(
     "--derivatives", is_flag=True, help="Also compute the derivatives of friction by speed, load and each mode."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print inputs, results and diagnostics as JSON, in SI units.")
-@click.option("--picture", type=FILE, help="Draw pressure and profile (PNG, SVG or PDF).")
-@click.option("-o", "--output", type=FILE, help="Write pressure and displacement (.nc or .csv).")
-def command(as_json: bool, picture: Path | None, output: Path | None, **parameters: Any) -> None:
+@json_option("Print inputs, results and diagnostics as JSON, in SI units.")
+@picture_option("Draw pressure and profile")
+@out_option("Write pressure and displacement (.nc or .csv); `-` prints the table.", endings=DATA)
+def command(as_json: bool, picture: Path | None, out: Path | None, **parameters: Any) -> None:
     """Solve one steady contact of an indenter that slides or rolls over rubber.
 
     Quantities carry their unit. Every result has its estimated discretisation error.
     """
-    check_ending(picture, "--picture", PICTURES)
-    check_ending(output, "--output", DATA)
-    for target in (picture, output):
+    for target in (picture, out):
         if target is not None:
             refuse_to_overwrite(target, inputs_of(parameters))
     if (parameters["load"] is None) == (parameters["indentation"] is None):
@@ -111,11 +109,11 @@ def command(as_json: bool, picture: Path | None, output: Path | None, **paramete
             from viscofric.report.texts.contact import contact_record
 
             record = contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
-            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
-        else:
+            print_json(record)
+        elif out != DASH:
             _print(name, rubber, solution, seconds)
-        for written in _write(name, rubber, shape, solution, picture, output):
-            click.echo(written, err=as_json)
+        for written in _write(name, rubber, shape, solution, picture, out):
+            click.echo(written, err=as_json or out == DASH)
 
 
 def _speed(text: str) -> float | str:
@@ -204,7 +202,7 @@ def _write(
     shape: NamedIndenter,
     solution: ContactSolution,
     picture: Path | None,
-    output: Path | None,
+    out: Path | None,
 ) -> list[str]:
     """Write the requested files, and return the messages about them."""
     said = []
@@ -215,7 +213,7 @@ def _write(
         draw = partial(contact_figure, solution, shape.indenter, name)
         save_picture(picture, draw, name="contact", synthetic=rubber.synthetic)
         said.append(f"picture  {picture}")
-    if output is not None:
-        write_fields(output, solution)
-        said.append(f"fields   {output}")
+    if out is not None:
+        write_fields(out, solution)
+        said += [] if out == DASH else [f"fields   {out}"]
     return said

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -25,7 +24,6 @@ from viscofric.cli.files import (
     DASH,
     DATA,
     FILE,
-    OUT,
     PICTURES,
     Source,
     check_ending,
@@ -34,6 +32,7 @@ from viscofric.cli.files import (
 )
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_inputs, history_options
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
@@ -83,9 +82,9 @@ Examples:
 )
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
 @click.option("--save-state", "state", type=FILE, help="Write the last state (.npz) for --resume.")
-@click.option("--json", "as_json", is_flag=True, help="Print inputs and results over time as JSON, in SI units.")
-@click.option("-o", "--out", type=OUT, help="Write the results over time (.csv or .nc); `-` prints the table.")
-@click.option("--picture", type=FILE, help="Draw forces, indentation, contact and pressures (PNG, SVG or PDF).")
+@json_option("Print inputs and results over time as JSON, in SI units.")
+@out_option("Write the results over time (.csv or .nc); `-` prints the table.", endings=DATA)
+@picture_option("Draw forces, indentation, contact and pressures")
 @click.option("--pressures", type=FILE, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
 @click.option(
     "--animation",
@@ -120,7 +119,7 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
             raise KeyboardInterrupt
         name = in_contact(shape.words, rubber, layer)
         if as_json:
-            click.echo(json.dumps(_record(parameters, rubber, shape, history, result, seconds), ensure_ascii=False))
+            print_json(_record(parameters, rubber, shape, history, result, seconds), indent=None)
         elif out != DASH:
             _print(name, rubber, history, result, seconds)
         if out is not None:
@@ -188,7 +187,6 @@ def _solved(
 
 
 def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[str, Path | None]) -> None:
-    check_ending(out, "--out", DATA)
     for name, target in drawings.items():
         check_ending(target, f"--{name}", (".gif",) if name == "animation" else PICTURES)
     check_ending(parameters["state"], "--save-state", (".npz",))

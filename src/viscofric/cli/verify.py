@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import sys
 from contextlib import contextmanager
@@ -12,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.errors import reported_errors
+from viscofric.cli.files import CSV, DASH
+from viscofric.cli.output import json_option, out_option, print_json, write_rows
 from viscofric.cli.verify_test import compare_test
 
 if TYPE_CHECKING:
@@ -37,7 +38,8 @@ _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
 @click.option("--list", "listed", is_flag=True, help="List the checks and exit.")
 @click.option("--details", is_flag=True, help="Print every comparison, and the reasons of the bounds.")
 @click.option("--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda.")
-@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON.")
+@out_option("Write every comparison as a table (CSV); `-` prints it.", endings=CSV)
+@json_option("Print everything as JSON.")
 def command(
     published: bool,
     folder: Path | None,
@@ -45,6 +47,7 @@ def command(
     listed: bool,
     details: bool,
     backend: str,
+    out: Path | None,
     as_json: bool,
 ) -> None:
     """Verify the contact engine on this machine, in less than a minute.
@@ -56,7 +59,7 @@ def command(
     printed and written as a page.
     """
     if folder is not None:
-        if published or names or listed or details or backend != "scipy":
+        if published or names or listed or details or backend != "scipy" or out is not None:
             raise click.UsageError("--test takes a folder and --json only.")
         compare_test(folder, as_json)
         return
@@ -68,18 +71,22 @@ def command(
         if listed:
             _list(checks)
             return
-        as_table = not as_json and sys.stdout.isatty() and shutil.get_terminal_size().columns >= _TABLE_WIDTH
+        quiet = as_json or out == DASH
+        as_table = not quiet and sys.stdout.isatty() and shutil.get_terminal_size().columns >= _TABLE_WIDTH
         outcomes = []
-        with _progress(len(checks), quiet=as_json) as begin:
+        with _progress(len(checks), quiet=quiet) as begin:
             for outcome in run_checks(checks, begin, backend):
                 outcomes.append(outcome)
-                if not as_json and not as_table:
+                if not quiet and not as_table:
                     click.echo(_line(outcome))
                     if details:
                         _print_details(outcome)
+    if out is not None:
+        checks_of = _record(outcomes)["checks"]
+        write_rows(out, [{"check": each["name"], **one} for each in checks_of for one in each["comparisons"]])
     if as_json:
-        click.echo(json.dumps({"backend": backend} | _record(outcomes), indent=2, ensure_ascii=False, allow_nan=False))
-    else:
+        print_json({"backend": backend} | _record(outcomes))
+    elif out != DASH:
         if as_table:
             _table(outcomes, details)
         _print_verdict(outcomes)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from typing import TYPE_CHECKING
 
 import click
 
 from viscofric.cli.errors import reported_errors
+from viscofric.cli.output import print_json
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ _PRINTED = (
 
 def compare_test(folder: Path, as_json: bool) -> None:
     """Run the study of a friction test, and print every point with the errors of both."""
-    from viscofric.cli.run import SOME_CASES_FAILED, run_and_report
+    from viscofric.cli.run import NOT_ACCURATE, SOME_CASES_FAILED, run_and_report
     from viscofric.datasets import plain, record
     from viscofric.report.results import group, is_synthetic, sentences
     from viscofric.report.texts.friction_tables import measurement_table
@@ -45,9 +45,9 @@ def compare_test(folder: Path, as_json: bool) -> None:
     try:
         run_and_report(run_file, output, resume=True, quiet=True)
     except SystemExit as stop:
-        if stop.code != SOME_CASES_FAILED:
+        if stop.code not in (SOME_CASES_FAILED, NOT_ACCURATE):
             raise
-        status = SOME_CASES_FAILED
+        status = int(stop.code)
     results = open_results(output)
     tree = results.tree
     measurement, agreement, table = group(tree, "measurement"), group(tree, "agreement"), measurement_table(tree)
@@ -67,7 +67,7 @@ def compare_test(folder: Path, as_json: bool) -> None:
             **listed("notes", results.notes),
             "report": str(output / "report.html"),
         }
-        click.echo(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
+        print_json(found)
         sys.exit(status)
     click.echo(study.title + (" (SYNTHETIC data: nothing was measured)" if is_synthetic(tree) else ""))
     click.echo(f"{study.citation}; licence: {study.licence}\n")

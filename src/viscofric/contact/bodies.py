@@ -49,7 +49,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import flag, number, numbers, real
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.notes import Note
 from viscofric.showing import Shown
 from viscofric.units import Quantity, checked_poisson_ratio, positive
@@ -104,7 +104,7 @@ class Layer(Shown):
             return layer
         if isinstance(layer, (str, int, float)) or hasattr(layer, "magnitude"):
             return cls(layer)
-        raise InputError(f"layer = {brief(layer)}: must be a Layer, or a thickness such as '2 mm'.", code="wrong-type")
+        raise wrong_argument("layer", layer, "must be a Layer, or a thickness such as '2 mm'.", "wrong-type")
 
     def _shown(self) -> Rows:
         return (
@@ -222,6 +222,7 @@ def checked_coulomb(coulomb: float) -> float:
             f"coulomb = {brief(coulomb)}: must be a friction coefficient from {-MOST_COULOMB:g} to {MOST_COULOMB:g}, "
             "negative where the indenter slips against its motion.",
             code="out-of-range",
+            values={"argument": "coulomb"},
         )
     return coulomb
 
@@ -235,6 +236,8 @@ def unit_direction(direction: Sequence[float]) -> tuple[float, float]:
         length = math.nan
     if not (math.isfinite(length) and length > 0.0):
         raise InputError(
-            f"direction = {direction!r}: must be two numbers, not both zero, such as (1.0, 0.0).", code="wrong-count"
+            f"direction = {direction!r}: must be two numbers, not both zero, such as (1.0, 0.0).",
+            code="wrong-count",
+            values={"argument": "direction"},
         )
     return x / length, y / length

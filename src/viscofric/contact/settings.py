@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypedDict
 from viscofric.arguments import number, whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import Layer, checked_coulomb, half_space_coupling, indenter_compliance, unit_direction
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, brief, wrong_argument
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,15 +57,15 @@ class ContactSettings:
     def __post_init__(self) -> None:
         least, loosest = TIGHTEST / LOOSEST, LOOSEST * number(self.accuracy, "accuracy")
         if not least <= self.accuracy < 1.0:
-            raise InputError(
-                f"accuracy = {brief(self.accuracy)}: must be a number from {least:g} to below 1, such as 1e-3.",
-                code="out-of-range",
+            raise wrong_argument(
+                "accuracy", self.accuracy, f"must be a number from {least:g} to below 1, such as 1e-3.", "out-of-range"
             )
         if not TIGHTEST <= number(self.tolerance, "tolerance") <= loosest:
             raise InputError(
                 f"tolerance = {brief(self.tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the "
                 f"accuracy, which is {loosest:g} for accuracy = {self.accuracy:g}.",
                 code="out-of-range",
+                values={"argument": "tolerance"},
             )
         if self.finest is not None:
             whole_number(self.finest, "finest", LEAST_FINEST)

@@ -214,6 +214,7 @@ def _check_accuracy(accuracy: float) -> None:
         raise InputError(
             f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-4.",
             code="out-of-range",
+            values={"argument": "accuracy"},
         )
 
 

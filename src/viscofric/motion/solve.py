@@ -250,6 +250,7 @@ def checked_problem(
         raise InputError(
             f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-3.",
             code="out-of-range",
+            values={"argument": "accuracy"},
         )
     kind = "periodic" if isinstance(indenter, PeriodicSurface) else ("line", "point")[indenter.geometry.dimension - 1]
     schedule = history.schedule(material, kind)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import wrong_argument
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, WLFArrhenius
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
@@ -88,7 +88,7 @@ def catalogue_entry(name: str) -> CatalogueEntry:
         near = difflib.get_close_matches(_plain(name), known, n=1, cutoff=0.5)
         hint = f"did you mean {known[near[0]].name!r}?" if near else "the names are"
         names = "" if near else f" {', '.join(repr(one.name) for one in _ENTRIES)}."
-        raise InputError(f"name = {name!r}: the catalogue has no such material; {hint}{names}", code="unknown-material")
+        raise wrong_argument("name", name, f"the catalogue has no such material; {hint}{names}", "unknown-material")
     return entry
 
 

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from viscofric.arguments import text
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
@@ -174,6 +174,7 @@ class Material(Plotted):
                 f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be "
                 "chosen; give Material(spectrum, shift=WLF(…)) or leave the temperature out.",
                 code="no-shift",
+                values={"argument": "temperature"},
             )
         kelvin = positive(temperature, "K", "temperature")
         alpha = float(self.shift(kelvin))
@@ -252,6 +253,6 @@ class Material(Plotted):
 def insist_on_material(given: object) -> None:
     """Raise `InputError` unless a Material is given."""
     if not isinstance(given, Material):
-        raise InputError(
-            f"material = {brief(given)}: must be a Material, such as vf.read_card('rubber.json').", code="wrong-type"
+        raise wrong_argument(
+            "material", given, "must be a Material, such as vf.read_card('rubber.json').", "wrong-type"
         )

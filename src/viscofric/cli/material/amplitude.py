@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import FILE, PICTURES, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.files import FILE, Source, refuse_to_overwrite
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import reading_options
 
 if TYPE_CHECKING:
@@ -36,14 +36,9 @@ if TYPE_CHECKING:
 @click.option("--speed", metavar="V", help="Its speed, e.g. '20 mm/s'.")
 @click.option("--contact-temperature", metavar="T", help="Its temperature, e.g. '60 degC'.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
-@click.option("--picture", type=FILE, help="Draw the sweep (PNG, SVG or PDF).")
-@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, in SI units.")
-@click.option(
-    "-o",
-    "--output",
-    type=FILE,
-    help="Write the scaled material (JSON), for run files and the other commands.",
-)
+@picture_option("Draw the sweep")
+@json_option("Print everything as JSON, in SI units.")
+@out_option("Write the scaled material (JSON), for run files and the other commands.", FILE)
 def command(
     files: tuple[Path, ...],
     deformation: Any,
@@ -53,7 +48,7 @@ def command(
     sheet: str | None,
     as_json: bool,
     picture: Path | None,
-    output: Path | None,
+    out: Path | None,
     **chosen: Any,
 ) -> None:
     """Print the linear range and Kraus's law of an amplitude sweep in FILES.
@@ -64,12 +59,11 @@ def command(
     from viscofric.readers.dma.amplitudes import read_amplitude_sweep
     from viscofric.rheology.payne.kraus_fit import fit_kraus
 
-    check_ending(picture, "--picture", PICTURES)
-    for target in (picture, output):
+    for target in (picture, out):
         if target is not None:
             refuse_to_overwrite(target, files)
-    if output is not None and chosen["material"] is None:
-        raise click.UsageError("--output needs --material, and --strain or a contact.")
+    if out is not None and chosen["material"] is None:
+        raise click.UsageError("--out needs --material, and --strain or a contact.")
     with reported_errors():
         sweep = read_amplitude_sweep(
             *files,
@@ -86,13 +80,13 @@ def command(
             more, said, material = _scaled(fit, chosen, notes)
             record |= more
             lines += said
-            if output is not None:
+            if out is not None:
                 from viscofric.rheology.cards import write_card
 
-                lines.append(f"file     {write_card(material, output, format='json')}")
+                lines.append(f"file     {write_card(material, out, format='json')}")
         record["notes"] = [str(note) for note in notes]
         if as_json:
-            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+            print_json(record)
         else:
             for line in lines:
                 click.echo(line)

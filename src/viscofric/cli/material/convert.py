@@ -9,6 +9,7 @@ import click
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import FILE, refuse_to_overwrite
+from viscofric.cli.output import json_option, out_option, print_json
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
@@ -19,7 +20,9 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
 
 @click.command(name="convert")
 @click.argument("rubber", metavar="MATERIAL")
-@click.argument("output", type=FILE)
+@click.argument("output", required=False, type=FILE)
+@out_option("File to write, instead of OUTPUT.", FILE)
+@json_option("Print the written file and the notes as JSON.")
 @click.option("--format", "form", type=click.Choice(FORMATS), required=True, help="Format of the card.")
 @click.option(
     "--poisson-ratio",
@@ -41,7 +44,9 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
 )
 def command(
     rubber: str,
-    output: Path,
+    output: Path | None,
+    out: Path | None,
+    as_json: bool,
     form: CardFormat,
     poisson_ratio: float | None,
     unit_system: Literal["Pa", "MPa"],
@@ -53,21 +58,27 @@ def command(
     MATERIAL is a material file (JSON, CSV, or a card of any of these programs), or a catalogue name.
     """
     from viscofric.cli.rubber_options import find_rubber
-    from viscofric.notes import warned
+    from viscofric.notes import listed, warned
     from viscofric.rheology import write_card
 
-    refuse_to_overwrite(output, [Path(rubber)])
+    target = output or out
+    if target is None or (output is not None and out is not None):
+        raise click.UsageError("give the file to write, OUTPUT or --out, once.")
+    refuse_to_overwrite(target, [Path(rubber)])
     with reported_errors():
         material = find_rubber(rubber)
         with warned() as notes:
             write_card(
                 material,
-                output,
+                target,
                 format=form,
                 poisson_ratio=poisson_ratio,
                 density=density,
                 unit_system=unit_system,
                 law=card_law,
             )
-    click.echo(f"card     {output}")
+    if as_json:
+        print_json({"card": target, "format": form, **listed("notes", notes)})
+    else:
+        click.echo(f"card     {target}")
     print_notes(notes)

@@ -12,6 +12,7 @@ import click
 from viscofric.cli.errors import print_doubtful_checks, print_notes, reported_errors
 from viscofric.cli.files import FILE
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json
 from viscofric.cli.rubber_options import reading_options, shift_factor_options
 
 if TYPE_CHECKING:
@@ -104,15 +105,12 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 @click.option(
     "--samples", type=int, default=200, show_default=True, help="Bootstrap samples for the bands of E; 0 for none."
 )
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="Folder for the results [default: FILE.material beside the first file].",
-)
+@out_option("Folder for the results [default: FILE.material beside the first file].", FOLDER)
+@json_option("Print spectrum, key numbers and checks as JSON, in SI units.")
 def command(
     files: tuple[Path, ...],
-    output: Path | None,
+    out: Path | None,
+    as_json: bool,
     cards: tuple[CardFormat, ...],
     card_law: CardLaw | None,
     samples: int,
@@ -131,10 +129,11 @@ def command(
     if parameters["master_curve"] and len(files) > 1:
         raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
     with reported_errors():
+        from viscofric.cli.run import outcome_record, status_of
         from viscofric.report import write_figures_and_report
         from viscofric.study.rubber_results import run_material
 
-        folder = files[0].with_suffix(".material") if output is None else output
+        folder = files[0].with_suffix(".material") if out is None else out
         results, rubber, written = run_material(
             _table(files, parameters),
             folder,
@@ -143,25 +142,33 @@ def command(
             command=_command(
                 files,
                 {**parameters, "card": cards, "card_law": card_law, "samples": samples}
-                | {"output": output, "synthetic": synthetic},
+                | {"out": out, "synthetic": synthetic},
             ),
             samples=samples,
             synthetic=synthetic,
         )
         figures, report = write_figures_and_report(results.tree, results.folder)
-    _print(results)
-    for path in written:
-        click.echo(f"file     {path}")
-    for path in figures:
-        click.echo(f"figure   {path}")
-    click.echo(f"report   {report}")
-    failed = [form for form in cards if not _write_card(rubber.material, folder, form, card_law)]
-    if failed:
+    print_notes(results.notes)
+    print_doubtful_checks(results.tree)
+    said = [*(("file", path) for path in written), *(("figure", path) for path in figures), ("report", report)]
+    made = [_write_card(rubber.material, folder, form, card_law) for form in cards]
+    said += [("card", path) for path in made if path is not None]
+    if as_json:
+        from viscofric.datasets import record
+
+        spectrum = {"spectrum": record(rubber.material.to_dataset())}
+        print_json(spectrum | outcome_record(results, figures, report) | {"files": written, "cards": made})
+    else:
+        _print(results)
+        for word, path in said:
+            click.echo(f"{word:<8} {path}")
+    if None in made:
         raise click.exceptions.Exit(1)
+    raise click.exceptions.Exit(status_of(results))
 
 
-def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw | None) -> bool:
-    """Write one card and say so; a program that cannot hold the rubber keeps no other from it."""
+def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw | None) -> Path | None:
+    """Write one card; a program that cannot hold the rubber keeps no other from it."""
     from viscofric.errors import ViscofricError
     from viscofric.notes import warned
     from viscofric.study.rubber_results import write_program_card
@@ -173,10 +180,9 @@ def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw
         click.echo(
             f"Error: no card for {form}: {error.words('shell')} (viscofric material convert has the options.)", err=True
         )
-        return False
-    click.echo(f"card     {path}")
+        return None
     print_notes(notes)
-    return True
+    return path
 
 
 def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable:
@@ -238,15 +244,12 @@ def _command(files: tuple[Path, ...], parameters: dict[str, Any]) -> str:
 
 
 def _print(results: StudyResults) -> None:
-    """Print the key numbers, and what was doubtful."""
+    """Print the superposition and the key numbers."""
     from viscofric.report.results import group, number, sentences
     from viscofric.report.texts.study import key_numbers
 
-    for note in results.notes:
-        click.echo(f"Note: {note}", err=True)
     whole = group(results.tree, "superposition")
     if whole is not None and number(whole.attrs, "holds") == 1.0:
         click.echo(sentences(whole.attrs, "sentences")[0])
-    print_doubtful_checks(results.tree)
     for item in key_numbers(results.tree):
         click.echo(f"{item.name}: {item.value}" + (f" ({item.remark})" if item.remark else ""))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +9,8 @@ import click
 
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import CSV, FILE, JSON, PICTURES, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
@@ -71,12 +71,12 @@ Example:
 @click.option("--samples", type=int, default=200, show_default=True, help="Number of uncertainty samples.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Random seed of the samples.")
 @click.option("--name", default="identified from indentation", show_default=True, help="Name of the material.")
-@click.option("--out", type=FILE, help="Write the material (JSON), for `solve`, run files and `material`.")
+@out_option("Write the material (JSON), for `solve`, run files and `material`.", FILE, endings=JSON)
 @click.option("--csv", "table", type=FILE, help="Write the moduli with their 95 % limits (CSV).")
-@click.option("--picture", type=FILE, help="Draw the moduli with their limits, and every fit (PNG, SVG or PDF).")
+@picture_option("Draw the moduli with their limits, and every fit")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
-@click.option("--json", "as_json", is_flag=True, help="Print the moduli and the notes as JSON, in SI units.")
+@json_option("Print the moduli and the notes as JSON, in SI units.")
 def command(
     files: tuple[Path, ...],
     temperatures: tuple[str, ...],
@@ -93,9 +93,7 @@ def command(
     FILES are tables with units in the headings: of time, load and indentation (--control); of frequency, storage and
     loss stiffness (--depth); or of speed, and restitution, contact time, peak force or indentation (--mass).
     """
-    check_ending(out, "--out", JSON)
     check_ending(table, "--csv", CSV)
-    check_ending(picture, "--picture", PICTURES)
     for target in (out, table, picture):
         if target is not None:
             refuse_to_overwrite(target, files)
@@ -120,7 +118,7 @@ def command(
         data = found.to_dataset()
         if as_json:
             said = {"results": record(data), **listed("notes", found.notes)}
-            click.echo(json.dumps(said, indent=2, ensure_ascii=False, allow_nan=False))
+            print_json(said)
         else:
             click.echo(str(found))
         if out is not None:

@@ -5,14 +5,20 @@ from __future__ import annotations
 import click
 
 from viscofric.cli.errors import reported_errors
+from viscofric.cli.output import json_option, print_json
 
 
 @click.command(name="list")
-def command() -> None:
+@json_option("Print the materials as JSON.")
+def command(as_json: bool) -> None:
     """List the materials of the catalogue, with their sources."""
     from viscofric.rheology.catalogue import catalogue
 
     with reported_errors():
+        if as_json:
+            names = ("name", "kind", "holds", "citation", "remarks")
+            print_json({"materials": [{name: getattr(entry, name) for name in names} for entry in catalogue()]})
+            return
         for entry in catalogue():
             click.echo(f"{entry.name}  [{entry.kind}]")
             for line in (entry.holds, entry.citation, entry.remarks):

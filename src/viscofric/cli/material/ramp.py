@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import shlex
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
@@ -13,9 +11,12 @@ import numpy as np
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import Source
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json
 from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.data import Deformation
     from viscofric.ramps import TemperatureRamps
 
@@ -50,13 +51,8 @@ if TYPE_CHECKING:
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option("--name", default="", help="Name of the material, for reports and cards.")
 @click.option("--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly.")
-@click.option("--json", "as_json", is_flag=True, help="Print ramps and peaks as JSON, in SI units.")
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, file_okay=False),
-    help="With --reference: folder for the results [default: FILE.material beside the first file].",
-)
+@json_option("Print ramps and peaks as JSON, in SI units.")
+@out_option("With --reference: folder for the results [default: FILE.material beside the first file].", FOLDER)
 def command(
     files: tuple[Path, ...],
     modulus_unit: str | None,
@@ -64,7 +60,7 @@ def command(
     direction: Literal["heating", "cooling"] | None,
     heating_rate: str | None,
     as_json: bool,
-    output: Path | None,
+    out: Path | None,
     columns: dict[str, str],
     sheet: str | None,
     **chosen: Any,
@@ -76,8 +72,8 @@ def command(
     from viscofric.readers.dma.ramps import read_ramps
     from viscofric.rheology.ramps.glass_transition import glass_transition
 
-    if chosen["reference"] is None and (output is not None or chosen["assumed_shift"] is not None):
-        raise click.UsageError("--output and --assumed-shift need --reference.")
+    if chosen["reference"] is None and (out is not None or chosen["assumed_shift"] is not None):
+        raise click.UsageError("--out and --assumed-shift need --reference.")
     with reported_errors():
         ramps = read_ramps(
             *files,
@@ -103,7 +99,7 @@ def command(
                 "glass_transitions": [vars(one) for one in peaks],
                 "notes": [str(note) for note in ramps.notes],
             }
-            click.echo(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False))
+            print_json(record)
         else:
             for line in [*_lines(ramps), *map(str, peaks)]:
                 click.echo(line)
@@ -111,7 +107,7 @@ def command(
                 print_notes(ramps.notes)
         if chosen["reference"] is not None:
             reading = {"deformation": deformation, "modulus_unit": modulus_unit, "columns": columns, "sheet": sheet}
-            _material(files, reading, output, chosen, as_json)
+            _material(files, reading, out, chosen, as_json)
 
 
 def _lines(ramps: TemperatureRamps) -> list[str]:
@@ -132,7 +128,7 @@ def _lines(ramps: TemperatureRamps) -> list[str]:
 def _material(
     files: tuple[Path, ...],
     reading: dict[str, Any],
-    output: Path | None,
+    out: Path | None,
     chosen: dict[str, Any],
     quiet: bool,
 ) -> None:
@@ -149,7 +145,7 @@ def _material(
     }
     law = {"assumed_shift": chosen["assumed_shift"]} if chosen["assumed_shift"] else {"shift": chosen["law"]}
     more = {**reading, **law}
-    folder = files[0].with_suffix(".material") if output is None else output
+    folder = files[0].with_suffix(".material") if out is None else out
     results, rubber, written = run_material(
         material_of(values | {name: value for name, value in more.items() if value}),
         folder,

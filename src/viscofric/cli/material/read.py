@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import FILE, Source, plainly, refuse_to_overwrite
+from viscofric.cli.output import json_option, out_option, print_json
 from viscofric.cli.rubber_options import reading_options
 
 if TYPE_CHECKING:
@@ -18,14 +18,9 @@ if TYPE_CHECKING:
 @click.command(name="read")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @reading_options
-@click.option(
-    "--csv",
-    "table",
-    type=FILE,
-    help="Also write the points used of frequency sweeps to a table (CSV).",
-)
-@click.option("--json", "as_json", is_flag=True, help="Print what was read as JSON, in SI units.")
-def command(files: tuple[Path, ...], table: Path | None, as_json: bool, **reading: Any) -> None:
+@out_option("Also write the points used of frequency sweeps to a table (CSV).", FILE, old="--csv")
+@json_option("Print what was read as JSON, in SI units.")
+def command(files: tuple[Path, ...], out: Path | None, as_json: bool, **reading: Any) -> None:
     """Print the kind of test, format, isotherms and doubtful data of FILES.
 
     FILES are frequency sweeps, temperature ramps, amplitude sweeps, creep or relaxation tests; the kind is recognised
@@ -34,8 +29,8 @@ def command(files: tuple[Path, ...], table: Path | None, as_json: bool, **readin
     from viscofric.cli.material.readings import described, read_kind
     from viscofric.readers.recognise import by_kind
 
-    if table is not None:
-        refuse_to_overwrite(table, files)
+    if out is not None:
+        refuse_to_overwrite(out, files)
     with reported_errors():
         stated = {name: reading[name] or None for name in ("modulus_unit", "columns", "sheet")}
         kinds = by_kind(files, temperatures=reading["temperature"], **stated)
@@ -51,11 +46,11 @@ def command(files: tuple[Path, ...], table: Path | None, as_json: bool, **readin
                 for line in lines:
                     click.echo(line)
             print_notes(test.notes)
-            if table is not None and kind == "dma":
+            if out is not None and kind == "dma":
                 from viscofric.study.rubber_results import write_sweeps
 
-                click.echo(f"table    {write_sweeps(test, table)}", err=as_json)
+                click.echo(f"table    {write_sweeps(test, out)}", err=as_json)
         if as_json:
-            click.echo(json.dumps({"tests": records}, indent=2, ensure_ascii=False, allow_nan=False))
-        if table is not None and "dma" not in kinds:
-            raise click.UsageError("--csv is for frequency sweeps.")
+            print_json({"tests": records})
+        if out is not None and "dma" not in kinds:
+            raise click.UsageError("--out is for frequency sweeps.")

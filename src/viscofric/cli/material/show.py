@@ -7,8 +7,14 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli.errors import reported_errors
+from viscofric.cli.files import DASH, DATA, write_dataset
+from viscofric.cli.output import json_option, out_option, print_json
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    import xarray
+
     from viscofric.rheology.material import Material
 
 
@@ -21,18 +27,28 @@ if TYPE_CHECKING:
     multiple=True,
     help="Frequency, e.g. '10 Hz' or '1 rad/s'; may be repeated [default: each decade].",
 )
-def command(rubber: str, temperature: str | None, frequency: tuple[str, ...]) -> None:
+@out_option("Write the modulus (.csv or .nc); `-` prints the table.", endings=DATA)
+@json_option("Print the material and its modulus as JSON, in SI units.")
+def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], out: Path | None, as_json: bool) -> None:
     """Print a summary of MATERIAL and its modulus at a temperature.
 
     MATERIAL is a material file (JSON, CSV, or a card of another program), or a catalogue name.
     """
     from viscofric.cli.rubber_options import find_rubber
+    from viscofric.datasets import record
 
     with reported_errors():
         material = find_rubber(rubber)
-        lines = [*_about(material), *_moduli(material, temperature, frequency)]
-    for line in lines:
-        click.echo(line)
+        moduli = _moduli(material, temperature, frequency)
+        if out is not None:
+            write_dataset(out, moduli)
+        if as_json:
+            about = {name: getattr(material, name) for name in ("name", "citation", "poisson_ratio", "reference")}
+            spectrum = material.to_dataset(temperature)
+            print_json({"material": about, "spectrum": record(spectrum), "modulus": record(moduli)})
+        elif out != DASH:
+            for line in [*_about(material), *_lines(moduli)]:
+                click.echo(line)
 
 
 def _about(material: Material) -> list[str]:
@@ -51,11 +67,12 @@ def _about(material: Material) -> list[str]:
     return lines
 
 
-def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]) -> list[str]:
+def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]) -> xarray.Dataset:
+    """Return the moduli of a material at a temperature, at frequencies or in each decade."""
     import numpy as np
 
     from viscofric.rheology import RetardationSpectrum
-    from viscofric.units import angular_frequency, positive, shown_celsius
+    from viscofric.units import angular_frequency, positive
 
     kelvin = None if temperature is None else positive(temperature, "K", "temperature")
     now = material.at(kelvin)
@@ -67,14 +84,23 @@ def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]
     else:
         first, last = np.log10(now.angular_frequency[[0, -1]])
         omega = 10.0 ** np.arange(np.ceil(first), np.floor(last) + 1)
-    modulus = now.complex_modulus(omega)
     at = material.reference if kelvin is None else kelvin
+    return now.modulus_dataset(omega).assign_attrs({} if at is None else {"temperature": at})
+
+
+def _lines(moduli: xarray.Dataset) -> list[str]:
+    import numpy as np
+
+    from viscofric.units import shown_celsius
+
+    at = moduli.attrs.get("temperature")
     heading = "" if at is None else f" at {shown_celsius(at)} °C"
     headings = zip(("ω (rad/s)", "f (Hz)", "E' (MPa)", "E'' (MPa)", "tan δ"), (12, 10, 10, 10, 8), strict=True)
     lines = ["  ".join(f"{name:>{width}}" for name, width in headings) + heading]
-    for frequency, value in zip(omega, modulus, strict=True):
+    columns = (moduli[name].values for name in ("angular_frequency", "storage_modulus", "loss_modulus"))
+    for frequency, storage, loss in zip(*columns, strict=True):
         lines.append(
-            f"{frequency:12.4g}  {frequency / (2 * np.pi):10.4g}  {value.real / 1e6:10.4g}  {value.imag / 1e6:10.4g}"
-            f"  {value.imag / value.real:8.4g}"
+            f"{frequency:12.4g}  {frequency / (2 * np.pi):10.4g}  {storage / 1e6:10.4g}  {loss / 1e6:10.4g}"
+            f"  {loss / storage:8.4g}"
         )
     return lines

@@ -19,7 +19,7 @@ import numpy as np
 
 from viscofric.arguments import whole_number
 from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
-from viscofric.errors import InputError, not_imported
+from viscofric.errors import InputError, not_imported, wrong_argument
 from viscofric.showing import Shown
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class Backend(Shown):
 
     def __post_init__(self) -> None:
         if self._library not in (*_ON_NUMPY, *_OTHERS):
-            raise InputError(f"backend = {self.name!r}: not known; give {_KNOWN}.", code="unknown-backend")
+            raise wrong_argument("backend", self.name, f"not known; give {_KNOWN}.", "unknown-backend")
         if ":" in self.name and self._library != "torch":
             raise InputError(
                 f"backend = {self.name!r}: {self._library} takes no device; give {self._library!r}.", code="no-device"
@@ -148,7 +148,7 @@ class Backend(Shown):
             return importlib.import_module(module)
         except Exception as error:
             why = not_imported(module.partition(".")[0], error, _HOW_TO_INSTALL[self._library])
-            raise InputError(f"backend = {self.name!r}: {why}.", code="not-installed") from error
+            raise wrong_argument("backend", self.name, f"{why}.", "not-installed") from error
 
     @cached_property
     def is_numpy(self) -> bool:

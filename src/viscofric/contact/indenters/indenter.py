@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, ClassVar
 
 from viscofric.contact.free.geometry import POINT, Geometry
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Note
 from viscofric.showing import Shown
 
@@ -91,9 +91,7 @@ class Indenter(Shown, ABC):
 def insist_on_indenter(given: object) -> None:
     """Raise `InputError` where something else is given."""
     if not isinstance(given, Indenter):
-        raise InputError(
-            f"indenter = {brief(given)}: must be an indenter, such as Ball(radius='10 mm').", code="wrong-type"
-        )
+        raise wrong_argument("indenter", given, "must be an indenter, such as Ball(radius='10 mm').", "wrong-type")
 
 
 def insist_on_round_edges(indenter: Indenter) -> None:

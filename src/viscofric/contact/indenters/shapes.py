@@ -215,7 +215,9 @@ class Cone(Indenter):
         angle = positive(self.angle, "rad", "angle")
         if angle >= 0.5 * math.pi:
             raise InputError(
-                f"angle = {self.angle!r}: must be less than a right angle, such as '10 deg'.", code="out-of-range"
+                f"angle = {self.angle!r}: must be less than a right angle, such as '10 deg'.",
+                code="out-of-range",
+                values={"argument": "angle"},
             )
         object.__setattr__(self, "angle", angle)
 

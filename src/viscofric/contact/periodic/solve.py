@@ -26,7 +26,7 @@ from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
 from viscofric.contact.periodic.surface import PeriodicSurface, Topographic
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, wrong_argument
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si, velocity
 
@@ -140,14 +140,14 @@ def solve_periodic(
     (True, 0.0001465)
     """
     if not hasattr(material, "poisson_ratio"):
-        raise InputError(
-            f"material = {brief(material)}: must be a Material, such as vf.read_card('rubber.json').", code="wrong-type"
+        raise wrong_argument(
+            "material", material, "must be a Material, such as vf.read_card('rubber.json').", "wrong-type"
         )
     whole_number(most_products, "most_products", 1)
     if isinstance(surface, Topographic):  # of a topography, heights may be missing, or not repeat themselves
         surface = surface.to_surface()
     if not isinstance(surface, PeriodicSurface):
-        raise InputError(f"surface = {brief(surface)}: must be a Topography or a PeriodicSurface.", code="wrong-type")
+        raise wrong_argument("surface", surface, "must be a Topography or a PeriodicSurface.", "wrong-type")
     sliding, toward = velocity(speed), unit_direction(direction)
     exactly_one(pressure=pressure, gap=gap)
     if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST:

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.arguments import whole_number
 from viscofric.data import MasterCurve
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, judged_jointly, solid_modes
@@ -254,7 +254,7 @@ def _check(
 ) -> None:
     check_choice(method, "method", *METHODS)
     if positive(tau_ratio, "dimensionless", "tau_ratio") <= 1.0:
-        raise InputError(f"tau_ratio = {tau_ratio!r}: must be above 1.", code="out-of-range")
+        raise wrong_argument("tau_ratio", tau_ratio, "must be above 1.", "out-of-range")
     if len(master_curve) < 4:
         raise InputError(
             f"a master curve of {len(master_curve)} points is too short to fit a spectrum; give 4 or more.",

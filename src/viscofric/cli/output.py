@@ -1,0 +1,99 @@
+"""What commands write and print: `--out`, `--picture` and `--json`, the same in all commands."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.files import DASH, FILE, OUT, PICTURES, check_ending
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+#: A folder to be written into.
+FOLDER = click.Path(path_type=Path, file_okay=False)
+
+#: Help of `--json` where a study runs.
+RUN_JSON = "Print progress as JSON, one object a line; the last one has the outcome."
+
+
+def out_option(
+    words: str,
+    kind: click.Path = OUT,
+    *,
+    endings: tuple[str, ...] = (),
+    default: Path | None = None,
+    old: str = "--output",
+) -> Decorator:
+    """Return a decorator that adds `--out`, and its `old` name, which still works but prints a line that says so."""
+    key = f"viscofric{old}"
+
+    def deprecated(ctx: click.Context, param: click.Parameter, value: Path | None) -> None:
+        if value is not None:
+            click.echo(f"Deprecated: {old} is now --out (-o).", err=True)
+            ctx.meta[key] = value
+
+    def chosen(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
+        found: Path | None = ctx.meta.get(key)
+        if found is not None and ctx.get_parameter_source("out") is not click.core.ParameterSource.DEFAULT:
+            raise click.UsageError(f"--out and {old} are both given; they are the same option.")
+        found = value if found is None else found
+        if found == DASH and ctx.params.get("as_json"):
+            raise click.UsageError("--json and --out - both print; give one of them, or --out a file.")
+        if endings:
+            check_ending(found, "--out", endings)
+        return found
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        hidden = click.option(
+            old, "old_out", type=kind, hidden=True, is_eager=True, expose_value=False, callback=deprecated
+        )
+        shown = click.option(
+            "-o", "--out", type=kind, default=default, show_default=default is not None, callback=chosen, help=words
+        )
+        return shown(hidden(function))
+
+    return add
+
+
+def picture_option(words: str) -> Decorator:
+    """Return a decorator that adds `--picture`."""
+
+    def checked(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
+        check_ending(value, "--picture", PICTURES)
+        return value
+
+    return click.option("--picture", type=FILE, callback=checked, help=f"{words} (PNG, SVG or PDF).")
+
+
+def json_option(words: str = "Print inputs and results as JSON, in SI units.") -> Decorator:
+    """Return a decorator that adds `--json`."""
+    return click.option("--json", "as_json", is_flag=True, is_eager=True, help=words)
+
+
+def print_json(record: dict[str, Any], indent: int | None = 2) -> None:
+    """Print one JSON object; a number that is not finite is null."""
+    from viscofric.datasets import plain
+
+    click.echo(json.dumps(plain(record, digits=None), indent=indent, ensure_ascii=False, allow_nan=False))
+
+
+def write_rows(path: Path, rows: Sequence[dict[str, Any]]) -> None:
+    """Write a table (CSV) with a line for each row, which all have the same names; `-` prints it."""
+    import csv
+    import io
+
+    from viscofric.cli.files import to_be_written
+    from viscofric.files import write_atomically
+
+    text = io.StringIO()
+    table = csv.DictWriter(text, list(rows[0]) if rows else [], lineterminator="\n")
+    table.writeheader()
+    table.writerows(rows)
+    with to_be_written(path) as target:
+        write_atomically(target, text.getvalue().encode())

@@ -1,0 +1,178 @@
+"""Options and statuses that all commands share: `--out`, `--json`, names of options in errors."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from cli.friction_files import curves, runs
+from cli.refusals import refusal
+from study.sweeps import made_results
+from viscofric.cli import main, run
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
+CATALOGUE = ["--material", "synthetic fluoroelastomer"]
+BALL = ["--ball", "9.525 mm", "--speed", "1 m/s", "--load", "5 N", "--accuracy", "0.05"]
+#: Commands that write neither a file nor a table or figure, and those that print no results.
+NO_OUT = {"check", "material list", "web", "completion"}
+NO_JSON = {"web", "completion"}
+#: Commands with results -> words with which they run within a second or two, in the folder below.
+CALLS: dict[str, list[str]] = {
+    "new": ["new", "fresh"],
+    "check": ["check", "example/study.toml"],
+    "report": ["report", "results"],
+    "export": ["export", "results", "--to", "csv"],
+    "compare": ["compare", "results", "results"],
+    "material read": ["material", "read", "dma.csv"],
+    "material fit": ["material", "fit", "dma.csv", "--reference", "30 degC", "--samples", "0"],
+    "material show": ["material", "show", "PVB interlayer"],
+    "material convert": ["material", "convert", "synthetic fluoroelastomer", "card.csv", "--format", "csv"],
+    "material list": ["material", "list"],
+    "solve": ["solve", *SOLID, *BALL],
+    "curve": ["curve", *CATALOGUE, *BALL],
+    "transient": ["transient", *SOLID, "--ball", "10 mm", "--load", "1 N", "--dwell", "1 ms", "--accuracy", "0.05"],
+    "impact": ["impact", *SOLID, "--ball", "5 mm", "--mass", "4 g", "--speed", "1 m/s", "--accuracy", "0.01"],
+    "measure": ["measure", "runs.csv"],
+    "master": ["master", "curves.csv", "--shift", "synthetic fluoroelastomer"],
+    "verify": ["verify", "--only", "hertz-ball"],
+}
+#: Commands whose JSON is tested beside their results, where these take longer: in tests of their own.
+ELSEWHERE = {"demo", "run", "identify", "material ramp", "material amplitude", "material indentation"}
+
+
+def commands(command: click.Command = main, path: str = "") -> Iterator[tuple[str, click.Command]]:
+    """Yield every command with its words."""
+    if not isinstance(command, click.Group):
+        yield path, command
+        return
+    ctx = click.Context(command)
+    for name in command.list_commands(ctx):
+        below = command.get_command(ctx, name)
+        assert below is not None
+        yield from commands(below, f"{path} {name}".strip())
+
+
+ALL = dict(commands())
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("outputs")
+    runs(folder / "runs.csv")
+    curves(folder / "curves.csv")
+    shutil.copy(str(files("viscofric") / "example" / "dma.csv"), folder)
+    shutil.copytree(str(files("viscofric") / "example"), folder / "example")
+    made_results(folder / "results", failed=[2])
+    return folder
+
+
+def options(command: click.Command) -> set[str]:
+    """Return the options that the help names."""
+    shown = (one for one in command.params if isinstance(one, click.Option) and not one.hidden)
+    return {typed for one in shown for typed in one.opts}
+
+
+def strict(text: str) -> Any:
+    """Return JSON without NaN and infinity."""
+
+    def refuse(name: str) -> None:
+        raise AssertionError(name)
+
+    return json.loads(text, parse_constant=refuse)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_command_has_out_and_json_where_they_apply(name: str) -> None:
+    found = options(ALL[name])
+    assert ({"-o", "--out"} <= found) == (name not in NO_OUT)
+    assert ("--json" in found) == (name not in NO_JSON)
+    assert "--output" not in found
+
+
+def test_every_command_with_json_is_called_here_or_elsewhere() -> None:
+    assert set(CALLS) | ELSEWHERE | NO_JSON == set(ALL)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_json_is_one_object_without_nan(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    done = CliRunner().invoke(main, [*CALLS[name], "--json"])
+    assert done.exit_code == (run.SOME_CASES_FAILED if name == "report" else 0), done.output
+    assert isinstance(strict(done.stdout), dict)
+
+
+def test_json_has_the_names_of_to_dataset(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import viscofric as vf
+
+    monkeypatch.chdir(folder)
+    shown = strict(CliRunner().invoke(main, [*CALLS["material show"], "--json"]).stdout)
+    material = vf.catalogue_material("PVB interlayer")
+    assert set(material.to_dataset().variables) <= set(shown["spectrum"])
+    assert {"angular_frequency", "storage_modulus", "loss_modulus"} <= set(shown["modulus"])
+
+
+@pytest.mark.parametrize(
+    "name", ["solve", "curve", "transient", "impact", "measure", "compare", "verify", "material show"]
+)
+def test_a_table_is_printed_by_out_dash(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    done = CliRunner().invoke(main, [*CALLS[name], "--out", "-"])
+    assert done.exit_code == 0, done.output
+    rows = [line.split(",") for line in done.stdout.splitlines() if not line.startswith("#")]
+    assert len(rows) > 1
+    assert len(rows[0]) > 1
+    refused = refusal(*CALLS[name], "--out", "-", "--json")
+    assert refused.status == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "old"), [(["solve", *SOLID, *BALL], "--output"), (["material", "read", "dma.csv"], "--csv")]
+)
+def test_the_old_name_of_out_works_and_says_that_it_is_old(
+    words: list[str], old: str, folder: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(folder)
+    done = CliRunner().invoke(main, [*words, old, str(tmp_path / "old.csv")])
+    assert done.exit_code == 0, done.output
+    assert f"Deprecated: {old} is now --out (-o)." in done.stderr
+    assert "Deprecated" not in CliRunner().invoke(main, [*words, "-o", str(tmp_path / "new.csv")]).stderr
+    assert (tmp_path / "old.csv").read_bytes() == (tmp_path / "new.csv").read_bytes()
+    assert refusal(*words, old, tmp_path / "a.csv", "-o", tmp_path / "b.csv").status == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        (["solve", *SOLID, "--ball", "abc", "--speed", "1 m/s", "--load", "1 N"], "--ball"),
+        (["solve", *SOLID, "--cone", "95 deg", "--speed", "1 m/s", "--load", "1 N"], "--cone"),
+        (["solve", *SOLID, "--cylinder", "1 mm", "--speed", "1 m/s", "--load", "1 N"], "--load"),
+        (["solve", *SOLID, *BALL, "--layer", "-1 mm"], "--layer"),
+        (["solve", *SOLID, *BALL, "--indenter-modulus", "-1 GPa"], "--indenter-modulus"),
+        (["solve", *SOLID, *BALL, "--poisson-ratio", "3"], "--poisson-ratio"),
+        (["solve", *SOLID, *BALL, "--backend", "none"], "--backend"),
+        (["solve", *SOLID, *BALL, "--grid", "1"], "--grid"),
+        (["solve", *SOLID, *BALL, "--coulomb", "1e9"], "--coulomb"),
+        (["solve", *SOLID, *BALL, "--temperature", "warm"], "--temperature"),
+        (["solve", "--E0", "soft", "--E-inf", "1 MPa", "--tau", "1 s", *BALL], "--E0"),
+        (["curve", *CATALOGUE, *BALL, "--workers", "-1"], "--workers"),
+        (["impact", *SOLID, "--ball", "5 mm", "--mass", "light", "--speed", "1 m/s"], "--mass"),
+        (["impact", *SOLID, "--ball", "5 mm", "--mass", "1 g", "--speed", "1 m/s", "--accuracy", "9"], "--accuracy"),
+        (["transient", *SOLID, "--ball", "10 mm", "--load", "1 N", "--dwell", "-1 s"], "--dwell"),
+        (["material", "fit", "dma.csv", "--reference", "warm"], "--reference"),
+    ],
+)
+def test_an_error_names_the_option_that_was_given(
+    words: list[str], option: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    assert refusal(*words).sentence.startswith((f"{option} = ", f"{option}: "))
