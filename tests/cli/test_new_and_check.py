@@ -157,3 +157,34 @@ def test_jobs_that_are_too_small_are_reported() -> None:
 
 def test_new_needs_a_folder() -> None:
     assert call("new").exit_code == 2
+
+
+SOFT = """
+[material]
+catalogue = "synthetic fluoroelastomer"
+[indenter]
+radius = "2 mm"
+[conditions]
+load = {load}
+speed = ["1 mm/s", "1 m/s"]
+temperature = "60 degC"
+[solver]
+accuracy = 0.05
+"""
+
+
+@pytest.mark.slow
+def test_check_warns_of_the_cases_that_fail_since_the_material_is_too_soft(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    path.write_text(SOFT.format(load='["25 N", "2000 N"]'), encoding="utf-8")
+    (note,) = [one for one in json.loads(call("check", path, "--json").stdout)["note_records"] if one["code"]]
+    assert (note["code"], note["values"]["cases"], note["values"]["of"]) == ("beyond-indenter", 2, 4)
+    assert call("check", path).stderr.startswith("Note: 2 of 4 cases will fail")
+    done = call("run", path, "--json")
+    assert done.exit_code == 3
+    failed = json.loads(done.stdout.splitlines()[-1])["failure_records"]
+    assert [one["code"] for one in failed] == ["beyond-indenter"] * 2
+    # the width that the solver finds, 15.8 mm, within a tenth
+    assert abs(note["values"]["width"] / 0.0158 - 1.0) < 0.1
+    path.write_text(SOFT.format(load='"25 N"'), encoding="utf-8")
+    assert json.loads(call("check", path, "--json").stdout)["note_records"] == []

@@ -11,12 +11,14 @@ import numpy as np
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.cases.case import moved
 from viscofric.friction.cases.surfaces import surface_of
+from viscofric.notes import Note, Remedy
 from viscofric.study.cases.estimates import (
     HEATED_CURVE,
     HEATED_RUNS,
     HEATED_SURFACE,
     HEATED_TIMES,
     SECONDS_OF_IMPACT,
+    contacts_beyond_indenter,
     estimate,
     seconds_over_time,
 )
@@ -31,7 +33,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.notes import Note
     from viscofric.study.cases.estimates import Expectation
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.rubber import Rubber
@@ -111,7 +112,24 @@ class CheckedStudy:
         said += self.measured.notes if self.measured is not None else ()
         said += self.study.notes
         said += material_notes(self.study, [rubber.material for rubber in self.rubbers])
-        return tuple(dict.fromkeys([*said, *self._of_jobs()]))
+        return tuple(dict.fromkeys([*said, *self._too_soft(), *self._of_jobs()]))
+
+    def _too_soft(self) -> Iterator[Note]:
+        """Yield a warning if contacts will not be solved because they are wider than the indenter."""
+        cases = self.sweep.cases
+        found = contacts_beyond_indenter(cases, [rubber.material for rubber in self.rubbers])
+        if not found:
+            return
+        case, width = max(found, key=lambda one: one[1] / one[0].indenter.reach)
+        indenter = case.indenter
+        yield Note(
+            "beyond-indenter",
+            f"{len(found)} of {len(cases)} cases will fail: the contact would be wider than the {indenter.noun}, by "
+            f"this estimate {1e3 * width:.3g} mm of {2e3 * indenter.reach:.3g} mm under {case.load:.4g} "
+            f"{indenter.geometry.load_unit} ({case.label}). The material is too soft for its load; ",
+            remedy=Remedy("reduce the load or take a larger indenter.", field="conditions.load"),
+            values={"cases": len(found), "of": len(cases), "width": width, "reach": indenter.reach},
+        )
 
     def _of_jobs(self) -> Iterator[str]:
         cluster = self.study.cluster

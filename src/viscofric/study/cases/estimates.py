@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
 from viscofric.friction.cases.case import Rubbers
+from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.planning.curve import Curve
 from viscofric.motion.springs import is_body_of_revolution
 
@@ -47,6 +50,10 @@ _LINE_CELLS = 65536.0
 # Of contacts over time, s, within a factor of three: of each stored time, on springs and on cells; of each stored time
 # and point of a rough surface; the periods of a periodic state.  Of an impact.  Means over 30 and 90 °C.
 _SPRINGS, _ON_CELLS, _ON_WAVES, _PERIODS, SECONDS_OF_IMPACT = 1.4e-3, 0.035, 2.5e-6, 12, 0.3
+
+
+# Rounds in which the width of a contact and its frequency are found from each other.
+_ROUNDS = 8
 
 
 @dataclass(frozen=True)
@@ -105,6 +112,35 @@ def estimate(
         memory=_PROCESS + record * len(cases) + _FIELD * (points or _FIELD_CELLS**2) * len(kept),
         memory_per_process=float(_PROCESS + (_BYTES_PER_POINT * points if points else working)),
     )
+
+
+def contacts_beyond_indenter(cases: Sequence[Case], materials: Sequence[Material]) -> list[tuple[IndenterCase, float]]:
+    """Return the cases whose contact is estimated to be wider than the indenter, with its width, m.
+
+    Width of an elastic contact with the modulus |E| at its own frequency v/a.  A contact on a layer is narrower, and is
+    left out; bootstrap samples are as soft as the best estimate.
+    """
+    found: list[tuple[IndenterCase, float]] = []
+    relaxed: dict[tuple[object, ...], float] = {}
+    for case in cases:
+        if not isinstance(case, IndenterCase) or case.layer is not None or math.isinf(case.indenter.reach):
+            continue
+        material = materials[case.material]
+        key = (*case.alike, case.temperature)
+        if key not in relaxed:  # no contact of these is wider
+            relaxed[key] = _half_width(case, material, 0.0)
+        half = relaxed[key]
+        for _ in range(_ROUNDS if half > case.indenter.reach else 0):
+            half = _half_width(case, material, case.speed / half)
+        if half > case.indenter.reach:
+            found.append((case, 2.0 * half))
+    return found
+
+
+def _half_width(case: IndenterCase, material: Material, frequency: float) -> float:
+    """Return the half-width of the elastic contact with the modulus at a frequency, m."""
+    modulus = abs(complex(material.complex_modulus(frequency, case.temperature)))
+    return Scale.for_load(case.indenter, modulus / (1.0 - material.poisson_ratio**2), case.load).length
 
 
 def seconds_over_time(case: Case, points: int, *, moves: bool, cycle: bool) -> float:

@@ -133,9 +133,17 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
     Raises
     ------
     InputError
-        If there are none, a coordinate varies in only one of them, or a case is repeated.
+        If there are none, a coordinate has different units, varies in only one of them, or a case is repeated.
     """
     shared = [name for name in one.coordinates if name in other.coordinates]
+    for name in shared:
+        units = one.units.get(name, "1"), other.units.get(name, "1")
+        if units[0] != units[1]:
+            raise InputError(
+                f"The {name} of {one.name} is in {units[0]}, that of {other.name} in {units[1]}: contacts of "
+                "different geometry cannot be compared.",
+                code="other-geometry",
+            )
     remarks = []
     for table, other_table in ((one, other), (other, one)):
         for name in table.coordinates:
