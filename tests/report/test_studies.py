@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
+from refusals import refused
 from viscofric.report import html
 from viscofric.report.captions import captions
 from viscofric.report.figures import saving
@@ -236,3 +238,87 @@ def test_kept_fields_of_a_rough_surface_are_drawn_on_a_whole_period(
         np.testing.assert_allclose(axes.lines[0].get_ydata(), pressure[:, 0] / 1e6)
     assert recovery_trail(found) is None
     assert "2 seeds" in captions(found)["friction_sweep"]
+
+
+def test_inputs_list_every_setting_of_the_run_file(make_study: Callable[..., xr.DataTree]) -> None:
+    text = """
+    author = "A. Author"
+    [material]
+    catalogue = "synthetic fluoroelastomer"
+    [layer]
+    thickness = "4 mm"
+    base = "sliding"
+    [heating]
+    counterface = "steel"
+    coulomb = [0.1, 0.3]
+    [conditions]
+    load = "5 N"
+    """
+    tree = make_study(STUDIES["loads"], study_text=text, author="A. Author", sample="plate 3", comment="First try.")
+    listed = {item.name: item.value for item in inputs(tree)}
+    assert (listed["author"], listed["sample"], listed["comment"]) == ("A. Author", "plate 3", "First try.")
+    assert (listed["layer: thickness"], listed["layer: base"]) == ("4 mm", "sliding")
+    assert (listed["heating: counterface"], listed["heating: coulomb"]) == ("steel", "0.1, 0.3")
+    assert not [name for name in listed if "conditions" in name or "catalogue" in name]
+
+
+@pytest.mark.slow
+def test_tables_have_mean_and_interval_over_seeds(make_study: Callable[..., xr.DataTree]) -> None:
+    tree = make_study({"seed": [1, 2, 3, 4], "temperature": TEMPERATURES[:2], "speed": SPEEDS[:3]})
+    cases = tree["prediction"].to_dataset()
+    scatter = xr.DataArray([0.9, 1.0, 1.0, 1.1], dims="seed")
+    cases["friction_coefficient"] = cases["friction_coefficient"] * scatter
+    tree["prediction"] = xr.DataTree(cases)
+    mean = cases["friction_coefficient"].mean("seed").values.ravel()
+    (table,) = [one for one in detail_tables(tree) if one.key == "prediction"]
+    assert "seed" not in table.headings
+    assert len(table.rows) == 6
+    # Student's t of three degrees of freedom at 97.5 %: 3.182; standard deviation of the four factors: 0.08165
+    half = 3.182 * 0.08165 / 2.0
+    columns = {name: [row[place] for row in table.rows] for place, name in enumerate(table.headings)}
+    friction, lower, upper = (
+        np.array([float(one) for one in columns[name]]) for name in ("friction coefficient", "95 % from", "to")
+    )
+    np.testing.assert_allclose(np.sort(friction), np.sort(mean), rtol=1e-3)
+    np.testing.assert_allclose(upper / friction - 1.0, half, rtol=2e-2)
+    np.testing.assert_allclose(1.0 - lower / friction, half, rtol=2e-2)
+    assert set(columns["seeds"]) == {"4"}
+    glance = friction_at_a_glance(tree)
+    assert glance is not None
+    assert len(glance.headings) == 3
+    assert all("±" in cell for row in glance.rows for cell in row[1:])
+
+
+@pytest.mark.slow
+@pytest.mark.apart
+def test_no_table_is_wider_than_the_page_and_the_pdf_is_a4(tree: xr.DataTree, tmp_path: Path) -> None:
+    from web.browser_tab import chromium_path, launched
+
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no Chromium is on the path")
+    report = write_report(tree, tmp_path, images={})
+    with launched(path) as browser:
+        page = browser.new_page(viewport={"width": 1400, "height": 1000})
+        page.goto(report.as_uri())
+        for medium, width in (("screen", 1400), ("print", 680)):  # A4 less its margins: 180 mm
+            page.emulate_media(media=medium)
+            page.set_viewport_size({"width": width, "height": 1000})
+            wide = page.evaluate(
+                "() => { document.querySelectorAll('details').forEach(one => one.open = true);"
+                " return [...document.querySelectorAll('table, pre')].filter(one => one.scrollWidth > one.clientWidth"
+                " || one.getBoundingClientRect().right > document.documentElement.clientWidth).map(one => one.id) }"
+            )
+            assert wide == [], medium
+        assert page.locator("table.wide").count() > 0
+    content = html.write_pdf(report).read_bytes()
+    assert content.startswith(b"%PDF-")
+    box = re.search(rb"/MediaBox ?\[ ?0 0 ([\d.]+) ([\d.]+)", content)
+    assert box is not None
+    np.testing.assert_allclose([float(box[1]), float(box[2])], [595.0, 842.0], atol=2.0)
+
+
+def test_a_pdf_without_a_browser_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with refused("no-browser"):
+        html.write_pdf(tmp_path / "report.html")

@@ -145,7 +145,7 @@ def test_ridge_lies_at_the_maximum_of_each_temperature() -> None:
     np.testing.assert_allclose(ridge[:, 0], highest, rtol=1e-9)
     parabolas[0] = np.linspace(0.1, 0.2, 25)  # highest at the end of the range
     parabolas[1] = np.nan
-    np.testing.assert_allclose(maximum_ridge(speed, kelvin, parabolas)[:, 1], [320.0])
+    np.testing.assert_allclose(maximum_ridge(speed, kelvin, parabolas)[:, 1], [np.nan, np.nan, 320.0])
 
 
 def test_map_spans_what_was_asked(axes: Axes, make_sweep: Make) -> None:
@@ -186,6 +186,23 @@ def test_maps_follow_the_shift_between_temperatures() -> None:
     straight = 0.5 * (given[0] + given[1])
     assert np.abs(straight - friction(313.15)).max() > 5e-3  # what the islands along a ridge were made of
     assert filled_in(speed, kelvins, given, None)[1] is given
+
+
+def test_contours_have_no_steps_where_a_curve_ends_between_temperatures() -> None:
+    # Temperatures so far apart that half a decade lies between their curves; friction rises along the reduced speed.
+    kelvins, known = np.array([293.15, 313.15, 333.15]), np.linspace(283.15, 343.15, 30)
+    log = -3.5 * (known - 293.15) / 20.0
+    speed = np.geomspace(1e-3, 1.0, 13)
+
+    def friction(kelvin: float) -> Any:
+        return 0.05 + 0.02 * np.tanh(0.5 * (np.log10(speed) - 3.5 * (kelvin - 293.15) / 20.0 + 3.0))
+
+    given = np.array([friction(kelvin) for kelvin in kelvins.tolist()])
+    at, whole = filled_in(speed, kelvins, given, (known, log))
+    exact = np.array([friction(float(kelvin)) for kelvin in at])
+    np.testing.assert_allclose(whole, exact, atol=5e-4)
+    # from row to row friction changes by no more than it does exactly
+    assert np.abs(np.diff(whole, axis=0)).max() < 1.5 * np.abs(np.diff(exact, axis=0)).max()
 
 
 def test_a_case_that_failed_stays_white_in_a_map() -> None:

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import base64
+import os
 import re
 import shlex
+import shutil
+import subprocess
 from datetime import datetime, timedelta
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
 from viscofric.report.captions import captions
 from viscofric.report.figures.saving import adaptive
@@ -86,6 +91,55 @@ def write_report(tree: xr.DataTree, folder: str | Path, *, images: dict[str, dic
     path = Path(folder) / "report.html"
     write_atomically(path, page.encode("utf-8", errors="replace"))
     return path
+
+
+#: Names of browsers that print a page without a window.
+_BROWSERS = (
+    "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge", "msedge",
+)  # fmt: skip
+_MOST_SECONDS = 120.0
+
+
+def write_pdf(report: Path) -> Path:
+    """Print a report as PDF (A4) beside it, with an installed browser of the Chromium family.
+
+    Parameters
+    ----------
+    report : Path
+        From `write_report`.
+
+    Returns
+    -------
+    Path
+        The file written; one that is there is replaced.
+
+    Raises
+    ------
+    DataFileError
+        If there is no such browser, or it writes nothing.
+    """
+    target = report.with_suffix(".pdf")
+    browser = next((found for name in _BROWSERS if (found := shutil.which(name))), None)
+    if browser is None:
+        missing = "needs Chromium, Chrome or Edge; without one, open report.html in any browser and print it to a file."
+        raise DataFileError(target, missing, code="no-browser")
+    with TemporaryDirectory(prefix="viscofric-") as folder:
+        made = Path(folder) / "report.pdf"
+        words = [browser, "--headless", "--disable-gpu", "--no-pdf-header-footer", f"--user-data-dir={folder}/profile"]
+        if hasattr(os, "geteuid") and os.geteuid() == 0:  # of the system's administrator, it has no sandbox
+            words.append("--no-sandbox")
+        try:
+            subprocess.run(
+                [*words, f"--print-to-pdf={made}", report.resolve().as_uri()],
+                capture_output=True, timeout=_MOST_SECONDS, check=True,
+            )  # fmt: skip
+            content = made.read_bytes()
+        except (OSError, subprocess.SubprocessError) as error:
+            raise DataFileError(
+                target, f"is not written: {browser} printed nothing ({error}).", code="no-pdf"
+            ) from error
+    write_atomically(target, content)
+    return target
 
 
 def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, Any]:

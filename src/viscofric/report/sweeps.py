@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -211,6 +211,46 @@ def solved_cases(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | No
     cases = cases_of(best_estimate(found))
     solved = np.isfinite(np.asarray(cases["friction_coefficient"].values, dtype=float))
     return cases.isel({CASE: np.flatnonzero(solved)}) if solved.any() else None
+
+
+def over_seeds(cases: xr.Dataset) -> xr.Dataset:
+    """Return the means over the seeds of a surface, with the 95 % interval of the mean friction instead of its band.
+
+    Estimated errors are the largest of the seeds; what holds of a case must hold on every seed.  Cases without several
+    seeds are returned as they are.
+    """
+    if SEED not in cases or len(np.unique(cases[SEED].values)) < 2:
+        return cases
+    from viscofric.roughness.rough_friction import interval_of_mean
+
+    named = [name for name in dict.fromkeys((*VARIED, "temperature", "speed")) if name in cases and name != SEED]
+    keys = list(zip(*(cases[name].values.tolist() for name in named), strict=True))
+    rows = [[row for row, key in enumerate(keys) if key == one] for one in dict.fromkeys(keys)]
+    friction = np.asarray(cases["friction_coefficient"].values, dtype=float)
+    each = [friction[one][np.isfinite(friction[one])] for one in rows]
+    ends = np.array([interval_of_mean(one) if len(one) > 1 else (np.nan, np.nan) for one in each])
+    found = cases.isel({CASE: [one[0] for one in rows]}).drop_vars(SEED)
+    for name, variable in cases.data_vars.items():
+        if name == SEED or name in named or variable.dtype.kind not in "fiub" or variable.dims != (CASE,):
+            continue
+        values = np.asarray(variable.values, dtype=float)
+        merge = _MERGED.get(str(name), np.mean)
+        merged = [merge(known) if (known := values[one][np.isfinite(values[one])]).size else np.nan for one in rows]
+        found[name] = (CASE, np.array(merged, dtype=float), variable.attrs)
+    limits = {name: (CASE, ends[:, side]) for side, name in enumerate(("friction_lower", "friction_upper"))}
+    return found.assign(limits | {"seeds": (CASE, np.array([float(len(one)) for one in each]))})
+
+
+# Variable -> what is shown of it over several seeds; the mean of others.
+_MERGED: dict[str, Any] = {
+    "friction_error": np.max,
+    "complementarity": np.max,
+    "energy_balance": lambda found: found[np.argmax(np.abs(found))],
+    "cells": np.max,
+    "failed": np.min,
+    "interpolated": np.min,
+    "within_measured_frequencies": np.min,
+}
 
 
 def labelled(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:

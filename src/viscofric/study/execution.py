@@ -255,7 +255,7 @@ def tree_of(
     tree.attrs = {
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
-        **{name: text for name, text in (("citation", study.citation), ("licence", study.licence)) if text},
+        **{name: text for name in _DESCRIBED if (text := getattr(study, name))},
         "notes": _listed([*notes, *study.notes, *of_friction]),
         "warnings": _listed(
             [
@@ -272,6 +272,10 @@ def tree_of(
         **setting(study, contacts.sweep, rubbers),
     }
     return tree
+
+
+#: Keys of a run file that describe a study in words, and attributes of its results.
+_DESCRIBED = ("author", "sample", "comment", "citation", "licence")
 
 
 def _missed_accuracy(cases: xarray.Dataset, study: Study) -> list[str]:

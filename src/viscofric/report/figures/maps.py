@@ -16,7 +16,7 @@ from viscofric.report.results import group, rubbers, values
 from viscofric.report.sweeps import SEED, best_estimate, seeds_averaged, sweep_axes
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import xarray as xr
     from matplotlib.axes import Axes
@@ -102,15 +102,17 @@ def maximum_ridge(speed: Array, temperature: Array, friction: Array) -> Array:
     -------
     (k, 2) array
         m/s, refined by a parabola through three points over the logarithm of the speed, and K; one row for each
-        temperature whose maximum has solved neighbours on both sides.
+        temperature whose maximum has solved neighbours on both sides, and a row of NaN where others lie in between.
     """
     found = []
     log = np.log(np.asarray(speed, dtype=float))
     for kelvin, row in zip(np.asarray(temperature).tolist(), np.asarray(friction, dtype=float), strict=True):
         if not np.isfinite(row).any():
+            found.append((math.nan, math.nan))
             continue
         top = int(np.nanargmax(row))
         if not 0 < top < len(row) - 1 or not np.isfinite(row[top - 1 : top + 2]).all():
+            found.append((math.nan, math.nan))
             continue
         curvature, slope, _ = np.polyfit(log[top - 1 : top + 2] - log[top], row[top - 1 : top + 2], 2)
         step = -0.5 * slope / curvature if curvature < 0.0 else 0.0
@@ -230,19 +232,15 @@ def filled_in(
 
     Notes
     -----
-    μ(v, T) = μ(α(T) v, T₀): between two temperatures, each of the two curves is moved along log v by its own
-    difference of log α, and the two are weighed by how near they are in 1/T.  Where one of them ends, the other serves.
-    Log α is straight over 1/T between the temperatures at which it is known.
+    μ(v, T) = μ(α(T) v, T₀): at a temperature between two, each of the two curves is read at its own speed of the same
+    α v, and the two are weighed by how near they are in 1/T.  Beyond its ends, a curve goes on with the nearest others,
+    so that friction is continuous.  Log α is straight over 1/T between the temperatures at which it is known.
     """
     if shift is None or temperature[0] < shift[0][0] - _BEYOND or temperature[-1] > shift[0][-1] + _BEYOND:
         return temperature, friction
-    logarithm = np.log(speed)
-
-    def moved(row: int, kelvin: float) -> Array:
-        step = np.log(10.0) * (_log_shift(shift, kelvin) - _log_shift(shift, float(temperature[row])))
-        found: Array = np.interp(logarithm + step, logarithm, friction[row], left=np.nan, right=np.nan)
-        return found
-
+    logs = np.array([np.log(10.0) * _log_shift(shift, kelvin) for kelvin in temperature.tolist()])
+    reduced = np.log(speed) + logs[:, None]
+    curves = [_continued(reduced, friction, row) for row in range(len(temperature))]
     between = max(1, round(_ROWS / (len(temperature) - 1)))
     kelvins, rows = [float(temperature[0])], [friction[0]]
     for lower in range(len(temperature) - 1):
@@ -250,15 +248,29 @@ def filled_in(
         for part in range(1, between + 1):
             kelvin = cold + part * (warm - cold) / between
             weight = (1.0 / cold - 1.0 / kelvin) / (1.0 / cold - 1.0 / warm)
-            first, second = moved(lower, kelvin), moved(lower + 1, kelvin)
-            straight = (1.0 - weight) * friction[lower] + weight * friction[lower + 1]
-            mixed = (1.0 - weight) * first + weight * second
-            whole = np.where(np.isfinite(first), np.where(np.isfinite(second), mixed, first), second)
-            whole = np.where(np.isfinite(whole), whole, straight)
+            at = np.log(speed) + np.log(10.0) * _log_shift(shift, kelvin)
+            mixed = (1.0 - weight) * curves[lower](at) + weight * curves[lower + 1](at)
             failed = ~np.isfinite(friction[lower + (weight > 0.5)])
             kelvins.append(kelvin)
-            rows.append(np.where(failed, np.nan, whole) if part < between else friction[lower + 1])
+            rows.append(np.where(failed, np.nan, mixed) if part < between else friction[lower + 1])
     return np.array(kelvins), np.array(rows)
+
+
+def _continued(reduced: Array, friction: Array, row: int) -> Callable[[Array], Array]:
+    """Return friction over the logarithm of the reduced speed at a temperature, with other curves beyond its ends."""
+    from scipy.interpolate import PchipInterpolator
+
+    known = np.isfinite(friction)
+    x, y = reduced[row][known[row]], friction[row][known[row]]
+    for other in sorted(range(len(reduced)), key=lambda one: abs(one - row)):
+        more, value = reduced[other][known[other]], friction[other][known[other]]
+        outside = (more < x.min()) | (more > x.max()) if x.size else np.full(more.shape, True)
+        order = np.argsort(np.append(x, more[outside]))
+        x, y = np.append(x, more[outside])[order], np.append(y, value[outside])[order]
+    if x.size < 2:  # nothing to interpolate
+        return lambda at: np.full(np.shape(at), np.nan)
+    found: Callable[[Array], Array] = PchipInterpolator(x, y, extrapolate=False)
+    return found
 
 
 def _log_shift(shift: tuple[Array, Array], kelvin: float) -> float:

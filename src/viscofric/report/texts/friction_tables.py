@@ -22,7 +22,7 @@ from viscofric.report.results import (
     rubbers,
     values,
 )
-from viscofric.report.sweeps import VARIED, cases_of, solved_cases, thinned, value_label
+from viscofric.report.sweeps import SEED, VARIED, cases_of, over_seeds, solved_cases, thinned, value_label
 from viscofric.report.texts.numbers import ABSENT, degrees, percent, several, signed_percent, significant, with_error
 from viscofric.report.texts.tables import (
     Column,
@@ -67,6 +67,13 @@ _ROUGH_MEANINGS = (
 )
 
 
+_SEEDS_MEAN = (
+    "Means over the seeds of the surface; 95 %: confidence interval of the mean friction (Student's t); numerical "
+    "error, energy balance and complementarity: the largest of the seeds. The results have every seed. "
+    + _ROUGH_MEANINGS.partition("; ")[2]
+)
+
+
 def _with_remarks(table: Table, doubts: Sequence[tuple[str, ...]]) -> Table:
     """Add a column that says what is doubtful about a row, if anything is about any."""
     if not any(doubts):
@@ -81,13 +88,20 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
     prediction = solved_cases(tree)
     if prediction is None:
         return None
+    seeds = SEED in prediction and len(np.unique(prediction[SEED].values)) > 1
+    prediction = over_seeds(prediction)
     others = [name for name in VARIED if name in prediction and len(np.unique(prediction[name].values)) > 1]
     labels = [[value_label(prediction, name, value) for value in prediction[name].values] for name in others]
     kind = list(zip(*labels, strict=True)) if others else [()] * prediction.sizes["case"]
     temperatures = nominal_temperatures(values(prediction, "temperature")).size
     if others and len(set(kind)) * temperatures > _MOST_COLUMNS:
-        return _highest_friction(tree, prediction, others, kind)
-    return _friction_grid(tree, prediction, kind)
+        found = _highest_friction(tree, prediction, others, kind)
+    else:
+        found = _friction_grid(tree, prediction, kind)
+    return replace(found, note=f"{_OF_SEEDS} {found.note}".strip()) if seeds else found
+
+
+_OF_SEEDS = "Mean over the seeds of the surface, with half its 95 % confidence interval (Student's t)."
 
 
 def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tuple[str, ...]]) -> Table:
@@ -104,7 +118,7 @@ def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tup
     cells: dict[tuple[float, str], str] = {}
     for row, column in enumerate(of_case):
         mark = " *" if doubts[row] else ""
-        cells.setdefault((float(speed[row]), column), significant(float(friction[row]), 3) + mark)
+        cells.setdefault((float(speed[row]), column), _mean(prediction, row, float(friction[row])) + mark)
     rows = [
         [significant(1e3 * float(at), 4), *(cells.get((float(at), column), ABSENT) for column in shown)]
         for at in speeds[::every]
@@ -121,6 +135,13 @@ def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tup
     )
 
 
+def _mean(cases: xr.Dataset, row: int, friction: float) -> str:
+    """Return friction, of several seeds with half the confidence interval of the mean."""
+    if "seeds" not in cases:
+        return significant(friction, 3)
+    return with_error(friction, 0.5 * float(cases["friction_upper"].values[row] - cases["friction_lower"].values[row]))
+
+
 def _highest_friction(
     tree: xr.DataTree, prediction: xr.Dataset, others: Sequence[str], kind: Sequence[tuple[str, ...]]
 ) -> Table:
@@ -133,7 +154,7 @@ def _highest_friction(
         mark = " *" if doubts[top] else ""
         where = [value_label(prediction, name, prediction[name].values[top]) for name in ("temperature", "speed")]
         lowest = significant(float(friction[cases].min()), 3)
-        rows.append([*map(_together, combination), significant(float(friction[top]), 3) + mark, *where, lowest])
+        rows.append([*map(_together, combination), _mean(prediction, top, float(friction[top])) + mark, *where, lowest])
     shown = [rows[place] for place in thinned(len(rows), 2 * _MOST_ROWS)]
     some = f" Shown: {len(shown)} of {len(rows)} combinations." if len(shown) < len(rows) else ""
     return Table(
@@ -198,7 +219,7 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
     prediction = group(tree, name)
     if prediction is None:
         return None
-    prediction = cases_of(prediction)
+    prediction = over_seeds(cases_of(prediction))
     friction, error = (values(prediction, part) for part in ("friction_coefficient", "friction_error"))
     full = prediction.assign(relative_error=("case", error / np.where(friction == 0.0, np.nan, np.abs(friction))))
     between = interpolated(full)
@@ -219,6 +240,7 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
             Column("friction coefficient", "friction_coefficient", times(1.0)),
             Column("95 % from", "friction_lower", times(1.0)),
             Column("to", "friction_upper", times(1.0)),
+            Column("seeds", "seeds", whole),
             Column("numerical error", "relative_error", percent),
             Column("energy balance", "energy_balance", percent),
             Column("indentation (mm)", "indentation", times(1e3)),
@@ -234,7 +256,7 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
             Column("products", "products", whole),
         ],
         is_open,
-        _MEANINGS if "contact_area_fraction" not in full else _ROUGH_MEANINGS,
+        _MEANINGS if "contact_area_fraction" not in full else _SEEDS_MEAN if "seeds" in full else _ROUGH_MEANINGS,
     )
     return _with_remarks(table, [_state(*one) for one in zip(*_states(full), remarks(tree, full), strict=True)])
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.files import parse_toml
 from viscofric.notes import Note
 from viscofric.report.results import (
     group,
@@ -36,6 +38,7 @@ from viscofric.report.texts.numbers import (
     unbroken,
     with_error,
 )
+from viscofric.study.results.compare import flat_keys
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -168,9 +171,32 @@ def inputs(tree: xr.DataTree) -> list[Input]:
                 listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
         listed.append(Input("cases", str(math.prod(friction.sizes.values()))))
     accuracy = number(attrs, "accuracy")
+    listed = [Input(name, str(attrs.get(name, ""))) for name in ("author", "sample", "comment")] + listed
     listed += [Input(name, str(attrs.get(name, ""))) for name in ("citation", "licence")]
     listed.append(Input("requested accuracy", f"{short(100 * accuracy)} %" if math.isfinite(accuracy) else ""))
+    listed += _other_settings(str(attrs.get("study_text", "")), {item.name for item in listed})
     return [item for item in listed if item.value not in ("", ABSENT)]
+
+
+# Keys of a run file that the list of inputs shows in words of its own.
+_WORDED = re.compile(
+    r"[^.]*|conditions\.(load|pressure|speed|temperature|direction|thickness)(\..*)?|indenter\.(shape|radius\w*|angle).*"
+    r"|material\.(poisson_ratio|reference_temperature|name|catalogue)|solver\.accuracy|cluster\..*|outputs\..*"
+)
+
+
+def _other_settings(text: str, known: set[str]) -> list[Input]:
+    """Return all keys of a run file that are not known yet, and their values as they were given."""
+    try:
+        keys = dict(flat_keys(parse_toml(text)))
+    except ValueError:
+        return []
+    found = []
+    for key, value in keys.items():
+        if not _WORDED.fullmatch(key) and key.rpartition(".")[2] not in known:
+            shown = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+            found.append(Input(key.replace("_", " ").replace(".", ": ", 1), shown))
+    return found
 
 
 def _axes(tree: xr.DataTree) -> list[SweepAxis]:

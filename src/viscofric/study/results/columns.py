@@ -43,6 +43,9 @@ _DECIMALS = 9
 # Attribute -> its name in the lines above a table.
 _NAMED = {
     "data_origin": "data",
+    "author": "author",
+    "sample": "sample",
+    "comment": "comment",
     "citation": "citation",
     "licence": "licence",
     "indenter": "indenter",

@@ -294,7 +294,7 @@ def _run_files(first: str, second: str) -> Iterator[str]:
     if first == second or not (first and second):  # a table of results has no run file
         return
     try:
-        here, there = (dict(_flat(parse_toml(text))) for text in (first, second))
+        here, there = (dict(flat_keys(parse_toml(text))) for text in (first, second))
     except ValueError:
         yield "The run files differ."
         return
@@ -305,12 +305,12 @@ def _run_files(first: str, second: str) -> Iterator[str]:
         yield f"The run files differ in {len(changed) - _MOST_KEYS} more keys."
 
 
-def _flat(table: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+def flat_keys(table: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
     """Yield every value of nested tables with its joined keys."""
     tables = table.items() if isinstance(table, dict) else enumerate(table, 1)
     for key, value in tables:
         deeper = isinstance(value, dict) or (isinstance(value, list) and value and isinstance(value[0], dict))
-        yield from _flat(value, f"{prefix}{key}.") if deeper else [(f"{prefix}{key}", value)]
+        yield from flat_keys(value, f"{prefix}{key}.") if deeper else [(f"{prefix}{key}", value)]
 
 
 def _shown(value: Any) -> str:

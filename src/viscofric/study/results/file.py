@@ -24,6 +24,9 @@ _PREDICTION = "prediction"
 _ABOUT = (
     "title",
     "data_origin",
+    "author",
+    "sample",
+    "comment",
     "citation",
     "licence",
     "accuracy",

@@ -62,6 +62,8 @@ class Study(Shown, Table):
     ----------
     title : str
     data_origin : {"measured", "synthetic"}
+    author, sample, comment : str or None
+        For the report.
     citation, licence : str or None
         Of the data.
     materials : tuple of MaterialTable
@@ -92,6 +94,9 @@ class Study(Shown, Table):
     data_origin: Literal["measured", "synthetic"] = Field(
         "measured", description="Origin of the data; report and figures label synthetic data."
     )
+    author: str | None = Field(None, max_length=300, description="Who made the study; shown in the report.")
+    sample: str | None = Field(None, max_length=300, description="Name or number of the specimen; shown in the report.")
+    comment: str | None = Field(None, max_length=3000, description="Remarks; shown in the report.")
     citation: str | None = Field(None, max_length=1000, description="Publication or origin of the data, with its DOI.")
     licence: str | None = Field(None, max_length=300, description="Licence of the data, such as 'CC BY 4.0'.")
     materials: Annotated[
