@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import json
 import math
@@ -199,6 +200,18 @@ def _umask() -> int:
     return mask
 
 
+def _sync_folder(folder: Path) -> None:
+    """Have a folder's names on the disk, so that a power failure does not lose a renamed file; not on Windows."""
+    if os.name == "nt":
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        with contextlib.suppress(OSError):  # some network folders refuse
+            os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
 def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> None:
     """Write a file through a temporary one in its folder, moved into place when complete.
 
@@ -218,6 +231,7 @@ def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> No
                 file.flush()
                 os.fsync(file.fileno())
             temporary.replace(path)
+            _sync_folder(path.parent)
         except BaseException:
             temporary.unlink(missing_ok=True)
             raise

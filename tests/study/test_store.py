@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import stat
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -15,9 +17,6 @@ from viscofric.files import write_atomically
 from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.solving import _sources, key_of
 from viscofric.study.running.store import CaseStore, Damaged
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 # Friction is no short decimal: it must come back to the last bit.
 RECORD = replace(
@@ -112,3 +111,22 @@ def test_nothing_is_left_behind_by_a_failed_write(tmp_path: Path, monkeypatch: p
     with refused("not-written", DataFileError):
         write_atomically(tmp_path / "a.json", b"{}")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such call for folders")
+def test_a_written_file_is_on_the_disk_with_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    order: list[str] = []
+    sync, replace_ = os.fsync, Path.replace
+
+    def synced(handle: int) -> None:
+        order.append("folder" if stat.S_ISDIR(os.fstat(handle).st_mode) else "file")
+        sync(handle)
+
+    def replaced(path: Path, target: Path) -> Path:
+        order.append("name")
+        return replace_(path, target)
+
+    monkeypatch.setattr("viscofric.files.os.fsync", synced)
+    monkeypatch.setattr(Path, "replace", replaced)
+    write_atomically(tmp_path / "a.txt", b"a")
+    assert order == ["file", "name", "folder"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 import socket
@@ -55,6 +56,7 @@ def test_address_with_the_token_lets_the_browser_in(server: Server) -> None:
         assert (welcome.status_code, welcome.headers["location"]) == (303, "/")
         cookie = welcome.headers["set-cookie"]
         assert "HttpOnly" in cookie
+        assert server.token not in cookie
         assert "SameSite=Strict" in cookie
         assert cookie.startswith(f"viscofric-{server.base.rpartition(':')[2]}=")
         page = browser.get("/")
@@ -79,9 +81,10 @@ def test_invitation_opened_again_by_the_browser_that_used_it_shows_the_page(serv
 def test_cookies_of_other_programs_at_this_host_are_passed_over(server: Server, other: str) -> None:
     """Browsers send the cookies of all ports of a host; some are no proper ones."""
     name = f"viscofric-{server.base.rpartition(':')[2]}"
-    for cookies in (f"{other}; {name}={server.token}", f"{name}={server.token}; {other}"):
+    session = Door(0, token=server.token).session
+    for cookies in (f"{other}; {name}={session}", f"{name}={session}; {other}"):
         assert httpx.get(f"{server.base}/", headers={"Cookie": cookies}, trust_env=False).status_code == 200
-    for cookies in (f"{other}; {name}x={server.token}", f"x{name}={server.token}", f"{name}={server.token}x"):
+    for cookies in (f"{other}; {name}x={session}", f"x{name}={session}", f"{name}={session}x"):
         assert httpx.get(f"{server.base}/", headers={"Cookie": cookies}, trust_env=False).status_code == 403
 
 
@@ -231,6 +234,66 @@ def test_slow_and_partial_requests_keep_nobody_waiting(server: Server) -> None:
     finally:
         for connection in open_ones:
             connection.close()
+
+
+def test_connections_whose_head_does_not_come_are_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    import asyncio
+
+    from uvicorn import Config
+    from uvicorn.server import ServerState
+
+    from viscofric.web import server as serving
+
+    monkeypatch.setattr(serving, "_HEAD_WAIT", 0.3)
+
+    async def application(scope: object, receive: object, send: object) -> None:
+        await asyncio.sleep(0.6)  # a reply that takes longer than a head may
+        await send({"type": "http.response.start", "status": 204, "headers": []})  # type: ignore[operator]
+        await send({"type": "http.response.body"})  # type: ignore[operator]
+
+    async def ended(*parts: bytes) -> tuple[bytes, float]:
+        """Send parts of a request, one each tenth of a second, and return the reply and when the connection ended."""
+        config = Config(application, http=serving._protocol(), lifespan="off", ws="none", log_level="error")  # type: ignore[arg-type]
+        config.load()
+        loop = asyncio.get_running_loop()
+        made = await loop.create_server(lambda: config.http_protocol_class(config, ServerState(), {}), "127.0.0.1", 0)  # type: ignore[union-attr, call-arg]
+        async with made:
+            reading, writing = await asyncio.open_connection(*made.sockets[0].getsockname())
+            begun, found = loop.time(), b""
+            for part in parts:
+                writing.write(part)
+                await asyncio.sleep(0.1)
+            with contextlib.suppress(ConnectionError):
+                found = await asyncio.wait_for(reading.read(100), 5.0)
+            writing.close()
+            return found, loop.time() - begun
+
+    silent, dripped = run_apart(ended()), run_apart(ended(*[b"G", b"E", b"T", b" /", b" H", b"TTP"]))
+    assert (silent[0], dripped[0]) == (b"", b"")
+    assert 0.2 < silent[1] < 2.0
+    assert dripped[1] < 2.0
+    assert run_apart(ended(b"GET / HTTP/1.1\r\n", b"Host: a\r\n\r\n"))[0].startswith(b"HTTP/1.1 204")
+
+
+def test_body_that_comes_byte_by_byte_is_given_up() -> None:
+    import asyncio
+
+    async def application(scope: object, receive: object, send: object) -> None:
+        while (await receive())["more_body"]:  # type: ignore[operator]
+            pass
+
+    async def drip() -> dict[str, object]:
+        await asyncio.sleep(0.01)
+        return {"type": "http.request", "body": b"x", "more_body": True}
+
+    reported: list[dict[str, object]] = []
+
+    async def send(message: dict[str, object]) -> None:
+        reported.append(message)
+
+    scope = {"type": "http", "path": "/api/jobs/check", "headers": []}
+    run_apart(Limits(application, lambda path: 10**6, pause=0.2)(scope, drip, send))  # type: ignore[arg-type]
+    assert reported[0]["status"] == 408
 
 
 def test_body_that_does_not_come_is_given_up() -> None:

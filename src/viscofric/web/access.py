@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hmac
 import ipaddress
 import re
 import secrets
@@ -43,6 +44,11 @@ class Door:
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     program: str = field(default_factory=lambda: secrets.token_hex(8))
     invitations: set[str] = field(default_factory=set)
+
+    @property
+    def session(self) -> str:
+        """Value of the cookie: follows from the token, which does not follow from it."""
+        return hmac.digest(self.token.encode(), b"cookie", "sha256").hex()
 
     @property
     def cookie(self) -> str:
@@ -90,6 +96,10 @@ class Door:
         """Whether this is the token, in a time that does not depend on how much of it matches."""
         return secrets.compare_digest(value.encode("utf-8", "replace"), self.token.encode())
 
+    def is_session(self, value: str) -> bool:
+        """Whether this is the value of the cookie, in such a time too."""
+        return secrets.compare_digest(value.encode("utf-8", "replace"), self.session.encode())
+
     def opens(self, value: str) -> bool:
         """Whether an address with this may be opened; an invitation is used up by it."""
         if value in self.invitations:
@@ -132,7 +142,7 @@ class Access:
         scheme, _, bearer = headers.get("authorization", "").partition(" ")
         if scheme.lower() == "bearer" and self.door.is_token(bearer.strip()):
             return False
-        return False if self.door.is_token(_cookie(headers, self.door.cookie)) else _NO_TOKEN
+        return False if self.door.is_session(_cookie(headers, self.door.cookie)) else _NO_TOKEN
 
     async def _welcome(self, headers: dict[str, str], send: Send) -> None:
         """Hand out the cookie and lead to the page.
@@ -140,7 +150,7 @@ class Access:
         A link on another page (a terminal in a browser) makes the browser hold back the cookie from a redirection,
         but not from what this reply itself requests.
         """
-        cookie = f"{self.door.cookie}={self.door.token}; Path=/; HttpOnly; SameSite=Strict"
+        cookie = f"{self.door.cookie}={self.door.session}; Path=/; HttpOnly; SameSite=Strict"
         more = [(b"set-cookie", cookie.encode()), (b"content-type", b"text/html; charset=utf-8")]
         if headers.get("sec-fetch-site") == "cross-site":
             await reply(

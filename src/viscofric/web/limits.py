@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from viscofric.web.replies import App, Receive, Scope, Send
 
 LARGEST_STUDY = 4_000_000  # bytes, of a job's body
-_BODY_PAUSE = 20.0  # s without a byte of a body that was announced
+_BODY_WAIT, _LEAST_RATE = 30.0, 1e5  # s for a body that was announced, and longer for what comes at so many bytes/s
 
 
 class Limits:
@@ -24,10 +24,10 @@ class Limits:
     largest : callable
         Path of a request -> how many bytes its body may have.
     pause : float
-        Seconds that may pass without a byte of it.
+        Seconds in which it must come, and longer for what came of it.
     """
 
-    def __init__(self, app: App, largest: Callable[[str], int], pause: float = _BODY_PAUSE) -> None:
+    def __init__(self, app: App, largest: Callable[[str], int], pause: float = _BODY_WAIT) -> None:
         self.app, self.largest, self.pause = app, largest, pause
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -50,7 +50,7 @@ class Limits:
                 await refuse(scope, send, 413, words)
         except _TooSlow:
             if not replied.begun:
-                await refuse(scope, send, 408, f"Nothing of the body came for {self.pause:g} s.")
+                await refuse(scope, send, 408, f"The body did not come within {self.pause:g} s.")
 
 
 class _TooLarge(BaseException):
@@ -63,18 +63,21 @@ class _TooSlow(BaseException):
 
 class _Body:
     def __init__(self, receive: Receive, most: int, pause: float) -> None:
-        self._receive, self._left, self._pause, self._more = receive, most, pause, True
+        self._receive, self._left, self._more = receive, most, True
+        self._end = asyncio.get_running_loop().time() + pause
 
     async def receive(self) -> MutableMapping[str, Any]:
         if not self._more:
             return await self._receive()
         try:
-            async with asyncio.timeout(self._pause):
+            async with asyncio.timeout_at(self._end):
                 message = await self._receive()
         except TimeoutError:
             raise _TooSlow from None
         if message["type"] == "http.request":
-            self._left -= len(message.get("body", b""))
+            came = len(message.get("body", b""))
+            self._left -= came
+            self._end += came / _LEAST_RATE
             self._more = message.get("more_body", False)
             if self._left < 0:
                 raise _TooLarge
