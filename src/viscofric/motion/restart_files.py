@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import io
 import math
 import zipfile
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
 
-_FORMAT = "viscofric state 2"
+_FORMAT, _DIGEST = "viscofric state 2", "sha256"
 #: Beginnings of the names of a march, and of that on the coarser grid of cells.
 _MARCHES = "", "coarser/"
 _DAMAGED = (KeyError, ValueError, TypeError, IndexError, OSError, EOFError, zipfile.BadZipFile, InputError)
@@ -68,6 +69,7 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
         named |= {f"{begin}{name}": value for name, value in _march(march).items()}
     file = io.BytesIO()
     arrays: dict[str, Any] = {name: np.asarray(value) for name, value in named.items() if value is not None}
+    arrays[_DIGEST] = np.asarray(_digest(arrays))
     np.savez_compressed(file, **arrays)
     if file.tell() > LARGEST_FILE or sum(one.nbytes for one in arrays.values()) > LARGEST_UNPACKED:
         size, right = math.ceil(file.tell() / 1e6), LARGEST_FILE / 1e6
@@ -76,6 +78,15 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
             code="too-large",
         )  # fmt: skip
     write_atomically(file_path(path), file.getvalue())
+
+
+def _digest(arrays: Mapping[str, Array]) -> str:
+    """Return the SHA-256 of all names, types, shapes and numbers."""
+    found = hashlib.sha256()
+    for name in sorted(set(arrays) - {_DIGEST}):
+        one = np.ascontiguousarray(arrays[name])
+        found.update(f"{name} {one.dtype.str} {one.shape}\0".encode() + one.tobytes())
+    return found.hexdigest()
 
 
 def _march(march: Begun) -> dict[str, Any]:
@@ -123,6 +134,8 @@ def read_restart(path: str | PathLike[str]) -> Restart:
             named = {name: stored[name] for name in stored.files}
         if str(named["format"]) != _FORMAT:
             raise ValueError("of another kind")
+        if _DIGEST in named and str(named[_DIGEST]) != _digest(named):  # older versions wrote none
+            raise ValueError("other numbers than were stored")
         return _restart(named)
     except _DAMAGED:
         raise DataFileError(
