@@ -345,7 +345,9 @@ def test_checks_make_a_data_set() -> None:
     """What is not known is NaN, what cannot be judged −1; sentences are in the words of their reader."""
     layer = Remedy("layer=Layer(…)", run_file="[layer]")
     checks = (
-        AssumptionCheck.of("half-space", False, Note("too-thin", "Thin: ", remedy=layer), 0.5, 0.25),
+        AssumptionCheck.of(
+            "half-space", False, Note("too-thin", "Thin: ", remedy=layer, values={"H": 2e-3}), 0.5, 0.25
+        ),
         AssumptionCheck.of("linearity", None, "Unknown.", None, 0.06),
     )
     data = assumptions_dataset(checks, "run_file")
@@ -355,4 +357,5 @@ def test_checks_make_a_data_set() -> None:
     np.testing.assert_array_equal(data["holds"], [0, -1])
     assert data["sentence"].values.tolist() == ["Thin: [layer]", "Unknown."]
     assert assumption_checks_of(data) == [replace(checks[0], sentence="Thin: [layer]"), checks[1]]
+    assert (data["code"][0].item(), assumption_checks_of(data)[0].values) == ("too-thin", {"H": 2e-3})
     assert checks[0].to_dataset()["sentence"].item() == "Thin: layer=Layer(…)"

@@ -16,7 +16,7 @@ from refusals import refused
 from viscofric.friction.measurement.conditions import Condition
 from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.tribometry import separate
-from viscofric.friction.measurement.zeros import Zeros
+from viscofric.friction.measurement.zeros import Zeros, wanders
 from viscofric.notes import codes
 
 if TYPE_CHECKING:
@@ -508,3 +508,21 @@ def test_a_given_zero_that_the_configurations_contradict_is_reported() -> None:
     # One direction of the disc tells no zero.
     forwards = runs.select(runs.disc_speed > 0.0)
     assert "given-zero-contradicted" not in codes(separate(forwards, zero="0.5 N").notes)
+
+
+@pytest.mark.parametrize(("signs", "replicates"), [(FOUR[:3], 2), (FOUR, 1), (FOUR, 3)])
+def test_rounding_of_exact_forces_is_no_deviation(signs: Sequence[tuple[int, int]], replicates: int) -> None:
+    """Neither runs that differ alike at all speeds, nor another zero than the given one."""
+    said: set[str] = set()
+    for seed in range(6):
+        runs = traction_runs(
+            viscoelastic=lambda v, T, mu=0.01 + 0.003 * seed: mu * v**0.1, load=0.1 + seed, load_jitter=0.0, offset=0.0,
+            speeds=(0.02, 0.05, 0.1, 0.2), configurations=signs, replicates=replicates,
+        )  # fmt: skip
+        said |= codes((*separate(runs).notes, *separate(runs, zero=0.0).notes))
+    assert said == set()
+
+
+def test_a_constant_zero_does_not_drift() -> None:
+    """Though the mean of equal numbers is not equal to them to rounding."""
+    assert not any(wanders(np.full(count, 0.3)) for count in range(3, 60))

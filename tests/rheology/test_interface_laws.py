@@ -80,6 +80,17 @@ def test_eyring_is_linear_in_slow_and_logarithmic_in_fast_slip():
     assert law(10.0, 303.15) == pytest.approx(stress * np.log(2e4), rel=1e-6)
 
 
+@pytest.mark.parametrize("celsius", [-85.0, -83.0, -70.0, -52.0])  # 2500 to 200 decades of reduced speed
+def test_eyring_is_logarithmic_where_the_shift_exceeds_all_floats(celsius):
+    law = vf.EyringShearStress(2e-26, 1e-3, shift=vf.VFT("2500 K", "187 K", "20 degC"))
+    kelvin = celsius + 273.15
+    decades = law.shift.log10(kelvin) + 1.0
+    stress = 1.380649e-23 * kelvin / 2e-26
+    assert law(1e-2, kelvin) == pytest.approx(stress * np.log(10.0) * (decades + np.log10(2.0)))
+    rise = law(1e-1, kelvin) / law(1e-2, kelvin)
+    assert rise == pytest.approx(1.0 + 1.0 / (decades + np.log10(2.0)))
+
+
 def test_a_law_of_one_temperature_is_refused_at_another():
     rows = table(LAWS[1])
     here = rows.kelvin == 303.15

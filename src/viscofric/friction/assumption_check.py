@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import dataclass
 from functools import cache, partial
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from viscofric.checks import Check
 from viscofric.contact.free.scale import Scale
-from viscofric.notes import note_of
+from viscofric.notes import Note, note_of
 from viscofric.showing import Shown
 from viscofric.units import plain, shown_celsius, shown_speed
 
@@ -69,7 +70,7 @@ def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "pyt
 
     `value` is NaN where it is not known; `holds` is 1, 0, or −1 where it cannot be judged.
     """
-    from viscofric.datasets import dataset
+    from viscofric.datasets import dataset, plain
 
     return dataset(
         "assumption",
@@ -87,16 +88,26 @@ def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "pyt
                 "1: the assumption holds; 0: it does not; -1: unknown",
             ),
             "sentence": ([note_of(check.sentence).words(reader) for check in checks], "1", "the check in words"),
+            "code": ([check.code for check in checks], "1", "code of the sentence"),
+            "sentence_values": (
+                [json.dumps(plain(check.values, None), ensure_ascii=False) for check in checks],
+                "1",
+                "numbers of the sentence by name, JSON",
+            ),
         },
     )
 
 
 def assumption_checks_of(data: xarray.Dataset) -> list[AssumptionCheck]:
     """Return the checks that `assumptions_dataset` put into a data set."""
-    columns = (data[name].values.tolist() for name in ("assumption_name", "holds", "sentence", "value", "limit"))
+    columns = (data[name].values.tolist() for name in ("assumption_name", "holds", "value", "limit"))
+    sentences = data["sentence"].values.tolist()
+    if "code" in data:  # not in results of viscofric 0.1
+        of_notes = (data[name].values.tolist() for name in ("code", "sentence", "sentence_values"))
+        sentences = [Note(code, words, values=json.loads(held)) for code, words, held in zip(*of_notes, strict=True)]
     return [
         AssumptionCheck.of(name, _HOLDS[holds], sentence, None if math.isnan(value) else value, limit)
-        for name, holds, sentence, value, limit in zip(*columns, strict=True)
+        for name, holds, value, limit, sentence in zip(*columns, sentences, strict=True)
     ]
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.measurement.conditions import where
-from viscofric.friction.measurement.doubts import CHANCE
+from viscofric.friction.measurement.doubts import CHANCE, ROUNDING
 from viscofric.notes import Note
 from viscofric.units import shown_number
 
@@ -137,7 +137,7 @@ def _common(between: Array, within: Array, speeds: float) -> float:
     if min(between[1], within[1]) <= 0.0 or within[0] <= 0.0:
         return 0.0
     large, small = between[0] / between[1], within[0] / within[1]
-    if fdtrc(between[1], within[1], large / small) > CHANCE:
+    if large <= ROUNDING**2 or fdtrc(between[1], within[1], large / small) > CHANCE:
         return 0.0
     return float((large - small) / speeds)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.measurement.doubts import ROUNDING
 from viscofric.notes import Note
 from viscofric.units import Quantity, shown_number, to_si
 
@@ -164,9 +165,9 @@ def wanders(values: Array) -> bool:
     4(n−2)/(n²−1) (von Neumann, Annals of Mathematical Statistics 12, 367–395, 1941).
     """
     count = values.size
-    centred = values - values.mean() if count else values
-    if count < _FEWEST_FOR_DRIFT or not np.any(centred):
+    if count < _FEWEST_FOR_DRIFT or np.ptp(values) <= ROUNDING * np.abs(values).max():
         return False
+    centred = values - values.mean()
     ratio = float(np.sum(np.diff(values) ** 2) / (count - 1) / np.mean(centred**2))
     return ratio < 2.0 - _DRIFTS * 2.0 * math.sqrt((count - 2.0) / (count**2 - 1.0))
 
@@ -180,7 +181,7 @@ def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> l
         return []
     mean, error = float(fitted.mean()), float(fitted.std(ddof=1)) / np.sqrt(fitted.size)
     given = float(zeros.value[0])
-    if abs(mean - given) <= _AWAY * np.hypot(error, zeros.error) + 1e-9 * abs(given):
+    if abs(mean - given) <= _AWAY * np.hypot(error, zeros.error) + ROUNDING * float(runs.load.max()):
         return []
     sentence = Note(
         "given-zero-contradicted",

@@ -141,14 +141,19 @@ class EyringShearStress(InterfaceLaw):
 
     def _log10(self, x: Array, kelvin: Array) -> Array:
         stress = BOLTZMANN * kelvin / float(self.activation_volume)
-        return np.asarray(np.log10(stress) + np.log10(np.arcsinh(self._ratio(x))))
+        _, arsinh, below = self._arsinh(x)
+        return np.asarray(np.log10(stress) + np.log10(arsinh) + below)
 
-    def _ratio(self, x: Array) -> Array:
-        return np.asarray(10.0 ** np.clip(x - np.log10(float(self.speed)), -150.0, 150.0))
+    def _arsinh(self, x: Array) -> tuple[Array, Array, Array]:
+        """Return r = v/v₀ within 150 decades of 1, arsinh v/v₀ not below those, and the decades below them."""
+        decades = x - np.log10(float(self.speed))
+        near = np.clip(decades, -150.0, 150.0)  # beyond, arsinh r is r or ln 2r to rounding
+        ratio = 10.0**near
+        return ratio, np.arcsinh(ratio) + LN10 * np.maximum(decades - near, 0.0), np.minimum(decades - near, 0.0)
 
     def _slope(self, x: Array) -> Array:
-        ratio = self._ratio(x)
-        return np.asarray(ratio / (np.hypot(1.0, ratio) * np.arcsinh(ratio)))
+        ratio, arsinh, _ = self._arsinh(x)
+        return np.asarray(ratio / (np.hypot(1.0, ratio) * arsinh))
 
     def _gradient(self, x: Array) -> Array:
         volume = np.full(x.shape, -LOG10_E / float(self.activation_volume))

@@ -79,7 +79,7 @@ CHECKS = (
         "carbone-putignano",
         "Ball sliding on a half-space with one retardation time",
         _GROUP,
-        "G. Carbone, C. Putignano, J. Mech. Phys. Solids 61 (2013) 1822, Fig. 12, doi:10.1016/j.jmps.2013.03.005",
+        "G. Carbone, C. Putignano, J. Mech. Phys. Solids 61 (2013) 1822, Fig. 12",
         "The tolerances, 5 and 8 %, within which slippy's own test reproduces the same points.",
         _sliding_ball,
         obtained="Three points of the figure, taken from its vector graphics by the test "
