@@ -232,3 +232,18 @@ def test_what_cannot_fall_is_refused():
         vf.solve_impact(rubber(1e-3), BALL, mass=100.0, speed=10.0)
     with refused("out-of-range"):
         vf.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, accuracy=0.5)
+
+
+@pytest.mark.parametrize("accuracy", [1e-2, 1e-4])
+def test_the_error_of_restitution_includes_merged_modes_and_springs(accuracy: float) -> None:
+    """Restitution at this accuracy and at a much finer one differ by no more than the stated error."""
+    tau = np.geomspace(1e-4, 1.0, 8)
+    nearly_elastic = vf.RetardationSpectrum(100e6, 1.0 / (1e-8 - 8e-11), np.full(8, 1e-11), tau)
+    stiff = vf.RetardationSpectrum(1e6, 1.0 / (1e-6 - 0.999e-6), [0.999e-6], [2e-3])
+    for spectrum in (nearly_elastic, stiff):
+        hit, finer = (
+            vf.solve_impact(vf.Material(spectrum), vf.Ball("20 mm"), mass="50 g", speed="0.1 m/s", accuracy=one)
+            for one in (accuracy, 1e-6)
+        )
+        assert abs(hit.restitution - finer.restitution) <= hit.restitution_error <= accuracy
+        assert abs(hit.largest_indentation - finer.largest_indentation) <= hit.run.errors.indentation[0]

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 TIGHTEST, LOOSEST = 1e-6, 1e-2  # accuracies
 #: Springs in the contact for an accuracy of 1e-4, and their maximum number; N springs give a force error of 0.4/N².
-_SPRINGS, _MOST_SPRINGS = 250, 2500
+_SPRINGS, _MOST_SPRINGS, _OF_SPRINGS = 250, 2500, 0.4
 #: Steps of a contact in the first run that counts; the following ones halve them, and the last two are extrapolated.
 _STEPS, _LEAST_DIVISION, _HALVINGS = 120, 3, 5
 #: Largest contact radius, over that on an elastic half-space of E0.
@@ -276,9 +276,11 @@ class _Falling(NamedTuple):
             fine = Bounce(springs, self.mass, self.gravity, 0.0, first.taken, division, recorded=coarse is not None)
             fine.run(speed, rebounds)
             if coarse is not None:
-                contacts = _extrapolated(coarse.contacts, fine.contacts)
+                radius = np.array([row[4] for row in fine.rows])
+                of_springs = _OF_SPRINGS / np.maximum(np.searchsorted(s, radius), 1) ** 2
+                contacts = _extrapolated(coarse.contacts, fine.contacts, modes.error, float(of_springs.min()))
                 if contacts and max(one.restitution_error for one in contacts) <= self.accuracy:
-                    return self._solution(contacts, coarse, fine, temperature)
+                    return self._solution(contacts, coarse, fine, temperature, modes.error + of_springs)
             coarse = fine
         raise ConvergenceError(
             f"the restitution has not converged to {self.accuracy:g}; ask for a larger accuracy, or fewer rebounds.",
@@ -286,7 +288,12 @@ class _Falling(NamedTuple):
         )
 
     def _solution(
-        self, contacts: tuple[ImpactContact, ...], coarse: Bounce, fine: Bounce, temperature: Quantity | None
+        self,
+        contacts: tuple[ImpactContact, ...],
+        coarse: Bounce,
+        fine: Bounce,
+        temperature: Quantity | None,
+        off: Array,  # error of the compliance at each row, relative
     ) -> ImpactSolution:
         time, depth, velocity, force, radius, stored, dissipated = np.array(fine.rows).T
         widest, deepest = float(radius.max()), float(depth.max())
@@ -302,8 +309,8 @@ class _Falling(NamedTuple):
         depths = [max(one.largest_depth for one in run.contacts) for run in (coarse, fine)]
         lost = self.mass * contacts[0].speed ** 2 * max(one.restitution_error for one in contacts)
         errors = TransientErrors(
-            load=still + abs(peaks[1] - peaks[0]) / 3.0,
-            indentation=still + abs(depths[1] - depths[0]) / 3.0,
+            load=still + abs(peaks[1] - peaks[0]) / 3.0 + off[np.argmax(force)] * peaks[1],
+            indentation=still + abs(depths[1] - depths[0]) / 3.0 + off[np.argmax(depth)] * depths[1],
             friction_force=still,
             energy=still + lost,
             balance=work - stored - dissipated,
@@ -319,8 +326,13 @@ class _Falling(NamedTuple):
         return ImpactSolution(contacts, run, velocity, self.mass, self.gravity, kelvin, run.warnings)
 
 
-def _extrapolated(coarse: list[Contact], fine: list[Contact]) -> tuple[ImpactContact, ...]:
-    """Return the contacts of two runs, one with half the steps of the other; none if the contacts do not correspond."""
+def _extrapolated(
+    coarse: list[Contact], fine: list[Contact], merging: float, of_springs: float
+) -> tuple[ImpactContact, ...]:
+    """Return the contacts of two runs, one with half the steps of the other; none if the contacts do not correspond.
+
+    The error of the restitution e is that of the steps, of merged modes, and of the stiffness by springs, de ~ e ln e.
+    """
     if [one.separates for one in coarse] != [one.separates for one in fine]:
         return ()
     found = []
@@ -329,6 +341,7 @@ def _extrapolated(coarse: list[Contact], fine: list[Contact]) -> tuple[ImpactCon
         start, duration, speed_in, speed_out, peak, deepest, when, last = columns
         before, after = one.speed_out / one.speed_in, two.speed_out / two.speed_in
         lasting = duration if two.separates else math.inf
-        values = (min(speed_out / speed_in, 1.0), lasting, peak, deepest, when, last, abs(after - before) / 3.0)
-        found.append(ImpactContact(start, speed_in, *values))
+        restitution = min(speed_out / speed_in, 1.0)
+        error = abs(after - before) / 3.0 + merging + of_springs * -after * math.log(after or 1.0)
+        found.append(ImpactContact(start, speed_in, restitution, lasting, peak, deepest, when, last, error))
     return tuple(found)
