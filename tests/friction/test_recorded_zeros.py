@@ -20,6 +20,8 @@ from viscofric.friction.measurement.zeros import Zeros, wanders
 from viscofric.notes import codes
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from viscofric.traction import TractionRuns
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
