@@ -91,6 +91,18 @@ def test_eyring_is_logarithmic_where_the_shift_exceeds_all_floats(celsius):
     assert rise == pytest.approx(1.0 + 1.0 / (decades + np.log10(2.0)))
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("speed", [-2.0, np.log10(0.0137), 0.0])
+def test_one_speed_at_several_temperatures_fixes_no_exponent(speed):
+    kelvin = np.array([293.15, 313.15, 333.15])
+    rows = StressTable.of(np.full(3, speed), kelvin, np.array([5.6, 5.4, 5.2]), 1e-4 * np.eye(3))
+    with pytest.raises(vf.InputError) as refused:
+        fit_stress("power", rows, None, 303.15, energy=True)
+    assert refused.value.code == "no-law"
+    compared = compare_stress_laws(rows, None, 303.15, energy=True)
+    assert {row.kind for row in compared.rows if row.law is not None} <= {"constant", "eyring"}
+
+
 def test_a_law_of_one_temperature_is_refused_at_another():
     rows = table(LAWS[1])
     here = rows.kelvin == 303.15

@@ -156,7 +156,9 @@ class _LinearFamily(_Family):
         return np.column_stack(columns)
 
     def start(self, values: Array) -> Array:
-        """Return any constants: the problem is linear."""
+        """Return any constants: the problem is linear; refused where one speed does not fix the exponent."""
+        if self.kind == "power" and np.ptp(self.x) <= SMALLEST_ERROR:
+            raise _not_described(self.kind)
         return np.zeros(self.size)
 
     def law(self, parameters: Array, covariance: Array | None = None) -> InterfaceLaw:
