@@ -222,3 +222,19 @@ def test_measurements_take_text_with_units() -> None:
     assert (law.critical_strain, law.storage_linear) == (0.02, 6e6)
     heights = vf.Topography([["1 um", "2 um"], ["1 um", "2 um"]], "10 um").heights
     np.testing.assert_allclose(heights, [[1e-6, 2e-6]] * 2)
+
+
+@pytest.mark.filterwarnings("error")
+def test_numbers_whose_squares_overflow_are_refused_in_arrays_too() -> None:
+    load = np.array([1.0, 1e300])
+    with pytest.raises(InputError) as found:
+        vf.History(time=[0.0, 1.0], load=load)
+    assert found.value.code == "too-large"
+    with pytest.raises(InputError) as found:
+        vf.TractionRuns([0.1] * 2, [0.05] * 2, load, [1.0] * 2, [300.0] * 2, [1, 2])
+    assert found.value.code == "too-large"
+    material = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
+    with pytest.raises(InputError) as found:
+        vf.solve_steady(material, vf.Ball("10 mm"), speed=1e-320, load=0.1)
+    assert found.value.code == "too-small"
+    assert vf.History(time=[0.0, 1.0], load=np.array([1.0, 1e149])).load is not None

@@ -57,6 +57,10 @@ def numbers(values: object, name: str, *, infinite: bool = False, missing: bool 
     if not allowed.all():
         wrong = float(found[~allowed].flat[0])
         raise wrong_argument(name, values, f"must hold finite numbers; {wrong} cannot be used.", "not-a-number")
+    beyond = np.isfinite(found) & (np.abs(found) > LARGEST)
+    if beyond.any():
+        wrong = float(found[beyond].flat[0])
+        raise wrong_argument(name, values, f"holds {wrong:g}, beyond {LARGEST:g}, too large for computations.", "too-large")
     return found
 
 

@@ -352,7 +352,10 @@ def velocity(value: Quantity, name: str = "speed") -> float:
     """Convert like `to_si`, but accept infinite speeds, one of the elastic limits."""
     if isinstance(value, float) and math.isinf(value):
         return value
-    return to_si(value, "m/s", name)
+    number = to_si(value, "m/s", name)
+    if 0.0 < abs(number) < 1.0 / LARGEST:
+        raise _wrong("too-small", name, value, "m/s", f"is below {1.0 / LARGEST:g}, too small for computations")
+    return number
 
 
 def celsius(kelvin: float) -> float:

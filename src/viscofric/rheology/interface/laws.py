@@ -140,9 +140,9 @@ class EyringShearStress(InterfaceLaw):
     _of_temperature: ClassVar[bool] = True
 
     def _log10(self, x: Array, kelvin: Array) -> Array:
-        stress = BOLTZMANN * kelvin / float(self.activation_volume)
+        stress = np.log10(BOLTZMANN / float(self.activation_volume)) + np.log10(kelvin)
         _, arsinh, below = self._arsinh(x)
-        return np.asarray(np.log10(stress) + np.log10(arsinh) + below)
+        return np.asarray(stress + np.log10(arsinh) + below)
 
     def _arsinh(self, x: Array) -> tuple[Array, Array, Array]:
         """Return r = v/v₀ within 150 decades of 1, arsinh v/v₀ not below those, and the decades below them."""
