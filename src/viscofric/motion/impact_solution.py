@@ -36,7 +36,7 @@ class ImpactContact(NamedTuple):
     separation_indentation : float
         Depth of the indenter's lowest point where it leaves the surface, m.
     restitution_error : float
-        Estimated, absolute.
+        Estimated, absolute: of steps in time, merged modes and springs.
     """
 
     start: float
