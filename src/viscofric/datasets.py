@@ -23,16 +23,9 @@ def dataset(
 ) -> xarray.Dataset:
     """Return columns along one dimension (or several) as a data set with units and long names.
 
-    Parameters
-    ----------
-    dimension : str or tuple of str
-    columns : mapping
-        Name → (values, unit, long name); an entry that is None is left out.  Values with fewer axes than there are
-        dimensions lie along the first of them; single numbers along none.
-    coordinates : mapping, optional
-        The same for coordinates, along `dimension` or, under a dimension's own name, along that dimension.
-    attributes : mapping, optional
-        Values that are None are left out.
+    A column is (values, unit, long name), or None to be left out.  Values with fewer axes than there are dimensions lie
+    along the first of them; single numbers along none.  Coordinates lie along `dimension` or, under a dimension's own
+    name, along that dimension.
     """
     import numpy as np
     import xarray
@@ -76,11 +69,7 @@ def on_grid(points: xarray.Dataset, *names: str) -> xarray.Dataset | None:
 def record(data: xarray.Dataset, digits: int | None = None) -> dict[str, Any]:
     """Return a data set as JSON can hold it: its attributes, each variable as a list, and ``units`` by name.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-    digits : int, optional
-        Significant digits of floats; None: all.  What is not finite becomes None.
+    Floats have so many significant `digits`, or all; what is not finite becomes None.
     """
     columns = {str(name): plain(variable.values, digits) for name, variable in data.variables.items()}
     units = {str(name): variable.attrs["units"] for name, variable in data.variables.items() if variable.attrs}
@@ -88,19 +77,9 @@ def record(data: xarray.Dataset, digits: int | None = None) -> dict[str, Any]:
 
 
 def plain(value: Any, digits: int | None = 6) -> Any:
-    """Return a value as JSON can hold it.
+    """Return dicts, lists, arrays, scalars, text, None and paths as JSON can hold them.
 
-    Parameters
-    ----------
-    value : object
-        Of dicts, lists, tuples, NumPy arrays and scalars, numbers, text, truth values, None, paths.
-    digits : int, optional
-        Significant digits of floats; None: all.
-
-    Returns
-    -------
-    object
-        Dicts, lists, int, float, str, bool and None; what is not finite is None.
+    Floats have so many significant `digits`, or all; what is not finite becomes None.
     """
     if value is None or isinstance(value, (str, bool, int)):
         return value

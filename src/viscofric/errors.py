@@ -66,16 +66,7 @@ def short_notes(notes: Iterable[str]) -> tuple[Note, ...]:
 
 
 def not_imported(package: str, error: Exception, install: str = "") -> str:
-    """Return a clause on a package that is not installed, or that is installed but cannot be imported.
-
-    Parameters
-    ----------
-    package : str
-    error : Exception
-        Raised by the import.
-    install : str
-        Command that installs it.
-    """
+    """Return a clause on a package that is not installed (with the command that installs it), or not importable."""
     if isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] == package:
         return f"{package} is not installed" + (f": {install}" if install else "")
     why = f"{type(error).__name__}: {error}"

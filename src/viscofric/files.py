@@ -51,13 +51,7 @@ def file_path(path: object) -> Path:
 
 
 def read_bytes(path: str | PathLike[str], most: int | None = None) -> bytes:
-    """Return the content of a regular file of at most so many bytes, by default those of a table of measurements.
-
-    Raises
-    ------
-    DataFileError
-        If the file does not exist, cannot be opened, is a folder, device or pipe, or is too large.
-    """
+    """Return the content of a regular file of at most so many bytes, by default those of a table of measurements."""
     file = file_path(path)
     shown = str(path)
     try:

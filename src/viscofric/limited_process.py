@@ -45,16 +45,8 @@ class LimitedProcess:
     def call(self, function: Callable[..., Any], **arguments: Any) -> Any:
         """Call a function, which is importable by its name, with arguments that can be pickled.
 
-        Raises
-        ------
-        TimeoutError
-            If the call takes longer than the limit.
-        MemoryError
-            If it needs more memory than the limit, or its process ends for another reason.
-        OSError
-            If the process cannot be started.
-        Exception
-            What the call raises.
+        Raises TimeoutError beyond the limit of time; MemoryError beyond that of memory, or if the process ends for
+        another reason; OSError if it cannot be started; and what the call raises.
         """
         message = pickle.dumps((f"{function.__module__}:{function.__qualname__}", arguments))
         child = self._free() or started(

@@ -40,12 +40,6 @@ def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], st
     """Return numbers of nominal values as `numbered`, provided that they can be distinguished from scatter.
 
     `refusal` is the sentence about readings without gaps, from their lowest and highest value.
-
-    Raises
-    ------
-    InputError
-        If values without gaps extend over more than four times the allowed difference of neighbours, counted from each
-        to the next: the allowed difference may grow with the values.
     """
     labels = numbered(values, allowed)
     order = np.argsort(values, kind="stable")

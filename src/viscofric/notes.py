@@ -71,14 +71,8 @@ def by_reader(words: Callable[[Reader], str], field: str | None = None) -> Remed
 def setting(field: str, label: str, value: str = "") -> Remedy:
     """Return the name of a setting for each reader: argument, option, key of a run file, or field of the page.
 
-    Parameters
-    ----------
-    field : str
-        Its table and key in a run file; the argument has the name of the key.
-    label : str
-        Of the page's field.
-    value : str
-        A proposed value, text in quotes.
+    `field` is its table and key in a run file, `label` that of the page's field, `value` a proposed value, text in
+    quotes.
     """
     table, _, key = field.partition(".")
     typed = f"'{value}'" if " " in value and "'" not in value else value
@@ -179,13 +173,7 @@ class Note(str):
 
 
 def note_of(record: Mapping[str, Any] | str) -> Note:
-    """Return the note of a record; a sentence alone has no code.
-
-    Parameters
-    ----------
-    record : mapping or str
-        From `Note.record`, or a sentence.
-    """
+    """Return the note of a record; a sentence alone has no code."""
     if isinstance(record, Note):
         return record
     if isinstance(record, str):

@@ -174,33 +174,11 @@ def call_all(
     workers: int | Workers = 1,
     progress: Callable[[int], object] | None = None,
 ) -> list[Any]:
-    """Call a function with each of several sets of arguments, and return the results in their order.
+    """Call a function with each of several sets of keyword arguments, and return the results in their order.
 
-    Parameters
-    ----------
-    function : callable
-        Importable by its name, if there is more than one worker.
-    calls : sequence of dict
-        Keyword arguments; they can be pickled, if there is more than one worker.
-    workers : int or Workers
-        Number of processes for these calls alone, or processes that are kept for more.  With one, everything is done in
-        this process.
-    progress : callable, optional
-        Called in this process with the number of finished calls, after each.
-
-    Raises
-    ------
-    InputError
-        If the number of workers is not a whole one above zero, they are used outside their block, or a call cannot be
-        sent to another process.
-    ViscofricError
-        If a process ends before its call is finished.
-    Exception
-        The exception of a call; of several, the first in order.  No further calls are begun then.
-
-    Notes
-    -----
-    An interrupt ends the processes at once.
+    With more than one worker, the function is importable by its name and the arguments can be pickled; `progress` is
+    called in this process with the number of finished calls.  Of the errors of several calls the first in order is
+    raised, and no further calls are begun.  An interrupt ends the processes at once.
     """
     if not isinstance(workers, Workers):
         with Workers(workers) as alone:
@@ -232,37 +210,12 @@ def call_all(
 def as_they_come(
     function: Callable[..., Any], calls: Sequence[dict[str, Any]], *, workers: Workers, tries: int = 3
 ) -> Generator[tuple[int, str, Any]]:
-    """Call a function with each of several sets of arguments, and yield the begin and the end of each.
+    """Yield index of the call, kind and value at the begin and the end of each call, see `call_all`.
 
-    Unlike in `call_all`, an error of one call does not stop the others, and a process that ended is replaced by
-    another, which repeats its call.
-
-    Parameters
-    ----------
-    function, calls
-        As for `call_all`.
-    workers : Workers
-        Within their block.
-    tries : int
-        Number of processes that may end during a call before it is given up.
-
-    Yields
-    ------
-    index : int
-        Of the call.
-    kind : str
-        ``"begun"``, ``"result"``, ``"error"`` (its exception) or ``"ended"`` (given up: its processes ended).
-    value : object
-        Result or exception of the call; for ``"ended"`` an exception that states this.
-
-    Raises
-    ------
-    InputError
-        If the workers are used outside their block, or a call cannot be sent to another process.
-
-    Notes
-    -----
-    An interrupt, or closing the iterator, ends the processes at once.
+    Kinds are ``"begun"``, ``"result"``, ``"error"`` (its exception) and ``"ended"`` (given up after `tries` processes
+    ended during it; an exception that states this).  Unlike in `call_all`, an error of one call does not stop the
+    others, and a process that ended is replaced by another, which repeats its call.  An interrupt, or closing the
+    iterator, ends the processes at once.
     """
     count = min(workers.number, len(calls))
     if count <= 1:

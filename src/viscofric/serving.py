@@ -17,17 +17,7 @@ _CHECK_INTERVAL = 0.5  # s
 
 
 def serve(parent: int, needed: str = "", memory: int = 0) -> None:
-    """Answer calls from standard input on standard output until there are no more, in a separate process.
-
-    Parameters
-    ----------
-    parent : int
-        Number of the calling process; when it ends, this one ends at once.
-    needed : str
-        Module that the calls need, imported before the first of them.
-    memory : int
-        Limit of the address space in bytes; 0 for no limit.
-    """
+    """Answer calls from standard input on standard output until there are no more, in a separate process."""
     if memory:
         limit_memory(memory)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the calling process handles interrupts

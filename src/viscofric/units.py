@@ -102,13 +102,7 @@ def _wrong(code: str, name: str, value: object, unit: str, reason: str, right: s
 
 
 def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
-    """Return ``(factor, offset)`` of ``SI = factor * number + offset`` for a unit as in a file's header.
-
-    Raises
-    ------
-    InputError
-        If the text, such as ``"MPa"`` or ``"°C"``, is not a unit, or not one of the right dimension.
-    """
+    """Return ``(factor, offset)`` of ``SI = factor * number + offset`` for a unit as in a file's header."""
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     zero, one = (_convert(_quantity(number, text, text, unit, name), text, unit, name) for number in (0.0, 1.0))
     return one - zero, zero
@@ -145,13 +139,7 @@ def _meant(shown: str, text: str, unit: str) -> str:
 
 
 def to_si(value: Quantity, unit: str, name: str = "value") -> float:
-    """Convert one value to a float in an SI unit; plain numbers are in `unit` already.
-
-    Raises
-    ------
-    InputError
-        If the text cannot be understood, has no unit or the wrong one, or is not finite.
-    """
+    """Convert one value to a float in an SI unit; plain numbers are in `unit` already."""
     if isinstance(value, str):
         number = _parse(value, unit, name)
     elif hasattr(value, "to") and hasattr(value, "magnitude"):
@@ -330,13 +318,7 @@ def checked_poisson_ratio(value: Quantity, name: str = "poisson_ratio", *, above
 
 
 def angular_frequency(value: Quantity, name: str) -> float:
-    """Return an angular frequency in rad/s; a value in hertz is multiplied by 2π, plain numbers are in rad/s.
-
-    Raises
-    ------
-    InputError
-        If it is not above zero, or its unit is neither hertz nor rad/s.
-    """
+    """Return an angular frequency in rad/s; a value in hertz is multiplied by 2π, plain numbers are in rad/s."""
     return positive(value, "rad/s", name)
 
 

@@ -64,15 +64,7 @@ class HistoryColumns(NamedTuple):
 def history_columns(
     path: str | PathLike[str], columns: Mapping[str, str] | None = None, sheet: str | None = None
 ) -> HistoryColumns:
-    """Return the columns of a history in a text table or a workbook.
-
-    Raises
-    ------
-    DataFileError
-        If there is no such table, or a cell or unit is wrong.
-    InputError
-        If `columns` or `sheet` are no headings, or no name.
-    """
+    """Return the columns of a history in a text table or a workbook."""
     table = table_of(path, HISTORY, columns, sheet)
     missing = HISTORY.missing(column.quantity for column in table.columns)
     if missing:

@@ -25,15 +25,7 @@ if TYPE_CHECKING:
 def table_of(
     path: str | PathLike[str], vocabulary: Vocabulary, columns: Mapping[Any, Any] | None, sheet: object
 ) -> Table:
-    """Return the table of a file, whose columns have the quantities that they name or that the user says.
-
-    Raises
-    ------
-    DataFileError
-        If there is no table, or several sheets hold one.
-    InputError
-        If `columns` or `sheet` are no headings, or no name.
-    """
+    """Return the table of a file, whose columns have the quantities that they name or that the user says."""
     source = Source(str(file_path(path)), b"", columns=vocabulary.checked(columns), sheet=checked_sheet(sheet))
     source = replace(source, data=bytes_of(source.path))
     return one_table(source, vocabulary)

@@ -39,19 +39,7 @@ def kind_of_test(
     columns: Mapping[str, str] | None = None,
     sheet: str | None = None,
 ) -> TestKind:
-    """Return the kind of test that a file holds, by its columns, steps and points.
-
-    Parameters
-    ----------
-    path : str or path
-    temperature, modulus_unit, columns, sheet
-        What the file does not state, as for `read_dma`.
-
-    Raises
-    ------
-    DataFileError, InputError
-        That of `read_dma`, if the file is none of these tests.
-    """
+    """Return the kind of test that a file holds, by its columns, steps and points, or raise `read_dma`'s error."""
     try:
         trace_dma(path, temperature=temperature, modulus_unit=modulus_unit, columns=columns, sheet=sheet)
     except InputError as error:
@@ -78,11 +66,6 @@ def by_kind(
     """Return files by the kind of test that they hold, in their order; sweeps may need several files to be such.
 
     `temperatures` are those of files that do not state them: one for all, or one for each.
-
-    Raises
-    ------
-    DataFileError, InputError
-        As `kind_of_test` does.
     """
     stated = {"modulus_unit": modulus_unit, "columns": columns, "sheet": sheet}
     each: list[Quantity | None] = [*temperatures]

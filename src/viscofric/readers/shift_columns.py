@@ -50,13 +50,7 @@ class ShiftColumns(NamedTuple):
 
 
 def shift_columns(source: Source) -> ShiftColumns:
-    """Return the shift factors of a workbook, or of a text whose headings the user names.
-
-    Raises
-    ------
-    DataFileError
-        If there is no such table, or a cell or unit is wrong.
-    """
+    """Return the shift factors of a workbook, or of a text whose headings the user names."""
     table = one_table(source, SHIFT_FACTORS)
     missing = SHIFT_FACTORS.missing(column.quantity for column in table.columns)
     if missing:

@@ -107,13 +107,7 @@ STRAIN_FACTORS = {"%": 0.01, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0, "µm/
 
 
 def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
-    """Return whether decimals have a comma, from the numbers of a file as printed, each with its row.
-
-    Raises
-    ------
-    DataFileError
-        If every comma is followed by three digits, as in ``33,468``: it may as well separate thousands.
-    """
+    """Return whether decimals have a comma, from the numbers of a file as printed, each with its row."""
     commas = [(cell.strip(), row) for cell, row in cells if COMMA_NUMBER.fullmatch(cell)]
     if commas and all(_LIKE_THOUSANDS.fullmatch(cell) for cell, _ in commas):
         cell, row = commas[0]
@@ -129,11 +123,6 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``).
 
     A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.
-
-    Raises
-    ------
-    InputError
-        If the text is not a unit of the right dimension.
     """
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())

@@ -169,12 +169,6 @@ def read_table(path: str | PathLike[str]) -> Table:
 
     UTF-8 and UTF-16 (with a byte-order mark) are recognised, anything else is read as Windows-1252.  Blank
     lines, lines that begin with ``#`` and a first line ``sep=;`` (the delimiter for Excel) are skipped.
-
-    Raises
-    ------
-    DataFileError
-        If the file does not exist, is not a regular file, is empty, binary or too large, or if rows and header differ
-        in length.
     """
     return table_of_text(str(path), read_text(path))
 
@@ -214,11 +208,6 @@ def make_table(
     """Return a table of numbered rows under their headings; `comma_is_free`: a comma may be a decimal comma.
 
     Rows without any cell, or with none in the columns of the quantities that make a header, are left out.
-
-    Raises
-    ------
-    DataFileError
-        If there is no row, a row differs in length from the header, or commas may separate decimals or thousands.
     """
     needed = {what for some in vocabulary.needed for what in some}
     places = [place for place, column in enumerate(columns) if column.quantity in needed]

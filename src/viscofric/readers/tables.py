@@ -42,12 +42,6 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
     Of a workbook these are all sheets with a header, or the one that `source.sheet` names.  A header is the first row
     that names what the vocabulary needs, or all headings that `source.columns` names; else the first that names two of
     its quantities, so that the caller can say what is missing.
-
-    Raises
-    ------
-    DataFileError
-        If no row is a header (code ``"missing-columns"``, with the headings found in its values), a named heading
-        (``"no-column"``) or sheet (``"no-sheet"``) is not there, or a row differs from its header in length.
     """
     words = vocabulary.with_columns(source.columns)
     if is_workbook(source):
@@ -155,13 +149,7 @@ def name_columns(key: str, missing: Sequence[str]) -> Remedy:
 
 
 def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
-    """Return the table under a header, from all rows that are not blank.
-
-    Raises
-    ------
-    DataFileError
-        If rows of numbers stand above the header, there is none below it, or a row differs from it in length.
-    """
+    """Return the table under a header, from all rows that are not blank."""
     rows, header = found.rows, found.header
     _insist_on_text(path, rows[:header])
     names = list(rows[header][1])

@@ -22,14 +22,7 @@ LARGEST_MODULUS = 1e15  # Pa
 
 
 def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
-    """Return the usable points, and a note on each kind of those left out.
-
-    Raises
-    ------
-    DataFileError
-        If most points lack a value, or most frequencies or storage moduli, or all loss moduli, are not above zero;
-        if a temperature is not above absolute zero, or a modulus far above that of any solid.
-    """
+    """Return the usable points, and a note on each kind of those left out."""
     if not len(points):
         raise DataFileError(source, "contains no point of a frequency sweep.", code="no-points")
     columns = (points.temperature, points.angular_frequency, points.storage_modulus, points.loss_modulus)

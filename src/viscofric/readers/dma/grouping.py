@@ -47,11 +47,6 @@ def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[In
     `WIDEST_ISOTHERM`, the sample was heated between its isotherms during recording: points at a held temperature are
     kept.  Groups of equal temperature, of one file or several, are one isotherm; groups of hardly any frequency,
     next to isotherms with several, are left out.
-
-    Raises
-    ------
-    DataFileError
-        If the temperatures form a ramp, a temperature sweep at one frequency, or isotherms that cannot be separated.
     """
     groups: list[Indices] = []
     moving: list[int] = []

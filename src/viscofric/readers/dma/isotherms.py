@@ -61,14 +61,6 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
 
     The notes of the sweeps report what was left out, averaged or reordered, and what is doubtful: drifting
     temperatures, outliers, strain amplitudes that differ between isotherms.
-
-    Raises
-    ------
-    DataFileError
-        If the files contradict each other or `deformation`, too few points are usable, the temperatures form a
-        ramp, or the points belong to an amplitude sweep.
-    InputError
-        If there is no file, or `deformation` is none of `viscofric.data.DEFORMATIONS`.
     """
     if not readings:
         raise InputError("at least one file of DMA sweeps is needed.", code="no-files")

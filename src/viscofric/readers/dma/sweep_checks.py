@@ -198,11 +198,6 @@ def of_one_amplitude(points: Points, rows: Indices, source: str) -> tuple[Indice
 
     Points at frequencies that were measured at several amplitudes are those of repeated sweeps, or of an amplitude
     sweep before the frequency sweep: the amplitude that covers most frequencies, of several the smallest, is kept.
-
-    Raises
-    ------
-    DataFileError
-        If the strain amplitude, not the frequency, was swept.
     """
     known = rows[points.strain_amplitude[rows] > 0.0]
     held, swept = _swept(points, known)

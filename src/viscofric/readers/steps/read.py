@@ -173,13 +173,7 @@ def _parts(source: Source, kind: StepKind | None) -> list[_Part]:
 
 
 def step_kind(source: Source) -> StepKind | None:
-    """Return whether a file holds creep or relaxation tests, None for other tests.
-
-    Raises
-    ------
-    DataFileError
-        If it is no table, or one of time and strain that does not state which of the two it is (``"no-kind"``).
-    """
+    """Return whether a file holds creep or relaxation tests, None for other tests."""
     if trios_text.recognises(source) and not source.columns:
         return _trios_parts(source, None)[0].kind
     for name, table in find_tables(reptate.with_units(source), STEPS).items():

@@ -43,14 +43,7 @@ _MOST_CELLS = 500_000
 
 
 def read_with_package(source: Source, options: ScanOptions) -> Scan:
-    """Read a file in any format that SurfaceTopography recognises by its content, in a process with limits.
-
-    Raises
-    ------
-    DataFileError
-        If the package is not installed, does not know the format or finds the file damaged, the channel does not exist,
-        file and user contradict each other, or reading takes too much time or memory.
-    """
+    """Read a file in any format that SurfaceTopography recognises by its content, in a process with limits."""
     insist_on_size(source.data, source.path)
     _insist_on_small_workbook(source)
     if find_spec("SurfaceTopography") is None:

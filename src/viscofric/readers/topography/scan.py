@@ -53,13 +53,7 @@ _LEAST_FILLED = 0.25
 
 
 def scan_of_points(source: Source, points: Array, options: ScanOptions, lines: list[int]) -> Scan:
-    """Return points x, z or x, y, z, m (z is NaN without a reading), on their grid; `lines` are those of the file.
-
-    Raises
-    ------
-    DataFileError
-        If a spacing is given, a position is missing, or the positions form no grid.
-    """
+    """Return points x, z or x, y, z, m (z is NaN without a reading), on their grid; `lines` are those of the file."""
     if options.spacing is not None:
         raise DataFileError(
             source.path, "contains the positions of its points; leave the spacing out.", code="spacing-not-needed"

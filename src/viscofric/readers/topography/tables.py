@@ -218,28 +218,7 @@ _NUMPY = b"\x93NUMPY"
 
 
 def read_heights(path: str | Path, unit: str = "m") -> Array:
-    """Read a table of heights.
-
-    Parameters
-    ----------
-    path : str or Path
-        Text with one line for each position along x and numbers separated by commas, semicolons, tabs or blanks (lines
-        that begin with # are comments), or an .npy file with a one- or two-dimensional array.
-    unit : str
-        Of the heights.
-
-    Returns
-    -------
-    (nx, ny) array
-        Heights, m.
-
-    Raises
-    ------
-    DataFileError
-        If the file cannot be read, a line holds something else than numbers, or lines are not equally long.
-    InputError
-        If the unit is not one of length.
-    """
+    """Return heights (nx, ny), m, of a table in a unit of length: text with a line for each x, or an .npy array."""
     factor, _ = conversion(unit, "m", "height unit")
     data = read_bytes(path, LARGEST_FILE)
     if data.startswith(_NUMPY):

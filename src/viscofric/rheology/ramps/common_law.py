@@ -94,13 +94,7 @@ class _State:
 
 
 def common_law(points: RampPoints, kind: str, reference: float) -> CommonLaw:
-    """Find the constants of a law of a kind ("wlf", "arrhenius" or "wlf+arrhenius") about a reference (K).
-
-    Raises
-    ------
-    SuperpositionError
-        If no law of this kind brings the ramps together.
-    """
+    """Find the constants of a law of a kind ("wlf", "arrhenius" or "wlf+arrhenius") about a reference (K)."""
     order = np.argsort(points.temperature, kind="stable")
     family = family_of(kind, points.temperature[order], reference)
     problem = _Problem(points, family, np.argsort(order, kind="stable"))

@@ -185,12 +185,6 @@ def isotherm_of_each_row(
     The shift of that isotherm takes the row's frequency, (n,) Hz, back to one of the programme, (k,) Hz, ascending.
     If two shifts do so (they differ by a whole number of steps), the row belongs to the isotherm of its neighbours in
     time, s.
-
-    Raises
-    ------
-    DataFileError
-        If a row fits no isotherm, or several that cannot be distinguished: without times, or because an isotherm would
-        be left without rows or hold a frequency twice.
     """
     if frequency.size * shifts.size > MOST_CANDIDATES:
         raise DataFileError(

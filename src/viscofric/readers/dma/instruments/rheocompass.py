@@ -44,14 +44,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Return the points of all frequency sweeps; each interval is a step.
-
-    Raises
-    ------
-    DataFileError
-        If no interval is a frequency sweep, the temperature or a unit is missing, a cell is not a finite number, or
-        the last interval is cut off.
-    """
+    """Return the points of all frequency sweeps; each interval is a step."""
     found = intervals(source)
     oscillating = [interval for interval in found if interval.oscillates]
     decimals = Decimals.of(source.path, oscillating)

@@ -92,13 +92,7 @@ def head(source: Source) -> list[list[str]]:
 
 
 def intervals(source: Source) -> list[Interval]:
-    """Return the intervals of an export.
-
-    Raises
-    ------
-    DataFileError
-        If an interval has no names of columns or no units, or the last one breaks off.
-    """
+    """Return the intervals of an export."""
     text = source.text or ""
     first = _INTERVAL.search(text)
     if first is None:

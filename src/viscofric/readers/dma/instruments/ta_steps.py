@@ -131,11 +131,6 @@ def steps_of(path: str, tables: Sequence[Table], also: Mapping[str, str] | None 
     """Return steps of numbers from all tables of a file, which share one decimal mark.
 
     `also` maps further names of columns to those that `roles` knows.
-
-    Raises
-    ------
-    DataFileError
-        If a row has more cells than its table has columns, or decimals are written in two ways.
     """
     found = []
     for table in tables:

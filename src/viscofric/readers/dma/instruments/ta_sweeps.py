@@ -45,12 +45,6 @@ def readings_of(
     """Return the points of all frequency sweeps among the steps of a file.
 
     `tools` are labels and values of the header, see `viscofric.readers.dma.names.tool_says`.
-
-    Raises
-    ------
-    DataFileError
-        If no step is a frequency sweep with points, a column or unit is missing or wrong, or two columns of
-        frequency contradict each other.
     """
     sweeps = [(number, step) for number, step in enumerate(steps, start=1) if step.is_of(source.test)]
     if not sweeps:

@@ -51,13 +51,7 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Return all points that oscillate.
-
-    Raises
-    ------
-    DataFileError
-        If the header is cut short or contradicts itself, the file holds no frequency sweep, or a row is wrong.
-    """
+    """Return all points that oscillate."""
     end = _end_of_header(source.data)
     notes: list[str] = []
     if end < 0:

@@ -37,11 +37,6 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     """Return the places of the columns by quantity.
 
     Reduced frequencies have priority over measured ones in a master curve; `is_reduced` distinguishes the two.
-
-    Raises
-    ------
-    DataFileError
-        If there is no frequency, or the columns do not give both moduli.
     """
     wanted = ("temperature", *_MODULI, "tan delta")
     found = {what: table.place(what) for what in wanted}
@@ -198,12 +193,6 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
 
     `name` is that of the file or sheet, which may contain the temperature; numbers of rows count lines, or what `where`
     says.
-
-    Raises
-    ------
-    DataFileError
-        If a column or unit is missing or wrong, a cell is not a number, frequencies contradict each other, or the
-        moduli are called tensile and shear at once.
     """
     places = find_columns(table)
     if is_reduced(table, places):
