@@ -161,9 +161,9 @@ if TYPE_CHECKING:
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples as MaterialSamples
     from viscofric.rheology.uncertainty.sampling import sample_materials as sample_materials
     from viscofric.roughness.ensemble import predict_rough_friction as predict_rough_friction
-    from viscofric.roughness.line_spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.made import self_affine as self_affine
     from viscofric.roughness.made import surface_from_spectrum as surface_from_spectrum
+    from viscofric.roughness.measured_spectrum import LineSpectrum as LineSpectrum
     from viscofric.roughness.measured_spectrum import line_spectrum as line_spectrum
     from viscofric.roughness.measured_spectrum import power_spectrum as power_spectrum
     from viscofric.roughness.patches import ContactStatistics as ContactStatistics
@@ -366,7 +366,7 @@ _HOME = {
     "read_topography": "viscofric.roughness.reading",
     "FrictionByWavelength": "viscofric.roughness.scales",
     "friction_by_wavelength": "viscofric.roughness.scales",
-    "LineSpectrum": "viscofric.roughness.line_spectrum",
+    "LineSpectrum": "viscofric.roughness.measured_spectrum",
     "PowerSpectrum": "viscofric.roughness.spectrum",
     "Topography": "viscofric.roughness.topography",
     "TractionStep": "viscofric.traction",

@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.notes import codes
-from viscofric.readers.dma.held_frequencies import legs
+from viscofric.readers.dma.ramps import legs
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,7 +8,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import DataFileError
-from viscofric.readers.steps.starts import start_of
+from viscofric.readers.steps.read import start_of
 
 TIME = np.logspace(0.0, 3.0, 13)
 

@@ -11,7 +11,7 @@ from refusals import refused
 from rheology.planted import synthetic_polymer, synthetic_soft_rubber
 from rheology.planted_ramps import planted_ramps
 from viscofric.notes import codes
-from viscofric.rheology.ramps.correlated_curves import CorrelatedSmoother
+from viscofric.rheology.ramps.common_law import CorrelatedSmoother
 
 POLYMER = synthetic_polymer()
 REFERENCE = "25 degC"

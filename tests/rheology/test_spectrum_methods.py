@@ -17,7 +17,7 @@ from viscofric.errors import LiquidError
 from viscofric.notes import codes
 from viscofric.rheology import RelaxationSpectrum, RetardationSpectrum, fit_retardation_spectrum
 from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
-from viscofric.rheology.uncertainty.refit import Refit
+from viscofric.rheology.uncertainty.resampled import Refit
 
 METHODS = ("non-negative", "regularised", "sparse")
 

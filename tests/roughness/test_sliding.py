@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.roughness.ensemble_contacts import solve_one
+from viscofric.roughness.ensemble import solve_one
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "20 MPa", "1 ms")
 

@@ -17,8 +17,7 @@ from viscofric.friction.identification.indentation.result import MaterialFromInd
 from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.friction.interface.shear_stress import ShearStress
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-from viscofric.literature.reference import Reference
-from viscofric.literature.references import PAPER, REFERENCES
+from viscofric.literature.references import PAPER, REFERENCES, Reference
 from viscofric.rheology.catalogue import catalogue_material
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material
@@ -34,7 +33,7 @@ from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.roughness.line_spectrum import LineSpectrum
+from viscofric.roughness.measured_spectrum import LineSpectrum
 from viscofric.roughness.patches import ContactStatistics
 from viscofric.roughness.persson_result import PerssonTheory
 from viscofric.roughness.rough_friction import RoughFriction

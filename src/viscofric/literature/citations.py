@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.errors import InputError
 from viscofric.literature.basis import basis
-from viscofric.literature.reference import Reference
+from viscofric.literature.references import Reference
 from viscofric.showing import Shown
 
 if TYPE_CHECKING:

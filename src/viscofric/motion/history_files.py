@@ -8,7 +8,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.motion.history import BEFORE, CONTROLS, History
-from viscofric.readers.history_columns import HISTORY, history_columns
+from viscofric.readers.one_table import HISTORY, history_columns
 from viscofric.readers.tables import name_columns
 from viscofric.units import registry, to_si
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from viscofric.arrays import Array
-    from viscofric.readers.history_columns import HistoryColumns
+    from viscofric.readers.one_table import HistoryColumns
     from viscofric.units import Quantity
 
 

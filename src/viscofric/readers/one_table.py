@@ -1,25 +1,28 @@
-"""The one table of a text or a workbook under a vocabulary, or under the headings that the user names."""
+"""The one table of a text or a workbook under a vocabulary, such as that of shift factors or of histories."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from viscofric.errors import DataFileError
 from viscofric.files import file_path
 from viscofric.notes import setting
+from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.given_files import bytes_of
-from viscofric.readers.headings import option_of
+from viscofric.readers.headings import Vocabulary, option_of
 from viscofric.readers.source import Source, checked_sheet, insist_on_content
 from viscofric.readers.table import Table, table_of_text
-from viscofric.readers.tables import find_tables
+from viscofric.readers.tables import find_tables, name_columns
 from viscofric.readers.workbook import is_workbook
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from os import PathLike
 
-    from viscofric.readers.headings import Vocabulary
+    from viscofric.arrays import Array
+    from viscofric.readers.table import Table
 
 
 def table_of(
@@ -49,3 +52,126 @@ def one_table(source: Source, vocabulary: Vocabulary) -> Table:
         problem = f"the sheets {shown} each contain {vocabulary.kind}; choose one with "
         raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
     return next(iter(tables.values()))
+
+
+_NAMES = ("at", "a", "alpha", "alphat", "alpha t", "shift factor", "shift", "horizontal shift")
+#: Quantity -> log10 α for one of its units; None for α itself.
+_SCALES: dict[str, float | None] = {
+    "log10 shift factor": 1.0,
+    "ln shift factor": 1.0 / math.log(10.0),
+    "shift factor": None,
+}
+
+#: The words of tables of shift factors.
+SHIFT_FACTORS = Vocabulary(
+    "a table of shift factors",
+    {
+        "temperature": TEMPERATURE,
+        "log10 shift factor": frozenset(f"{log} {name}" for log in ("log10", "log", "lg") for name in _NAMES),
+        "ln shift factor": frozenset(f"ln {name}" for name in _NAMES),
+        "shift factor": frozenset({"aT", "α", "at", "alpha", "shift factor", "horizontal shift factor"}),
+        "standard error": frozenset({"standard error", "std error", "uncertainty"}),
+    },
+    needed=(("temperature",), ("log10 shift factor", "ln shift factor", "shift factor")),
+    example="a table of shift factors has 'temperature (degC)' and 'log10 aT' or 'aT'",
+    key="material.shift_factor_columns",
+    offered=(("temperature", "degC"), ("log10 shift factor", ""), ("shift factor", ""), ("standard error", "")),
+)
+
+
+class ShiftColumns(NamedTuple):
+    """Columns of a table of shift factors, (n,) each."""
+
+    temperatures: Array  # K
+    values: Array  # as printed
+    scale: float | None  # log10 α for one of them, None where they are α itself
+    standard_error: Array | None  # of log10 α
+    lines: list[int]
+
+
+def shift_columns(source: Source) -> ShiftColumns:
+    """Return the shift factors of a workbook, or of a text whose headings the user names."""
+    table = one_table(source, SHIFT_FACTORS)
+    _insist_on_columns(table, SHIFT_FACTORS)
+    places = {what: table.place(what) for what in SHIFT_FACTORS.quantities}
+    at, error = places["temperature"], places["standard error"]
+    name, of = next((name, place) for name in _SCALES if (place := places[name]) is not None)
+    assert at is not None  # nothing needed is missing
+    errors = None if error is None else table.numbers(error)
+    return ShiftColumns(table.values(at, "K"), table.numbers(of), _SCALES[name], errors, table.lines.tolist())
+
+
+#: Quantity -> its SI unit, and names of its column.
+_QUANTITIES: dict[str, tuple[str, frozenset[str]]] = {
+    "time": ("s", frozenset({"t", "time"})),
+    "load": ("N", frozenset({"F", "Fn", "load", "normal load", "force", "normal force"})),
+    "indentation": ("m", frozenset({"indentation", "depth", "indentation depth", "penetration"})),
+    "pressure": ("Pa", frozenset({"p", "pressure", "mean pressure"})),
+    "gap": ("m", frozenset({"gap", "mean gap"})),
+    "position": ("m", frozenset({"position", "distance", "sliding distance", "path"})),
+    "position x": ("m", frozenset({"x", "position x", "x position"})),
+    "position y": ("m", frozenset({"y", "position y", "y position"})),
+    "speed": ("m/s", frozenset({"v", "speed", "velocity", "sliding speed"})),
+    "speed x": ("m/s", frozenset({"vx", "speed x", "velocity x"})),
+    "speed y": ("m/s", frozenset({"vy", "speed y", "velocity y"})),
+    "temperature": ("K", TEMPERATURE),
+}
+
+#: The words of tables of histories.
+HISTORY = Vocabulary(
+    "a table of a history",
+    {name: names for name, (_, names) in _QUANTITIES.items()},
+    needed=(("time",), tuple(name for name in _QUANTITIES if name != "time")),
+    example="a history has 'time (s)' with 'load (N)' or 'indentation (mm)', and where it moves 'position (mm)' or "
+    "'speed (mm/s)'",
+    key="history.columns",
+    offered=(
+        ("time", "s"),
+        ("load", "N"),
+        ("indentation", "mm"),
+        ("position", "mm"),
+        ("speed", "mm/s"),
+        ("temperature", "degC"),
+    ),
+)
+
+
+class HistoryColumns(NamedTuple):
+    """Columns of a history in SI units, (n,) each, with the unit of the load and the lines of the file."""
+
+    values: dict[str, Array]
+    load_unit: str
+    lines: list[int]
+    unused: tuple[str, ...]  # headings
+
+
+def history_columns(
+    path: str | PathLike[str], columns: Mapping[str, str] | None = None, sheet: str | None = None
+) -> HistoryColumns:
+    """Return the columns of a history in a text table or a workbook."""
+    table = table_of(path, HISTORY, columns, sheet)
+    _insist_on_columns(table, HISTORY)
+    places = {name: place for name in _QUANTITIES if (place := table.place(name)) is not None}
+    load_unit = _load_unit(table, places.get("load"))
+    units = {name: load_unit if name == "load" else unit for name, (unit, _) in _QUANTITIES.items()}
+    values = {name: table.values(place, units[name]) for name, place in places.items()}
+    unused = tuple(column.heading for column in table.unused(places.values()))
+    return HistoryColumns(values, load_unit, table.lines.tolist(), unused)
+
+
+def _load_unit(table: Table, place: int | None) -> str:
+    """Return the unit of the load: N, or N/m of a line contact."""
+    if place is not None:
+        try:
+            table.conversion(table.columns[place], "N/m")
+        except DataFileError:
+            return "N"
+        return "N/m"
+    return "N"
+
+
+def _insist_on_columns(table: Table, vocabulary: Vocabulary) -> None:
+    missing = vocabulary.missing(column.quantity for column in table.columns)
+    if missing:
+        problem = f"there is no column of the {' and the '.join(missing)}; there are {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(vocabulary.key, missing), missing)

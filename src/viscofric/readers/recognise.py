@@ -10,8 +10,8 @@ from viscofric.readers.dma.ramps import read_ramps
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.given_files import bytes_of
 from viscofric.readers.source import Source
+from viscofric.readers.steps.columns import STEPS
 from viscofric.readers.steps.read import step_kind
-from viscofric.readers.steps.words import STEPS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -13,7 +13,7 @@ from viscofric.arguments import check_cost, flag, numbers, whole_number
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note
-from viscofric.roughness.line_spectrum import LineSpectrum
+from viscofric.roughness.measured_spectrum import LineSpectrum
 from viscofric.roughness.spectrum import PowerSpectrum, hurst_exponent, wanted_rms
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, positive, to_si, two_lengths

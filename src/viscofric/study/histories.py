@@ -12,7 +12,7 @@ from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import unit_vector
 from viscofric.motion.history_files import read_history
 from viscofric.motion.stages import staged_history
-from viscofric.readers.history_columns import history_columns
+from viscofric.readers.one_table import history_columns
 from viscofric.rheology.material import Material
 from viscofric.study.cases.history import solve_history
 from viscofric.study.cases.singles import Singles

@@ -10,9 +10,9 @@ from viscofric.amplitudes import AmplitudeSweep
 from viscofric.errors import DataFileError, short_notes
 from viscofric.notes import Note
 from viscofric.readers.dma.checks import usable
-from viscofric.readers.dma.held_frequencies import by_frequency, legs
 from viscofric.readers.dma.isotherms import opening
 from viscofric.readers.dma.names import NOT_SAID
+from viscofric.readers.dma.ramps import by_frequency, legs
 from viscofric.readers.dma.read import read_files
 from viscofric.readers.dma.readings import AS_SWEEPS, joined
 from viscofric.readers.dma.sweep_checks import SWEPT_AMPLITUDE

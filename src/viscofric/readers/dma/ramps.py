@@ -10,22 +10,48 @@ from viscofric.errors import DataFileError, check_choice, short_notes
 from viscofric.notes import Note
 from viscofric.ramps import TemperatureRamp, TemperatureRamps
 from viscofric.readers.dma.checks import usable
-from viscofric.readers.dma.held_frequencies import by_frequency, legs
 from viscofric.readers.dma.instruments.ta_steps import RAMP
 from viscofric.readers.dma.isotherms import opening
 from viscofric.readers.dma.names import NOT_SAID
 from viscofric.readers.dma.read import read_files
 from viscofric.readers.dma.readings import AS_SWEEPS, joined
+from viscofric.readers.dma.sweep_checks import HELD_FREQUENCY
 from viscofric.units import celsius, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from os import PathLike
 
-    from viscofric.arrays import Indices
+    from viscofric.arrays import Array, Indices
     from viscofric.data import Deformation
     from viscofric.readers.dma.readings import Points
     from viscofric.units import Quantity
+
+
+def by_frequency(points: Points, rows: Indices) -> list[Indices]:
+    """Separate points by their frequency, ascending; each in the order of reading.
+
+    A frequency that is held scatters as it is measured; frequencies of a test differ by more.
+    """
+    logarithm = np.log(points.angular_frequency[rows])
+    order = np.argsort(logarithm, kind="stable")
+    cuts = np.flatnonzero(np.diff(logarithm[order]) > HELD_FREQUENCY) + 1
+    return [np.sort(rows[part]) for part in np.split(order, cuts)]
+
+
+def legs(values: Array, reversal: float) -> list[slice]:
+    """Separate a course of values into rising and falling parts; smaller reversals are scatter."""
+    found, first, extreme, rising = [], 0, 0, True
+    for place, value in enumerate(values):
+        away = value - values[extreme]
+        if (away > 0.0) == rising:
+            extreme = place
+        elif abs(away) > reversal:
+            if extreme > first:
+                found.append(slice(first, extreme + 1))
+                first = extreme + 1
+            rising, extreme = not rising, place
+    return [*found, slice(first, len(values))]
 
 
 #: A ramp has so many points at least.

@@ -15,7 +15,7 @@ from viscofric.files import read_bytes
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftList, shift_list
 from viscofric.readers.headings import heading
-from viscofric.readers.shift_columns import SHIFT_FACTORS, shift_columns
+from viscofric.readers.one_table import SHIFT_FACTORS, shift_columns
 from viscofric.readers.source import Source, checked_sheet
 from viscofric.readers.tables import name_columns
 from viscofric.readers.workbook import is_workbook, sheets

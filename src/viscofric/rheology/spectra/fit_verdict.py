@@ -11,10 +11,10 @@ import numpy as np
 from viscofric.errors import LiquidError
 from viscofric.notes import Note
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST
-from viscofric.rheology.spectra.nonnegative import nonnegative_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.sparse import nonnegative_modes
 from viscofric.rheology.spectra.step_misfit import frequencies_of
 from viscofric.step_tests import StepMasterCurve
 from viscofric.units import shown_number

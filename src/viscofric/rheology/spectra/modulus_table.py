@@ -15,9 +15,8 @@ from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
-from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
-from viscofric.rheology.spectra.sparse import joint_error
+from viscofric.rheology.spectra.sparse import joint_error, lattice, nonnegative_modes
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum
 from viscofric.showing import Items, rows_of
 from viscofric.threads import one_blas_thread

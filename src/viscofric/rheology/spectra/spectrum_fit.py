@@ -14,8 +14,8 @@ from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, judged_jointly, solid_modes
-from viscofric.rheology.spectra.nonnegative import lattice, nonnegative_modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.sparse import lattice, nonnegative_modes
 from viscofric.rheology.spectra.step_misfit import by_rate, frequencies_of, joint_misfit, misfit_of, rates_of
 from viscofric.rheology.superposition.joint import JointSuperposition, level_note
 from viscofric.step_tests import StepMasterCurve

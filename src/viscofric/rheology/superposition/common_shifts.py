@@ -15,11 +15,10 @@ import numpy as np
 
 from viscofric.rheology.superposition.gauge import continued, continued_covariance, identified
 from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, Offsets, estimated
-from viscofric.rheology.superposition.most_likely_shifts import most_likely
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, join, parted
 from viscofric.rheology.superposition.quantity import BOTH
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
-from viscofric.rheology.superposition.step_profiles import StepProfiles
+from viscofric.rheology.superposition.step_profiles import StepProfiles, most_likely
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array

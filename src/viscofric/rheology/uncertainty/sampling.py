@@ -26,8 +26,7 @@ from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.rheology.uncertainty.refit import Refit
-from viscofric.rheology.uncertainty.resampled import Resampled, isotherm_of_points
+from viscofric.rheology.uncertainty.resampled import Refit, Resampled, isotherm_of_points
 from viscofric.rheology.uncertainty.residuals import SystematicMisfit, systematic_misfit
 from viscofric.threads import one_blas_thread
 from viscofric.units import shown_celsius

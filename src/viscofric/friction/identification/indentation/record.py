@@ -13,7 +13,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.motion.history import CONTROLS
 from viscofric.notes import Note
-from viscofric.readers.history_columns import HISTORY, history_columns
+from viscofric.readers.one_table import HISTORY, history_columns
 from viscofric.readers.tables import name_columns
 from viscofric.showing import Plotted
 from viscofric.units import positive, to_si, to_si_array
