@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import sentences, text
-from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
+from viscofric.data import Deformation, Origin, set_columns, tensile_from_shear
 from viscofric.datasets import dataset
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError
 from viscofric.showing import Plotted
 from viscofric.units import angular_frequency, positive, shown_celsius
 
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class AmplitudeSweep(Plotted):
+class AmplitudeSweep(Origin, Plotted):
     """Moduli of one specimen at growing amplitudes of the strain.
 
     Parameters
@@ -63,18 +62,13 @@ class AmplitudeSweep(Plotted):
     format: str = ""
 
     def __post_init__(self) -> None:
-        check_choice(self.deformation, "deformation", *DEFORMATIONS)
-        shape = read_only(self.strain_amplitude, "strain_amplitude of an amplitude sweep").shape
-        for name in ("strain_amplitude", "storage_modulus", "loss_modulus"):
-            column = positive_column(getattr(self, name), f"{name} of an amplitude sweep", shape, "amplitude")
-            object.__setattr__(self, name, column)
+        self._check_origin("the sweep")
+        columns = ("strain_amplitude", "storage_modulus", "loss_modulus")
+        set_columns(self, *columns, of="an amplitude sweep", per="amplitude")
         if np.any(np.diff(self.strain_amplitude) <= 0.0):
             raise InputError("the amplitudes of an amplitude sweep must ascend without repeats.")
         object.__setattr__(self, "angular_frequency", _rad_per_second(self.angular_frequency))
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an amplitude sweep"))
-        for name in ("source", "format"):
-            text(getattr(self, name), f"{name} of the sweep")
-        object.__setattr__(self, "notes", sentences(self.notes, "notes of the sweep"))
 
     def __len__(self) -> int:
         return len(self.strain_amplitude)
@@ -131,10 +125,8 @@ class AmplitudeSweep(Plotted):
             attributes={
                 "angular_frequency": self.angular_frequency,
                 "temperature": self.temperature,
-                "deformation": self.deformation,
-                "source": self.source,
-                "format": self.format,
-            },
+            }
+            | self._origin(),
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from viscofric.showing import Items, Plotted, rows_of
 from viscofric.units import checked_poisson_ratio, in_si, positive
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import xarray
 
@@ -112,8 +112,63 @@ def picked(rows: object, count: int, noun: str) -> Integers:
     return places.astype(np.int64)
 
 
+def set_columns(measured: object, *names: str, of: str, per: str) -> None:
+    """Set columns of a frozen measurement to read-only rows of positive numbers, as many as the first has."""
+    shape = np.atleast_1d(read_only(getattr(measured, names[0]), f"{names[0]} of {of}")).shape
+    for name in names:
+        object.__setattr__(measured, name, positive_column(getattr(measured, name), f"{name} of {of}", shape, per))
+
+
+def set_members(measured: object, name: str, kind: type, key: Callable[[Any], float]) -> None:
+    """Set the members of a frozen collection of measurements, of one kind, in ascending order of a key."""
+    members = getattr(measured, name)
+    insist_on(members, name, tuple, list, right=f"a tuple of {kind.__name__}")
+    for one in members:
+        insist_on(one, f"one of the {name}", kind)
+    object.__setattr__(measured, name, tuple(sorted(members, key=key)))
+
+
+class Moduli:
+    """Storage and loss modulus of a measurement."""
+
+    storage_modulus: Array
+    loss_modulus: Array
+
+    @property
+    def loss_tangent(self) -> Array:
+        """E''/E' (or G''/G')."""
+        return np.asarray(self.loss_modulus / self.storage_modulus)
+
+
+class Origin:
+    """The deformation, the source and the notes of measurements."""
+
+    deformation: Deformation
+    source: str
+    notes: tuple[str, ...]
+    format: str
+
+    def _check_origin(self, of: str) -> None:
+        check_choice(self.deformation, "deformation", *DEFORMATIONS)
+        for name in ("source", "format"):
+            text(getattr(self, name), f"{name} of {of}")
+        object.__setattr__(self, "notes", sentences(self.notes, f"notes of {of}"))
+
+    def _shown_origin(self) -> Rows:
+        return (
+            ("deformation", self.deformation),
+            ("format", self.format or None),
+            ("source", self.source or None),
+            ("notes", self.notes),
+        )
+
+    def _origin(self) -> dict[str, str]:
+        """Return attributes of data sets."""
+        return {"deformation": self.deformation, "source": self.source, "format": self.format}
+
+
 @dataclass(frozen=True, eq=False)
-class Isotherm(Plotted, Items[tuple[float, float, float]]):
+class Isotherm(Moduli, Plotted, Items[tuple[float, float, float]]):
     """One frequency sweep at one temperature.
 
     Parameters
@@ -143,10 +198,7 @@ class Isotherm(Plotted, Items[tuple[float, float, float]]):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an isotherm"))
-        frequencies = np.atleast_1d(read_only(self.angular_frequency, "angular_frequency of an isotherm"))
-        for name in ("angular_frequency", "storage_modulus", "loss_modulus"):
-            column = positive_column(getattr(self, name), f"{name} of an isotherm", frequencies.shape, "frequency")
-            object.__setattr__(self, name, column)
+        set_columns(self, "angular_frequency", "storage_modulus", "loss_modulus", of="an isotherm", per="frequency")
         if np.any(np.diff(self.angular_frequency) <= 0):
             raise InputError("the frequencies of an isotherm must ascend without repeats.", code="not-ascending")
         if self.strain_amplitude is not None:
@@ -169,11 +221,6 @@ class Isotherm(Plotted, Items[tuple[float, float, float]]):
             ("loss modulus", self.loss_modulus, "Pa"),
             ("strain amplitude", self.strain_amplitude, "%"),
         )
-
-    @property
-    def loss_tangent(self) -> Array:
-        """E''/E' (or G''/G')."""
-        return np.asarray(self.loss_modulus / self.storage_modulus)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the moduli along ``angular_frequency``.
@@ -199,7 +246,7 @@ class Isotherm(Plotted, Items[tuple[float, float, float]]):
 
 
 @dataclass(frozen=True, eq=False)
-class IsothermalSweeps(Plotted, Items[Isotherm]):
+class IsothermalSweeps(Origin, Plotted, Items[Isotherm]):
     """Frequency sweeps of a dynamic mechanical analyser at several temperatures.
 
     Parameters
@@ -233,14 +280,8 @@ class IsothermalSweeps(Plotted, Items[Isotherm]):
     format: str = ""
 
     def __post_init__(self) -> None:
-        check_choice(self.deformation, "deformation", *DEFORMATIONS)
-        insist_on(self.isotherms, "isotherms", tuple, list, right="a tuple of Isotherm")
-        for one in self.isotherms:
-            insist_on(one, "one of the isotherms", Isotherm)
-        for name in ("source", "format"):
-            text(getattr(self, name), f"{name} of the sweeps")
-        object.__setattr__(self, "notes", sentences(self.notes, "notes of the sweeps"))
-        object.__setattr__(self, "isotherms", tuple(sorted(self.isotherms, key=lambda sweep: sweep.temperature)))
+        self._check_origin("the sweeps")
+        set_members(self, "isotherms", Isotherm, lambda sweep: sweep.temperature)
 
     def _items(self) -> Sequence[Isotherm]:
         return self.isotherms
@@ -250,10 +291,7 @@ class IsothermalSweeps(Plotted, Items[Isotherm]):
             ("isotherms", self.isotherms),
             ("readings", sum(map(len, self.isotherms))),
             ("temperature", self.temperatures, "°C"),
-            ("deformation", self.deformation),
-            ("format", self.format or None),
-            ("source", self.source or None),
-            ("notes", self.notes),
+            *self._shown_origin(),
         )
 
     @property
@@ -299,12 +337,12 @@ class IsothermalSweeps(Plotted, Items[Isotherm]):
                 _joined([one.loss_modulus for one in self.isotherms]),
             )
             | {"strain_amplitude": (_joined(amplitudes), "1", "strain amplitude") if recorded else None},
-            attributes={"deformation": self.deformation, "source": self.source, "format": self.format},
+            attributes=self._origin(),
         )
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve(Plotted, Items[tuple[float, float, float]]):
+class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
     """Tensile modulus at one reference temperature, every measured point shifted by its isotherm's shift factor.
 
     Parameters
@@ -334,10 +372,8 @@ class MasterCurve(Plotted, Items[tuple[float, float, float]]):
     reference: float
 
     def __post_init__(self) -> None:
-        shape = read_only(self.angular_frequency, "angular_frequency of a master curve").shape
-        for name in ("angular_frequency", "storage_modulus", "loss_modulus", "temperature"):
-            column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
-            object.__setattr__(self, name, column)
+        columns = ("angular_frequency", "storage_modulus", "loss_modulus", "temperature")
+        set_columns(self, *columns, of="a master curve", per="point")
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         if np.any(np.diff(self.angular_frequency) < 0):
             raise InputError("the frequencies of a master curve must ascend.", code="not-ascending")
@@ -358,11 +394,6 @@ class MasterCurve(Plotted, Items[tuple[float, float, float]]):
     def complex_modulus(self) -> ComplexArray:
         """E' + iE'', Pa."""
         return np.asarray(self.storage_modulus + 1j * self.loss_modulus)
-
-    @property
-    def loss_tangent(self) -> Array:
-        """E''/E'."""
-        return np.asarray(self.loss_modulus / self.storage_modulus)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the points along the dimension ``reading``.

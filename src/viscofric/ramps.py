@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import insist_on, number, sentences, text
-from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
+from viscofric.arguments import number
+from viscofric.data import Deformation, Moduli, Origin, set_columns, set_members, tensile_from_shear
 from viscofric.datasets import dataset
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError
 from viscofric.showing import Items, Plotted
 from viscofric.units import angular_frequency, positive, shown_celsius
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class TemperatureRamp(Plotted):
+class TemperatureRamp(Moduli, Plotted):
     """Moduli at one frequency while the temperature changes.
 
     Parameters
@@ -55,9 +55,8 @@ class TemperatureRamp(Plotted):
     ) -> None:
         object.__setattr__(self, "angular_frequency", _rad_per_second(angular_frequency))
         columns = {"temperature": temperature, "storage_modulus": storage_modulus, "loss_modulus": loss_modulus}
-        shape = read_only(temperature, "temperature of a ramp").shape
-        for name, values in columns.items():
-            object.__setattr__(self, name, positive_column(values, f"{name} of a ramp", shape, "temperature"))
+        vars(self).update(columns)
+        set_columns(self, *columns, of="a ramp", per="temperature")
         if np.any(np.diff(self.temperature) < 0):
             raise InputError("the temperatures of a ramp must ascend.")
 
@@ -71,11 +70,6 @@ class TemperatureRamp(Plotted):
             ("storage modulus", self.storage_modulus, "Pa"),
             ("loss modulus", self.loss_modulus, "Pa"),
         )
-
-    @property
-    def loss_tangent(self) -> Array:
-        """E''/E' (or G''/G')."""
-        return np.asarray(self.loss_modulus / self.storage_modulus)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the moduli along the dimension ``reading``.
@@ -103,7 +97,7 @@ def _rad_per_second(value: Quantity) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class TemperatureRamps(Plotted, Items[TemperatureRamp]):
+class TemperatureRamps(Origin, Plotted, Items[TemperatureRamp]):
     """Temperature ramps of one specimen, one for each frequency.
 
     Parameters
@@ -137,18 +131,12 @@ class TemperatureRamps(Plotted, Items[TemperatureRamp]):
     format: str = ""
 
     def __post_init__(self) -> None:
-        check_choice(self.deformation, "deformation", *DEFORMATIONS)
-        insist_on(self.ramps, "ramps", tuple, list, right="a tuple of TemperatureRamp")
-        for one in self.ramps:
-            insist_on(one, "one of the ramps", TemperatureRamp)
+        self._check_origin("the ramps")
+        set_members(self, "ramps", TemperatureRamp, lambda ramp: ramp.angular_frequency)
         if not self.ramps:
             raise InputError("ramps must hold at least one TemperatureRamp.")
         if self.heating_rate is not None:
             object.__setattr__(self, "heating_rate", number(self.heating_rate, "heating_rate"))
-        for name in ("source", "format"):
-            text(getattr(self, name), f"{name} of the ramps")
-        object.__setattr__(self, "notes", sentences(self.notes, "notes of the ramps"))
-        object.__setattr__(self, "ramps", tuple(sorted(self.ramps, key=lambda ramp: ramp.angular_frequency)))
         if np.any(np.diff(self.angular_frequencies) <= 0.0):
             raise InputError("two ramps have the same frequency; join them to one.")
 
@@ -161,10 +149,7 @@ class TemperatureRamps(Plotted, Items[TemperatureRamp]):
             ("frequency", self.angular_frequencies / (2.0 * np.pi), "Hz"),
             ("temperature", self.temperature_range, "°C"),
             ("readings", sum(map(len, self.ramps))),
-            ("deformation", self.deformation),
-            ("format", self.format or None),
-            ("source", self.source or None),
-            ("notes", self.notes),
+            *self._shown_origin(),
         )
 
     @property
@@ -215,7 +200,6 @@ class TemperatureRamps(Plotted, Items[TemperatureRamp]):
             attributes are ``deformation``, ``source``, ``format``, and ``heating_rate`` (K/s) where it is known.
         """
         counts = [len(one) for one in self.ramps]
-        attributes = {"deformation": self.deformation, "source": self.source, "format": self.format}
         rate = {} if self.heating_rate is None else {"heating_rate": self.heating_rate}
         return dataset(
             "reading",
@@ -227,5 +211,5 @@ class TemperatureRamps(Plotted, Items[TemperatureRamp]):
                 ),
                 "loss_modulus": (np.concatenate([one.loss_modulus for one in self.ramps]), "Pa", "loss modulus"),
             },
-            attributes=attributes | rate,
+            attributes=self._origin() | rate,
         )  # fmt: skip

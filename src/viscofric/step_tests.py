@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import insist_on, sentences, text, whole_number
-from viscofric.data import DEFORMATIONS, Deformation, positive_column, read_only, tensile_from_shear
+from viscofric.arguments import whole_number
+from viscofric.data import Deformation, Origin, set_columns, set_members, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.showing import Items, Plotted, Shown
@@ -63,10 +63,7 @@ class StepTest(Shown):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of a step test"))
-        times = np.atleast_1d(read_only(self.time, "time of a step test"))
-        for name in ("time", "response"):
-            column = positive_column(getattr(self, name), f"{name} of a step test", times.shape, "time")
-            object.__setattr__(self, name, column)
+        set_columns(self, "time", "response", of="a step test", per="time")
         if np.any(np.diff(self.time) <= 0):
             raise InputError("the times of a step test must ascend without repeats.", code="not-ascending")
 
@@ -95,7 +92,7 @@ class StepTest(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class StepTests(Plotted, Items[StepTest]):
+class StepTests(Origin, Plotted, Items[StepTest]):
     """Creep tests, or relaxation tests, of one material at several temperatures.
 
     Parameters
@@ -137,14 +134,8 @@ class StepTests(Plotted, Items[StepTest]):
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")
-        check_choice(self.deformation, "deformation", *DEFORMATIONS)
-        insist_on(self.tests, "tests", tuple, list, right="a tuple of StepTest")
-        for one in self.tests:
-            insist_on(one, "one of the tests", StepTest)
-        for name in ("source", "format"):
-            text(getattr(self, name), f"{name} of the step tests")
-        object.__setattr__(self, "notes", sentences(self.notes, "notes of the step tests"))
-        object.__setattr__(self, "tests", tuple(sorted(self.tests, key=lambda one: one.temperature)))
+        self._check_origin("the step tests")
+        set_members(self, "tests", StepTest, lambda one: one.temperature)
 
     def _items(self) -> Sequence[StepTest]:
         return self.tests
@@ -155,10 +146,7 @@ class StepTests(Plotted, Items[StepTest]):
             ("tests", self.tests),
             ("readings", sum(map(len, self.tests))),
             ("temperature", self.temperatures, "°C"),
-            ("deformation", self.deformation),
-            ("format", self.format or None),
-            ("source", self.source or None),
-            ("notes", self.notes),
+            *self._shown_origin(),
         )
 
     @property
@@ -200,12 +188,7 @@ class StepTests(Plotted, Items[StepTest]):
                 np.concatenate([np.empty(0), *(one.time for one in self.tests)]),
                 np.concatenate([np.empty(0), *(one.response for one in self.tests)]),
             ),
-            attributes={
-                "kind": self.kind,
-                "deformation": self.deformation,
-                "source": self.source,
-                "format": self.format,
-            },
+            attributes={"kind": self.kind} | self._origin(),
         )
 
 
@@ -246,10 +229,7 @@ class StepMasterCurve(Plotted):
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")
-        shape = read_only(self.time, "time of a master curve").shape
-        for name in ("time", "response", "temperature"):
-            column = positive_column(getattr(self, name), f"{name} of a master curve", shape, "point")
-            object.__setattr__(self, name, column)
+        set_columns(self, "time", "response", "temperature", of="a master curve", per="point")
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         if np.any(np.diff(self.time) < 0):
             raise InputError("the times of a master curve must ascend.", code="not-ascending")
