@@ -19,28 +19,13 @@ _VERDICTS: dict[bool | None, Verdict] = {True: "passed", False: "warning", None:
 
 @dataclass(frozen=True)
 class Check:
-    """One check.
-
-    Attributes
-    ----------
-    name : str
-    verdict : {"passed", "noted", "warning", "failed"}
-        "noted" where it cannot be judged.
-    sentence : str or Note
-        The check in words, with its numbers.
-    value, limit : float or None
-        The number that was compared and the largest that passes, where there are such numbers.
-    code : str
-        Of the sentence; empty if it has none.
-    values : mapping
-        All numbers of the sentence by name, in SI units.
-    """
+    """One check."""
 
     name: str
-    verdict: Verdict
-    sentence: str
-    value: float | None = None
-    limit: float | None = None
+    verdict: Verdict  # "noted" where it cannot be judged
+    sentence: str  # the check in words, with its numbers
+    value: float | None = None  # the number that was compared, where there is one
+    limit: float | None = None  # the largest that passes
 
     @classmethod
     def of(

@@ -23,18 +23,9 @@ if TYPE_CHECKING:
 class LimitedProcess:
     """A process for calls that may never end or fill the memory; it starts with the first call and is kept.
 
-    Parameters
-    ----------
-    seconds : float
-        Time limit of a call.
-    memory : int
-        Limit of its address space in bytes, if the system has such a limit (Windows has none).
-    needed : str, optional
-        Module that the calls need, imported when the process starts.
-
-    Notes
-    -----
-    Calls from several threads each get their own process; one of these is kept.
+    A call has limits of time in `seconds` and, if the system has it (Windows has not), of `memory` in bytes of address
+    space; the module `needed` is imported when the process starts.  Calls from several threads each get their own
+    process; one of these is kept.
     """
 
     def __init__(self, seconds: float, memory: int, needed: str = "") -> None:

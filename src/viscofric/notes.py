@@ -22,26 +22,13 @@ class Remedy:
     """What to do, as the end of a sentence, in the words of each reader.
 
     Remedies are joined with each other and with text by ``+``.
-
-    Parameters
-    ----------
-    python : str
-        For users of the library, and for all readers without words of their own.
-    shell : str, optional
-        For users of the commands.
-    run_file : str, optional
-        For users of a run file; without it, as for users of the commands.
-    page : str, optional
-        For users of the local page.
-    field : str, optional
-        Path of the run file's key, and of the page's field, to change.
     """
 
-    python: str
-    shell: str | None = None
-    run_file: str | None = None
-    page: str | None = None
-    field: str | None = None
+    python: str  # for users of the library, and for all readers without words of their own
+    shell: str | None = None  # for users of the commands
+    run_file: str | None = None  # for users of a run file; without it, as for users of the commands
+    page: str | None = None  # for users of the local page
+    field: str | None = None  # path of the run file's key, and of the page's field, to change
 
     def words(self, reader: Reader) -> str:
         """Return the remedy in the words of a reader."""
@@ -90,31 +77,15 @@ class Note(str):
     """One sentence for people, with a code for programs.
 
     A note is text: it prints, joins and is stored as its sentence in the words of Python.  Programs use the code.
-
-    Parameters
-    ----------
-    code : str
-        What the note is about, in lower case with hyphens, such as ``"few-replicates"``. Codes stay the same when a
-        sentence is reworded.
-    text : str
-        The sentence, without the remedy.
-    where : str, optional
-        Its place, such as a file, a key of a run file or a condition; it precedes the text.
-    remedy : Remedy, optional
-        Follows the text.
-    values : mapping, optional
-        For programs: text, numbers and lists of these by name, such as the headings that a file has.
-
-    Attributes
-    ----------
-    code, text, where, remedy, values
-        As given.
     """
 
+    # What the note is about, in lower case with hyphens, such as ``"few-replicates"``. Codes stay the same when a
+    # sentence is reworded.
     code: str
-    text: str
-    where: str
-    remedy: Remedy | None
+    text: str  # the sentence, without the remedy
+    where: str  # its place, such as a file, a key of a run file or a condition; it precedes the text
+    remedy: Remedy | None  # follows the text
+    # For programs: text, numbers and lists of these by name, such as the headings that a file has.
     values: Mapping[str, Any]
 
     def __new__(
@@ -189,10 +160,7 @@ def records(notes: Iterable[str]) -> list[dict[str, Any]]:
 
 
 def listed(name: str, notes: Iterable[str], reader: Reader = "python") -> dict[str, list[Any]]:
-    """Return notes as two entries of a JSON object: sentences under `name`, and their records.
-
-    Records are under the name in the singular with ``_records``: ``notes`` and ``note_records``.
-    """
+    """Return notes as two entries of a JSON object: sentences under `name`, and their records."""
     found = [note_of(note) for note in notes]
     sentences = [note.words(reader) for note in found]
     return {name: sentences, f"{name.removesuffix('s')}_records": plain(records(found), None)}

@@ -40,23 +40,10 @@ class Workers:
 
     They are usually started for their first calls; `call_all` and its callers accept them in place of a number.
 
-    Parameters
-    ----------
-    number : int
-        Number of processes.  With one, everything is done in this process.
-    needed : str, optional
-        Module that the calls need.  Processes are then started at the beginning of the block and import it while
-        this process prepares the calls.
-
-    Raises
-    ------
-    InputError
-        If the number is not a whole one above zero.
-
-    Notes
-    -----
-    Processes that ended or were interrupted are restarted for the next calls.  While they are busy, further
-    calls, from another thread or from `progress`, get further processes.
+    With one, everything is done in this process.  If the calls need a module (`needed`), processes are started at the
+    beginning of the block and import it while this process prepares the calls.  Processes that ended or were
+    interrupted are restarted for the next calls.  While they are busy, further calls, from another thread or from
+    `progress`, get further processes.
 
     Examples
     --------

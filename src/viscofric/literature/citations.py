@@ -22,17 +22,10 @@ _WIDTH = 118
 
 @dataclass(frozen=True)
 class Citation:
-    """A reference, and the reasons to cite it.
-
-    Attributes
-    ----------
-    reference : Reference
-    reasons : tuple of str
-        The parts of the result that use it, a few words each.
-    """
+    """A reference, and the reasons to cite it."""
 
     reference: Reference
-    reasons: tuple[str, ...]
+    reasons: tuple[str, ...]  # the parts of the result that use it, a few words each
 
     def __str__(self) -> str:
         return f"{str(self.reference).removesuffix('.')}. Cited for: {'; '.join(self.reasons)}."

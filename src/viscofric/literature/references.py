@@ -13,37 +13,18 @@ _ESCAPED = str.maketrans({"&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "$": r
 
 @dataclass(frozen=True)
 class Reference:
-    """A paper, a book or another source.
+    """A paper, a book or another source."""
 
-    Attributes
-    ----------
-    key : str
-        Of the BibTeX entry.
-    authors : tuple of str
-        Initials before the family name; empty if unknown.
-    year : int or None
-    title : str
-        Empty if unknown.
-    journal, volume, pages : str
-        Of a paper; `pages` may be its first page, or its number.
-    publisher : str
-        Of a book.
-    doi : str
-        Empty if there is none, or none that is certain.
-    note : str
-        Further text, or all that is known of the source.
-    """
-
-    key: str
-    authors: tuple[str, ...] = ()
+    key: str  # of the BibTeX entry
+    authors: tuple[str, ...] = ()  # initials before the family name; empty if unknown
     year: int | None = None
-    title: str = ""
-    journal: str = ""
+    title: str = ""  # empty if unknown
+    journal: str = ""  # of a paper
     volume: str = ""
-    pages: str = ""
-    publisher: str = ""
-    doi: str = ""
-    note: str = ""
+    pages: str = ""  # or the first page, or the number of the paper
+    publisher: str = ""  # of a book
+    doi: str = ""  # empty if there is none, or none that is certain
+    note: str = ""  # further text, or all that is known of the source
 
     def __str__(self) -> str:
         title = f"“{self.title}”" if self.title and not self.publisher else self.title

@@ -56,30 +56,15 @@ class Column:
 
 @dataclass(frozen=True, eq=False)
 class Vocabulary:
-    """The words that one kind of table is recognised by.
+    """The words that one kind of table is recognised by."""
 
-    Parameters
-    ----------
-    kind : str
-        Of the table, in words, such as ``"a DMA table"``.
-    quantities : mapping
-        Quantity, such as ``"storage modulus"`` -> names of its columns, as printed or in lower case.
-    needed : tuple of tuples
-        A header names at least one quantity of each.
-    example : str
-        Headings of such a table, for errors.
-    key : str
-        Path of the run file's key with the user's own headings.
-    offered : tuple of (str, str)
-        Quantities that a form offers, each with an example of its unit.
-    """
-
-    kind: str
+    kind: str  # of the table, in words, such as ``"a DMA table"``
+    # Quantity, such as ``"storage modulus"`` -> names of its columns, as printed or in lower case.
     quantities: Mapping[str, frozenset[str]]
-    needed: tuple[tuple[str, ...], ...]
-    example: str = ""
-    key: str = "material.columns"
-    offered: tuple[tuple[str, str], ...] = ()
+    needed: tuple[tuple[str, ...], ...]  # a header names at least one quantity of each
+    example: str = ""  # headings of such a table, for errors
+    key: str = "material.columns"  # path of the run file's key with the user's own headings
+    offered: tuple[tuple[str, str], ...] = ()  # quantities that a form offers, each with an example of its unit
     user_columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
 
     @cached_property

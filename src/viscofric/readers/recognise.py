@@ -63,10 +63,7 @@ def by_kind(
     columns: Mapping[str, str] | None = None,
     sheet: str | None = None,
 ) -> dict[TestKind, list[Path]]:
-    """Return files by the kind of test that they hold, in their order; sweeps may need several files to be such.
-
-    `temperatures` are those of files that do not state them: one for all, or one for each.
-    """
+    """Return files by the kind of test that they hold, in their order; sweeps may need several files to be such."""
     stated = {"modulus_unit": modulus_unit, "columns": columns, "sheet": sheet}
     each: list[Quantity | None] = [*temperatures]
     if len(each) != len(paths):

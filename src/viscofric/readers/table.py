@@ -165,11 +165,7 @@ class Table:
 
 
 def read_table(path: str | PathLike[str]) -> Table:
-    """Read a table of numbers separated by commas, semicolons or tabs, under one row of headings.
-
-    UTF-8 and UTF-16 (with a byte-order mark) are recognised, anything else is read as Windows-1252.  Blank
-    lines, lines that begin with ``#`` and a first line ``sep=;`` (the delimiter for Excel) are skipped.
-    """
+    """Read a table of numbers separated by commas, semicolons or tabs, under one row of headings."""
     return table_of_text(str(path), read_text(path))
 
 

@@ -78,10 +78,7 @@ def catalogue() -> tuple[CatalogueEntry, ...]:
 
 
 def catalogue_entry(name: str) -> CatalogueEntry:
-    """Return an entry of `catalogue()`; capitals, hyphens and underscores do not matter.
-
-    InputError names the nearest entry if there is none of that name.
-    """
+    """Return an entry of `catalogue()`; capitals, hyphens and underscores do not matter."""
     known = {_plain(entry.name): entry for entry in _ENTRIES}
     entry = known.get(_plain(name))
     if entry is None:

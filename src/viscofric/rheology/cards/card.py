@@ -81,10 +81,7 @@ class Reading:
         return conversion(self.time_unit, "s", "time_unit")[0] if self.time_unit else 1.0
 
     def kelvin(self, temperature: float, notes: list[str], zero: float | None = None) -> float:
-        """Return a card's temperature in K; `zero` is absolute zero on the card's scale, if the card gives it.
-
-        Appends a sentence to `notes` where the unit had to be judged.
-        """
+        """Return a card's temperature in K; `zero` is absolute zero on the card's scale, if the card gives it."""
         if self.temperature_unit:
             factor, offset = conversion(self.temperature_unit, "K", "temperature_unit")
             return factor * temperature + offset

@@ -113,10 +113,7 @@ def comment_lines(mark: str, sentences: list[str], content: dict[str, Any]) -> l
 
 
 def stored_content(text: str) -> dict[str, Any] | None:
-    """Return what `comment_lines` stored in a file, or None without such lines.
-
-    Raises InputError if they are damaged or of a newer version.
-    """
+    """Return what `comment_lines` stored in a file, or None without such lines."""
     pieces = []
     for line in text.splitlines():
         _, mark, rest = line.partition(_MARK)

@@ -133,25 +133,10 @@ class InterfaceLaw(Shown, ABC):
         return self.covariance is not None
 
     def __call__(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
-        """Return the shear stress.
+        """Return the shear stress, Pa, at slip speeds above zero, m/s, and temperatures, K, broadcast together.
 
-        Parameters
-        ----------
-        speed : float, str, pint.Quantity, or an array or list of them
-            Slip speed above zero, m/s.
-        temperature : the same, optional
-            K; the reference of the shift law if left out.  Broadcast against `speed`.
-
-        Returns
-        -------
-        float or array
-            Pa, in the broadcast shape.
-
-        Raises
-        ------
-        InputError
-            If a speed is not above zero, the law is not known at a temperature, or the stress is too large for
-            computations.
+        Without temperature it is that at the reference of the shift law.  InputError if a speed is not above zero, the
+        law is not known at a temperature, or the stress is too large for computations.
         """
         return in_shape(self._in_pascal(self._log10(*self._arguments(speed, temperature))))
 

@@ -46,47 +46,26 @@ _COMPARED = ("arrhenius", "wlf", "wlf+arrhenius", "polynomial")
 
 @dataclass(frozen=True)
 class LawRow(Generic[Law]):
-    """One law in a comparison.
+    """One law in a comparison."""
 
-    Parameters
-    ----------
-    kind : str
-        As `ShiftFactors.law` or `ShearStress.law` takes it.
-    title : str
-        As it is called in a sentence.
-    law : ParametricLaw, InterfaceLaw or None
-        As fitted; None where it was refused.
-    constants : int
-        Number of constants.
-    chi2 : float
-        χ² by the measured covariance alone, of `freedom` expected; NaN where the law was refused.
-    freedom : int
-        Number of differences of neighbouring factors, or of values of stress, less `constants`; 0 where the law passes
-        through all of them.
-    scatter : float
-        Independent scatter about the law, beyond the measured uncertainties, that makes the misfit plausible; decades.
-    aic : float
-        Information criterion, −2 ln L + 2k with k constants, a glass transition counting for three; infinite where
-        the law was refused.
-    weight : float
-        Akaike weight among the laws of physics, e^(−AIC/2) of a sum of one; zero for a polynomial that is not chosen.
-    refusal : str
-        Why the law was refused; empty where it was fitted.
-    same_as : str
-        Kind of the law that is the same curve in other constants; empty for most.
-    """
-
-    kind: str
-    title: str
-    law: Law | None
-    constants: int
+    kind: str  # as `ShiftFactors.law` or `ShearStress.law` takes it
+    title: str  # as it is called in a sentence
+    law: Law | None  # as fitted; None where it was refused
+    constants: int  # number of constants
+    # χ² by the measured covariance alone, of `freedom` expected; NaN where the law was refused.
     chi2: float = float("nan")
+    # Number of differences of neighbouring factors, or of values of stress, less `constants`; 0 where the law passes
+    # through all of them.
     freedom: int = 0
+    # Independent scatter about the law, beyond the measured uncertainties, that makes the misfit plausible; decades.
     scatter: float = 0.0
+    # Information criterion, −2 ln L + 2k with k constants, a glass transition counting for three; infinite where the
+    # law was refused.
     aic: float = float("inf")
+    # Akaike weight among the laws of physics, e^(−AIC/2) of a sum of one; zero for a polynomial that is not chosen.
     weight: float = 0.0
-    refusal: str = ""
-    same_as: str = ""
+    refusal: str = ""  # why the law was refused; empty where it was fitted
+    same_as: str = ""  # kind of the law that is the same curve in other constants; empty for most
 
     @property
     def exact(self) -> bool:
@@ -202,10 +181,7 @@ def weighted(rows: Iterable[LawRow[Law]], compared: Iterable[LawRow[Law]]) -> li
 
 
 def polynomial(table: FactorTable) -> InversePolynomial:
-    """Fit polynomials of degree 2 to 4 and return the one of the lowest AIC; degree 1 is the Arrhenius law.
-
-    Raises InputError if none of them falls with temperature throughout, or the temperatures are too few.
-    """
+    """Fit polynomials of degree 2 to 4 and return the one of the lowest AIC; degree 1 is the Arrhenius law."""
     row = _polynomial_row(table)
     if not isinstance(row.law, InversePolynomial):
         raise InputError(row.refusal, code="no-law")

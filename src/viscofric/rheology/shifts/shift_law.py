@@ -107,23 +107,7 @@ class ShiftLaw(Plotted, ABC):
     @overload
     def __call__(self, temperature: Temperatures) -> Array: ...
     def __call__(self, temperature: Any) -> Any:
-        """Return α(T).
-
-        Parameters
-        ----------
-        temperature : float, str, quantity, or an array or list of them
-            Plain numbers are in K.
-
-        Returns
-        -------
-        float or array
-            In the shape of `temperature`.
-
-        Raises
-        ------
-        InputError
-            Where `log10` raises it, or if α is beyond the range of floating-point numbers.
-        """
+        """Return α(T), as `log10`; InputError also if α is beyond the range of floating-point numbers."""
         decades = self.log10(temperature)
         if np.any(np.abs(decades) > _MOST_DECADES):
             kelvin = np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))]

@@ -82,23 +82,7 @@ class VerticalShift(Plotted, ABC):
         return in_shape(self._log10(kelvin))
 
     def __call__(self, temperature: Quantities) -> Any:
-        """Return b(T).
-
-        Parameters
-        ----------
-        temperature : float, str, quantity, or an array or list of them
-            Plain numbers are in K.
-
-        Returns
-        -------
-        float or array
-            In the shape of `temperature`.
-
-        Raises
-        ------
-        InputError
-            Where `log10` raises it.
-        """
+        """Return b(T), as `log10`."""
         return 10.0 ** self.log10(temperature)
 
     def _standard_error(self, kelvin: Array) -> Array | None:

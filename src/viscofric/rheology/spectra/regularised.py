@@ -90,10 +90,7 @@ def mean_square(misfit: Misfit, modes: Modes) -> float:
 
 
 def corner(misfit: Misfit, fits: list[Modes]) -> int:
-    """Return the index of the L-curve's corner (P. C. Hansen, D. P. O'Leary, SIAM J. Sci. Comput. 14 (1993) 1487).
-
-    It is the largest curvature of ln misfit over ln roughness.
-    """
+    """Return the index of the L-curve's corner (P. C. Hansen, D. P. O'Leary, SIAM J. Sci. Comput. 14 (1993) 1487)."""
     roughness = _curvature(fits[0].tau)[:, 1:]
     across = np.log([mean_square(misfit, modes) for modes in fits])
     up = np.log([float(np.sum((roughness @ np.log(modes.C)) ** 2)) + 1e-300 for modes in fits])

@@ -51,22 +51,13 @@ _NAMED = 3
 
 @dataclass(frozen=True, eq=False)
 class Diagram:
-    """Points of all isotherms in a plot that no shift along the frequency changes.
+    """Points of all isotherms in a plot that no shift along the frequency changes."""
 
-    Parameters
-    ----------
-    x, y : (n,) array
-        SI units; angles in rad.
-    temperature : (n,) array
-        Of the isotherm of each point, K; the points of one isotherm are consecutive, ascending in frequency.
-    x_name, y_name : str
-        What is plotted, as in ``"|E*|"``.
-    """
-
-    x: Array
+    x: Array  # (n,), SI units; angles in rad
     y: Array
+    # (n,), of the isotherm of each point, K; the points of one isotherm are consecutive, ascending in frequency.
     temperature: Array
-    x_name: str
+    x_name: str  # what is plotted, as in ``"|E*|"``
     y_name: str
 
     def __repr__(self) -> str:

@@ -59,23 +59,14 @@ class IsothermOffsets:
 
     The quantities are log E' and log E'', whichever of them was shifted by; or one of them, or log tan δ, where the
     other modulus is wrong; or the one of step tests.
-
-    Parameters
-    ----------
-    covariance : (m, m) array
-        Of the offsets of one isotherm, decades²; isotherms are independent.
-    with_shifts : (2n, m n) array
-        Covariance of errors of log10 α and then of log10 b of n isotherms (rows) with the offsets of the first quantity
-        and then of the second (columns), decades².
-    sizes : OffsetSizes
-        Which sizes offsets may have; `covariance` is the mean over them.
-    onto_moduli : (2, m) array
-        Offsets of log E' and log E'' per offset of each quantity; (1, 1) for step tests.
     """
 
-    covariance: Array
+    covariance: Array  # (m, m), of the offsets of one isotherm, decades²; isotherms are independent
+    # (2n, m n), covariance of errors of log10 α and then of log10 b of n isotherms (rows) with the offsets of the first
+    # quantity and then of the second (columns), decades².
     with_shifts: Array
-    sizes: OffsetSizes
+    sizes: OffsetSizes  # which sizes offsets may have; `covariance` is the mean over them
+    # (2, m), offsets of log E' and log E'' per offset of each quantity; (1, 1) for step tests.
     onto_moduli: Array = field(default_factory=lambda: np.eye(2))
 
     def __repr__(self) -> str:

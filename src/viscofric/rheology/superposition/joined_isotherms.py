@@ -101,10 +101,7 @@ def usable(isotherms: Sequence[Isotherm | StepTest]) -> None:
 def join_isotherms(
     isotherms: tuple[Tested, ...], logs: list[LogSweep], quantities: Quantities = BOTH
 ) -> JoinedIsotherms[Tested]:
-    """Join neighbours by their quantities, and leave out single isotherms at the ends that overlap no other.
-
-    Raises SuperpositionError if neighbours in the middle do not overlap.
-    """
+    """Join neighbours by their quantities, and leave out single isotherms at the ends that overlap no other."""
     joins = [join(colder, warmer) for colder, warmer in pairwise(quantities.of(logs))]
     joined = np.array([found.misfit <= LARGEST_MISFIT for found in joins])
     if not joined.any():

@@ -43,28 +43,6 @@ SWAPPED = 0.2  # decades rms
 class KramersKronig:
     """Agreement of E' with E'' on a master curve.
 
-    Parameters
-    ----------
-    angular_frequency : (n,) array
-        Reduced, of the bins that the master curve was averaged in, rad/s.
-    storage_deviation : (n,) array
-        log10 of E' that E'' alone requires (up to a constant, the relaxed modulus) over the measured one.
-    loss_deviation : (n,) array
-        log10 of E'' that E' alone requires over the measured one.
-    local_deviation : (n,) array
-        log10 of (π/2) dE'/d ln ω over the measured E''; zero where E' does not rise.  The relation is a local
-        approximation, with an error of some 0.2 decades where a spectrum is steep: for figures, not for the verdict.
-    truncation : (n,) array
-        Part of log10 E' due to relaxation beyond the measured frequencies, estimated from E''.
-    judged : (n,) array of bool
-        Frequencies at least half a decade from the ends, over which the rms are taken.
-    rms_storage, rms_loss : float
-        Root mean square of the first two deviations, decades.
-    loss_scale : float
-        Factor by which the measured E'' as a whole exceeds what the rise of E' requires; 1 if they agree.
-    loss_scale_error : float
-        Its standard error.
-
     Notes
     -----
     Non-negative relaxation modes are fitted to E'' alone, and give E'; and the other way round.  That is the pair
@@ -73,16 +51,20 @@ class KramersKronig:
     relation is that of H. C. Booij, G. P. J. M. Thoone, Rheol. Acta 21 (1982) 15, doi:10.1007/BF01520701.
     """
 
-    angular_frequency: Array
+    angular_frequency: Array  # (n,), reduced, of the bins that the master curve was averaged in, rad/s
+    # (n,), log10 of E' that E'' alone requires (up to a constant, the relaxed modulus) over the measured one.
     storage_deviation: Array
-    loss_deviation: Array
+    loss_deviation: Array  # (n,), log10 of E'' that E' alone requires over the measured one
+    # (n,), log10 of (π/2) dE'/d ln ω over the measured E''; zero where E' does not rise. The relation is a local
+    # approximation, with an error of some 0.2 decades where a spectrum is steep: for figures, not for the verdict.
     local_deviation: Array
-    truncation: Array
-    judged: Mask
-    rms_storage: float
+    truncation: Array  # (n,), part of log10 E' due to relaxation beyond the measured frequencies, estimated from E''
+    judged: Mask  # (n,), frequencies at least half a decade from the ends, over which the rms are taken
+    rms_storage: float  # root mean square of the first two deviations, decades
     rms_loss: float
+    # Factor by which the measured E'' as a whole exceeds what the rise of E' requires; 1 if they agree.
     loss_scale: float
-    loss_scale_error: float
+    loss_scale_error: float  # its standard error
 
     def __repr__(self) -> str:
         return f"KramersKronig(loss scale {self.loss_scale:.2f} ± {self.loss_scale_error:.2f})"
@@ -140,10 +122,7 @@ class KramersKronig:
 
 
 def kramers_kronig(master_curve: MasterCurve) -> KramersKronig:
-    """Test E' against E'' on a master curve; see `KramersKronig`.
-
-    Raises InputError if the master curve spans less than one and a half decades, too little for a test.
-    """
+    """Test E' against E'' on a master curve; see `KramersKronig`."""
     omega, storage, loss, count = _binned(master_curve)
     span = float(np.log10(omega[-1] / omega[0])) if len(omega) else 0.0
     if span < 3.0 * EDGE:

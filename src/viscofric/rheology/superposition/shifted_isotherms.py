@@ -55,10 +55,7 @@ LARGEST_SHIFT = 100.0  # decades
 
 
 def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: float) -> dict[int, float]:
-    """Return log10 α by the index of the isotherm, of fixed factors by temperature as users write it.
-
-    Raises InputError if there is no such isotherm, one is named twice, or a value contradicts α = 1 at the reference.
-    """
+    """Return log10 α by the index of the isotherm, of fixed factors by temperature as users write it."""
     held: dict[int, float] = {}
     for wanted, value in fixed.items():
         kelvin = positive(wanted, "K", "temperature of a fixed shift factor")
@@ -113,10 +110,7 @@ def fitted_shifts(
 
 
 def given_shifts(joined: JoinedIsotherms[Any], reference: float, shift: ShiftLaw, free: bool) -> CommonShifts:
-    """Return the shifts of a law or table; with `free`, fit vertical ones.
-
-    Raises InputError if a factor is beyond any frequency.
-    """
+    """Return the shifts of a law or table; with `free`, fit vertical ones."""
     temperatures = _temperatures(joined)
     values = np.array(shift.log10(temperatures))
     farthest = int(np.argmax(np.abs(values)))

@@ -38,50 +38,27 @@ LARGEST_PART = 2.0 / 3.0
 
 @dataclass(frozen=True)
 class Drift:
-    """A run of isotherms that move apart to one side, which errors of single isotherms do not explain.
+    """A run of isotherms that move apart to one side, which errors of single isotherms do not explain."""
 
-    Parameters
-    ----------
-    colder, warmer : float
-        Ends of the run, K.
-    distance : float
-        Sum of the signed distances of neighbours, decades; above zero where tan δ falls with temperature at the same
-        |E*|.
-    standard_error : float
-        Of the sum, decades.
-    neighbours : int
-        Pairs of neighbours in the run.
-    """
-
-    colder: float
+    colder: float  # ends of the run, K
     warmer: float
+    # Sum of the signed distances of neighbours, decades; above zero where tan δ falls with temperature at the same
+    # |E*|.
     distance: float
-    standard_error: float
-    neighbours: int
+    standard_error: float  # of the sum, decades
+    neighbours: int  # pairs of neighbours in the run
 
 
 @dataclass(frozen=True)
 class NeighbourDistance:
-    """Distance of two neighbouring isotherms in log tan δ against log |E*|.
+    """Distance of two neighbouring isotherms in log tan δ against log |E*|."""
 
-    Parameters
-    ----------
-    colder, warmer : float
-        Their temperatures, K.
-    distance : float
-        Mean distance at right angles to the curve, decades; above zero where the colder one has the greater
-        tan δ.
-    standard_error : float
-        Of the distance, from the scatter of each isotherm about its own smooth curve; decades.
-    points : int
-        Measured points of both isotherms within the range of the other's curve.
-    """
-
-    colder: float
+    colder: float  # their temperatures, K
     warmer: float
+    # Mean distance at right angles to the curve, decades; above zero where the colder one has the greater tan δ.
     distance: float
-    standard_error: float
-    points: int
+    standard_error: float  # of the distance, from the scatter of each isotherm about its own smooth curve; decades
+    points: int  # measured points of both isotherms within the range of the other's curve
 
 
 @dataclass(frozen=True, eq=False)

@@ -105,18 +105,11 @@ WORTH_A_NOTE = 0.02  # decades
 
 @dataclass(frozen=True, eq=False)
 class SystematicMisfit:
-    """Root mean square of the misfit of a fit beyond noise.
+    """Root mean square of the misfit of a fit beyond noise."""
 
-    Parameters
-    ----------
-    log10_frequency : (n,) array
-        log10 of the reduced angular frequencies, ascending.
-    size : (n, 2) array
-        Of log10 E' and of log10 E'' there, decades; beyond the ends it keeps its value.  Both are that of log10 of the
-        response where the spectrum was fitted to step tests.
-    """
-
-    log10_frequency: Array
+    log10_frequency: Array  # (n,), log10 of the reduced angular frequencies, ascending
+    # (n, 2), of log10 E' and of log10 E'' there, decades; beyond the ends it keeps its value. Both are that of log10 of
+    # the response where the spectrum was fitted to step tests.
     size: Array
 
     def __repr__(self) -> str:

@@ -190,10 +190,7 @@ def _of_several(
 
 
 def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: Curve) -> None:
-    """Raise InputError if a spectrum was fitted to another curve, or moved to another temperature since.
-
-    Compared are the ranges of frequency and of modulus that it was fitted to.
-    """
+    """Raise InputError if a spectrum was fitted to another curve, or moved to another temperature since."""
     if spectrum.fit is None:
         return  # `Refit` refuses it
     fitted, moduli = spectrum.fit.frequency_range, spectrum.fit.measured_storage

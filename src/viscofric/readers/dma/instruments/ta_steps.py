@@ -101,10 +101,7 @@ class Step:
 
 
 def roles(names: Sequence[str]) -> dict[str, int]:
-    """Return the place of the first column of each role in `ROLES`.
-
-    A variable may occur twice, in two units; the first is taken.
-    """
+    """Return the place of the first column of each role in `ROLES`."""
     places: dict[str, int] = {}
     for place, name in enumerate(names):
         plain = " ".join(re.sub(r"[’′‘`´]", "'", name).replace("″", "''").lower().split())
@@ -128,10 +125,7 @@ class Table:
 
 
 def steps_of(path: str, tables: Sequence[Table], also: Mapping[str, str] | None = None) -> list[Step]:
-    """Return steps of numbers from all tables of a file, which share one decimal mark.
-
-    `also` maps further names of columns to those that `roles` knows.
-    """
+    """Return steps of numbers from all tables of a file, which share one decimal mark."""
     found = []
     for table in tables:
         places = roles([(also or {}).get(name.strip().lower(), name) for name in table.names])

@@ -42,10 +42,7 @@ class _Points:
 def readings_of(
     source: Source, kind: str, steps: Sequence[Step], tools: Iterable[tuple[str, str]], notes: Sequence[str]
 ) -> Readings:
-    """Return the points of all frequency sweeps among the steps of a file.
-
-    `tools` are labels and values of the header, see `viscofric.readers.dma.names.tool_says`.
-    """
+    """Return the points of all frequency sweeps among the steps of a file."""
     sweeps = [(number, step) for number, step in enumerate(steps, start=1) if step.is_of(source.test)]
     if not sweeps:
         raise DataFileError(
