@@ -31,24 +31,21 @@ _MOST_DECADES = 300
 NOMINAL = 0.5  # K
 
 
-class ShiftLaw(Plotted, ABC):
-    """Shift factor α(T), 1 at the reference, such that E(ω, T) = E(α(T) ω, reference); it falls as T rises.
-
-    Subclasses define log10 α, and `has_standard_error` where its uncertainty is known; the base has units and checks.
-    """
+class Shift(Plotted, ABC):
+    """A function of temperature, 1 at the reference: units, shapes and checks; subclasses define its logarithm."""
 
     reference: float  # K
 
     @abstractmethod
     def _log10(self, kelvin: Array) -> Array:
-        """Return log10 α at temperatures that `_refuse` accepts."""
+        """Return log10 of the shift at temperatures that `_refuse` accepts."""
 
     def _refuse(self, kelvin: Array) -> None:
-        """Raise `InputError` where the law has no meaning, or must not be extrapolated."""
+        """Raise `InputError` where the shift has no meaning, is not known, or must not be extrapolated."""
 
     @abstractmethod
     def at_reference(self, reference: Quantity) -> Self:
-        """Return the same law with α = 1 at another temperature.
+        """Return the same shift, 1 at another temperature.
 
         Parameters
         ----------
@@ -58,29 +55,15 @@ class ShiftLaw(Plotted, ABC):
         Raises
         ------
         InputError
-            If the law is not valid there; see `log10`.
+            If the shift is not valid there; see `log10`.
         """
-
-    @abstractmethod
-    def _standard_error(self, kelvin: Array) -> Array:
-        """Return the standard error of log10 α at temperatures that `_refuse` accepts."""
-
-    @property
-    def has_standard_error(self) -> bool:
-        """Whether the uncertainty of α(T) is known; False for constants that were typed in without a covariance."""
-        return False
-
-    @property
-    def _divergence(self) -> float:
-        """Temperature at which the law diverges, and below which it has no meaning, K; zero for laws without a pole."""
-        return 0.0
 
     @overload
     def log10(self, temperature: Quantity) -> float: ...
     @overload
     def log10(self, temperature: Temperatures) -> Array: ...
     def log10(self, temperature: Any) -> Any:
-        """Return log10 α(T).
+        """Return log10 of the shift.
 
         Parameters
         ----------
@@ -95,8 +78,8 @@ class ShiftLaw(Plotted, ABC):
         Raises
         ------
         InputError
-            If a temperature is not above absolute zero, one where the law has no meaning, or one too far from
-            those that it was fitted on.
+            If a temperature is not above absolute zero, one where the shift has no meaning or is not known, or one too
+            far from those that it was fitted on.
         """
         kelvin = in_kelvin(temperature)
         self._refuse(np.atleast_1d(kelvin))
@@ -107,7 +90,7 @@ class ShiftLaw(Plotted, ABC):
     @overload
     def __call__(self, temperature: Temperatures) -> Array: ...
     def __call__(self, temperature: Any) -> Any:
-        """Return α(T), as `log10`; InputError also if α is beyond the range of floating-point numbers."""
+        """Return the shift, as `log10`; InputError also if it is beyond the range of floating-point numbers."""
         decades = self.log10(temperature)
         if np.any(np.abs(decades) > _MOST_DECADES):
             kelvin = np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))]
@@ -117,6 +100,27 @@ class ShiftLaw(Plotted, ABC):
                 code="out-of-range",
             )
         return 10.0**decades
+
+
+class ShiftLaw(Shift):
+    """Shift factor α(T), 1 at the reference, such that E(ω, T) = E(α(T) ω, reference); it falls as T rises.
+
+    Subclasses define log10 α, and `has_standard_error` where its uncertainty is known.
+    """
+
+    @abstractmethod
+    def _standard_error(self, kelvin: Array) -> Array:
+        """Return the standard error of log10 α at temperatures that `_refuse` accepts."""
+
+    @property
+    def has_standard_error(self) -> bool:
+        """Whether the uncertainty of α(T) is known; False for constants that were typed in without a covariance."""
+        return False
+
+    @property
+    def _divergence(self) -> float:
+        """Temperature at which the law diverges, and below which it has no meaning, K; zero for laws without a pole."""
+        return 0.0
 
     @overload
     def standard_error(self, temperature: Quantity) -> float: ...

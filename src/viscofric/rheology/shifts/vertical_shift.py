@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscofric.datasets import dataset, plain
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.columns import as_record, checked_columns
-from viscofric.rheology.shifts.shift_law import NOMINAL, in_kelvin, in_shape
-from viscofric.showing import Plotted
+from viscofric.rheology.shifts.shift_law import NOMINAL, Shift
 from viscofric.units import kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
 if TYPE_CHECKING:
@@ -29,61 +27,11 @@ if TYPE_CHECKING:
 NATURAL_RUBBER_EXPANSION = 6.6e-4
 
 
-class VerticalShift(Plotted, ABC):
+class VerticalShift(Shift):
     """Vertical shift b(T), 1 at the reference, such that E(ω, T) = b(T) E(α(T) ω, reference).
 
-    Subclasses define log10 b; units, shapes and checks are here.
+    Subclasses define log10 b.
     """
-
-    reference: float  # K
-
-    @abstractmethod
-    def _log10(self, kelvin: Array) -> Array:
-        """Return log10 b at temperatures that `_refuse` accepts."""
-
-    def _refuse(self, kelvin: Array) -> None:
-        """Raise `InputError` where the shift is not known."""
-
-    @abstractmethod
-    def at_reference(self, reference: Quantity) -> Self:
-        """Return the same shift with b = 1 at another temperature.
-
-        Parameters
-        ----------
-        reference : float, str or pint.Quantity
-            K if a plain number.
-
-        Raises
-        ------
-        InputError
-            If the shift is not known there.
-        """
-
-    def log10(self, temperature: Quantities) -> Any:
-        """Return log10 b(T).
-
-        Parameters
-        ----------
-        temperature : float, str, quantity, or an array or list of them
-            Plain numbers are in K.
-
-        Returns
-        -------
-        float or array
-            In the shape of `temperature`.
-
-        Raises
-        ------
-        InputError
-            If a temperature is not above absolute zero, or one where the shift is not known.
-        """
-        kelvin = in_kelvin(temperature)
-        self._refuse(np.atleast_1d(kelvin))
-        return in_shape(self._log10(kelvin))
-
-    def __call__(self, temperature: Quantities) -> Any:
-        """Return b(T), as `log10`."""
-        return 10.0 ** self.log10(temperature)
 
     def _standard_error(self, kelvin: Array) -> Array | None:
         """Return the standard error of log10 b at temperatures that `_refuse` accepts; None where it is not known."""
