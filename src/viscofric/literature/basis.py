@@ -63,6 +63,26 @@ def _for(reason: str, *keys: str) -> Basis:
         yield REFERENCES[key], reason
 
 
+#: Kinds of results with the same references whatever they hold: the reason and the keys.
+_ALWAYS: dict[type, tuple[str, ...]] = {
+    RelaxationSpectrum: ("relaxation out of retardation, and back", "park1999"),
+    ModulusTable: ("interpolation of the moduli", "fritsch1984"),
+    KrausLaw: ("dependence of the moduli on the strain amplitude", "kraus1984"),
+    Layer: ("the layer", "carbone2008", "putignano2015", "johnson1985"),
+    ContactStatistics: ("the corrected contact area", "yastrebov2017"),
+    PowerSpectrum: ("power spectra of surfaces", "persson2005", "jacobs2017"),
+    LineSpectrum: ("power spectra of surfaces", "persson2005", "jacobs2017"),
+}
+
+
+def _of_kind(result: object) -> Basis:
+    yield from next(_for(*found) for kind, found in _ALWAYS.items() if isinstance(result, kind))
+
+
+for _kind in _ALWAYS:
+    basis.register(_kind, _of_kind)
+
+
 @basis.register
 def _of_material(rubber: Material) -> Basis:
     yield from basis(rubber.spectrum)
@@ -89,16 +109,6 @@ def modes(method: str = "") -> Basis:
         yield from _for("non-negative least squares", "lawson1974")
     if method == "regularised":
         yield from _for("how smooth the spectrum is", "hansen1993")
-
-
-@basis.register
-def _of_series(series: RelaxationSpectrum) -> Basis:
-    yield from _for("relaxation out of retardation, and back", "park1999")
-
-
-@basis.register
-def _of_table(table: ModulusTable) -> Basis:
-    yield from _for("interpolation of the moduli", "fritsch1984")
 
 
 @basis.register
@@ -137,11 +147,6 @@ def superposed_ramps(*, assumed: bool) -> Basis:
     if not assumed:
         yield from _for("constants of the law and common curves sought together", "golub1973")
         yield from _for("how smooth the common curves are", "wood2011")
-
-
-@basis.register
-def _of_kraus(law: KrausLaw) -> Basis:
-    yield from _for("dependence of the moduli on the strain amplitude", "kraus1984")
 
 
 @basis.register
@@ -191,11 +196,6 @@ def _of_samples(samples: MaterialSamples) -> Basis:
 
 
 @basis.register
-def _of_layer(layer: Layer) -> Basis:
-    yield from _for("the layer", "carbone2008", "putignano2015", "johnson1985")
-
-
-@basis.register
 def _of_contact(solution: ContactSolution) -> Basis:
     yield from solved_contact(line=solution.geometry == "line")
     if solution.derivatives is not None:
@@ -231,19 +231,9 @@ def solved_surface() -> Basis:
 
 
 @basis.register
-def _of_patches(statistics: ContactStatistics) -> Basis:
-    yield from _for("the corrected contact area", "yastrebov2017")
-
-
-@basis.register
 def _of_rough_friction(friction: RoughFriction) -> Basis:
     yield from solved_surface()
-    yield from _for("the corrected contact area", "yastrebov2017")
-
-
-@basis.register
-def _of_power_spectrum(spectrum: PowerSpectrum | LineSpectrum) -> Basis:
-    yield from _for("power spectra of surfaces", "persson2005", "jacobs2017")
+    yield from _for(*_ALWAYS[ContactStatistics])
 
 
 @basis.register
