@@ -11,10 +11,14 @@ import pytest
 from readers.refusal import noted, refused
 from viscofric.notes import codes
 from viscofric.readers import read_dma
-from viscofric.readers.dma.isotherms import isothermal_sweeps, traced_sweeps
+from viscofric.readers.dma.isotherms import traced_sweeps
 from viscofric.readers.dma.readings import Readings
 
 FREQUENCIES = np.geomspace(0.1, 10.0, 9)  # Hz
+
+
+def isothermal_sweeps(readings):
+    return traced_sweeps(readings).sweeps
 
 
 def readings(celsius, hertz, storage=None, loss=None, **more):

@@ -10,7 +10,7 @@ import pytest
 from readers.refusal import refused
 from viscofric import files
 from viscofric.readers import read_dma
-from viscofric.readers.table import read_table
+from viscofric.readers.table import table_of_text
 
 HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensile loss modulus (MPa)"
 
@@ -34,9 +34,9 @@ def test_points_and_commas_in_one_file_are_refused(tmp_path, rows, line, cell):
         read_dma(write(tmp_path, HEADER, *rows))
 
 
-def test_decimal_commas_in_columns_without_a_unit_alone(tmp_path):
+def test_decimal_commas_in_columns_without_a_unit_alone():
     heading = "speed (mm/s);temperature (degC);load (N);viscoelastic friction"
-    table = read_table(write(tmp_path, heading, "20;30;25;0,02", "40;30;25;0,0175"))
+    table = table_of_text("sweeps.csv", "\n".join([heading, "20;30;25;0,02", "40;30;25;0,0175"]))
     assert table.numbers(3).tolist() == [0.02, 0.0175]
 
 

@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import read_text
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import NO_WORDS, Column, Vocabulary, heading, option_of
 from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
-    from os import PathLike
 
     from viscofric.arrays import Array, Integers
 
@@ -164,13 +162,11 @@ class Table:
         return found[0] if found else None
 
 
-def read_table(path: str | PathLike[str]) -> Table:
-    """Read a table of numbers separated by commas, semicolons or tabs, under one row of headings."""
-    return table_of_text(str(path), read_text(path))
-
-
 def table_of_text(shown: str, text: str) -> Table:
-    """Read a table as `read_table` does, from its text; `shown` names the file in errors."""
+    """Read a table of numbers under one row of headings from text; `shown` names the file in errors.
+
+    Blank lines, lines that begin with ``#`` and a first line ``sep=;`` (the delimiter for Excel) are skipped.
+    """
     lines = text_lines(text)
     if lines and _FOR_EXCEL.fullmatch(lines[0][1]):
         del lines[0]

@@ -51,11 +51,6 @@ class TracedSweeps:
         return np.setdiff1d(np.arange(len(self.points)), used)
 
 
-def isothermal_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> IsothermalSweeps:
-    """Sort the points of one or several files into isotherms; see `traced_sweeps`."""
-    return traced_sweeps(readings, deformation).sweeps
-
-
 def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> TracedSweeps:
     """Sort the points of one or several files of one specimen into isotherms, and keep their assignment.
 
