@@ -11,8 +11,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
-from viscofric.readers.headings import option_of, place_of
+from viscofric.readers.headings import DEEPEST_HEADER, Found, guessed, header_of, is_number, named, option_of, place_of
 from viscofric.readers.source import decimal_comma
 from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
@@ -116,7 +115,7 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
     columns = words.columns(headings)
     missing = words.missing(column.quantity for column in columns)
     values = words.header_values(columns, missing)
-    shown = listed_headings(headings)
+    shown = ", ".join(map(repr, headings)) or "none"
     among = f" in any of its sheets ({', '.join(map(repr, sheets))})" if sheets else ""
     if sheets:
         values["sheets"] = list(sheets)
@@ -128,11 +127,6 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
     if not headings:
         return DataFileError(path, Note("missing-columns", f"{problem}.", values=values))
     return DataFileError(path, Note("missing-columns", problem, remedy=name_columns(words.key, missing), values=values))
-
-
-def listed_headings(headings: Sequence[str]) -> str:
-    """Return headings as one readable list."""
-    return ", ".join(map(repr, headings)) or "none"
 
 
 def name_columns(key: str, missing: Sequence[str]) -> Remedy:

@@ -14,9 +14,9 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.files import parse_json
 from viscofric.rheology.material import Material
-from viscofric.rheology.shifts.columns import as_record, kept_arguments
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import as_record, kept_arguments
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.quality import SpectrumFit
@@ -81,20 +81,9 @@ def _is_row(content: Any) -> bool:
     return isinstance(content, list) and not any(isinstance(one, list) for one in content)
 
 
-def fit_of(value: Any) -> SpectrumFit | None:
-    """Return how a spectrum was fitted, from `plain`."""
-    fit: SpectrumFit | None = restored(value, (SpectrumFit,))
-    return fit
-
-
 def shift_of(value: Any) -> Any:
     """Return a shift law or table from `plain`."""
     return restored(value, _SHIFTS)
-
-
-def vertical_shift_of(value: Any) -> Any:
-    """Return a vertical shift from `plain`."""
-    return restored(value, _VERTICAL)
 
 
 def about(material: Material) -> dict[str, Any]:
@@ -116,14 +105,14 @@ def about(material: Material) -> dict[str, Any]:
 def assembled(spectrum: RetardationSpectrum | ModulusTable, about: dict[str, Any]) -> Material:
     """Return the material of a spectrum and of the values from `about`."""
     if about.get("fit") is not None and isinstance(spectrum, RetardationSpectrum):
-        fit = fit_of(about["fit"])
+        fit = restored(about["fit"], (SpectrumFit,))
         spectrum = RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, fit)
     return Material(
         spectrum,
         shift_of(about.get("shift")),
         poisson_ratio=float(about.get("poisson_ratio", 0.5)),
         name=str(about.get("name", "")),
-        vertical_shift=vertical_shift_of(about.get("vertical_shift")),
+        vertical_shift=restored(about.get("vertical_shift"), _VERTICAL),
         citation=str(about.get("citation", "")),
     )
 

@@ -15,7 +15,7 @@ from viscofric.arguments import number, numbers
 from viscofric.data import DEFORMATIONS
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.rheology.shifts.columns import checked_covariance
+from viscofric.rheology.shifts.shift_law import checked_covariance
 from viscofric.showing import Plotted
 from viscofric.units import to_si
 

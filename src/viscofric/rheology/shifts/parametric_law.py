@@ -12,8 +12,7 @@ import numpy as np
 from viscofric.arguments import flag, numbers
 from viscofric.datasets import plain
 from viscofric.errors import InputError, brief
-from viscofric.rheology.shifts.columns import as_record, checked_covariance
-from viscofric.rheology.shifts.shift_law import ShiftLaw, in_kelvin
+from viscofric.rheology.shifts.shift_law import ShiftLaw, as_record, checked_covariance, in_kelvin
 from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si_array
 
 if TYPE_CHECKING:

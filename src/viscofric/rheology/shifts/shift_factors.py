@@ -11,9 +11,8 @@ from viscofric.arguments import sentences, whole_number
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts import law_fitting
-from viscofric.rheology.shifts.columns import checked_columns
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
-from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
+from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw, checked_columns
 from viscofric.rheology.shifts.shift_table import ShiftTable, write_shift_table
 from viscofric.showing import Items, rows_of
 from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si

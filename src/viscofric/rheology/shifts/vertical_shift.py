@@ -11,8 +11,7 @@ import numpy as np
 
 from viscofric.datasets import dataset, plain
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.columns import as_record, checked_columns
-from viscofric.rheology.shifts.shift_law import NOMINAL, Shift
+from viscofric.rheology.shifts.shift_law import NOMINAL, Shift, as_record, checked_columns
 from viscofric.units import kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
 if TYPE_CHECKING:

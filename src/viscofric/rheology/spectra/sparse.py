@@ -46,14 +46,9 @@ def nonnegative_modes(
     steps, each a non-negative least-squares problem.
     """
     columns = misfit.columns(tau)
-    strengths = _relative_start(misfit, tau) if start is None else np.append(start.glass, start.C)
+    strengths = non_negative_fit(*misfit.relative(tau)) if start is None else np.append(start.glass, start.C)
     strengths = _refined(misfit, columns, strengths, converged)
     return Modes(max(float(strengths[0]), misfit.least_glass), strengths[1:], tau)
-
-
-def _relative_start(misfit: Misfit, tau: Array) -> Array:
-    """Minimise Σ |S/S_measured − 1|²."""
-    return non_negative_fit(*misfit.relative(tau))
 
 
 def _refined(misfit: Misfit, columns: NDArray[Any], strengths: Array, converged: float) -> Array:

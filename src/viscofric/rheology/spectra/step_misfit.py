@@ -195,12 +195,11 @@ class JointMisfit(Misfit):
 LEVEL_OVERLAP = 0.5  # decades
 
 
-def joint_misfit(curves: Sequence[MasterCurve | StepMasterCurve], parts: Sequence[Misfit] | None = None) -> JointMisfit:
-    """Return what a fit to master curves of several kinds minimises, or to samples of them, given as misfits."""
-    parts = [misfit_of(curve) for curve in curves] if parts is None else parts
+def joint_misfit(curves: Sequence[MasterCurve | StepMasterCurve]) -> JointMisfit:
+    """Return what a fit to master curves of several kinds minimises."""
     first, *others = [np.log10(rates_of(curve)[[0, -1]]) for curve in curves]
     common = [min(first[1], one[1]) - max(first[0], one[0]) for one in others]
-    return JointMisfit(parts, [False, *(bool(one >= LEVEL_OVERLAP) for one in common)])
+    return JointMisfit([misfit_of(curve) for curve in curves], [False, *(bool(one >= LEVEL_OVERLAP) for one in common)])
 
 
 def contour() -> tuple[ComplexArray, ComplexArray]:

@@ -169,14 +169,9 @@ def join_at(colder: LogSweep, warmer: LogSweep, step: float) -> Join:
     return Join(step, misfit, misfit / max(float(np.linalg.norm(slope)), 1e-6))
 
 
-def typical_noise(joins: list[Join]) -> float:
-    """Return the median misfit of neighbours, decades: the noise, where superposition holds."""
-    return float(np.median([found.misfit for found in joins])) + SMALLEST_NOISE
-
-
 def failures(joins: list[Join]) -> list[int]:
     """Return the indices of joins where superposition itself fails: misfits many times the typical one."""
-    limit = max(FAILURE * typical_noise(joins), SMALLEST_FAILURE)
+    limit = max(FAILURE * (float(np.median([found.misfit for found in joins])) + SMALLEST_NOISE), SMALLEST_FAILURE)
     return [place for place, found in enumerate(joins) if found.misfit > limit]
 
 

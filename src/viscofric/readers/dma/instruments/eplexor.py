@@ -178,14 +178,10 @@ class _Sheet:
         values = factor * self.column(name) + offset
         if unit in ("K", "Hz") and np.any(values <= 0.0):
             row = int(np.argmax(values <= 0.0))
-            raise DataFileError(
-                self.path, f"{self.places[row]}: column {name!r} must be above {_bound(unit)}.", code="not-positive"
-            )
+            bound = "absolute zero" if unit == "K" else "zero"
+            problem = f"{self.places[row]}: column {name!r} must be above {bound}."
+            raise DataFileError(self.path, problem, code="not-positive")
         return np.asarray(values)
-
-
-def _bound(unit: str) -> str:
-    return "absolute zero" if unit == "K" else "zero"
 
 
 def _passed_over(sheet: _Sheet, complete: Mask) -> list[Note]:
