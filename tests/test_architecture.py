@@ -295,7 +295,7 @@ def test_public_names_resolve_and_say_what_they_are() -> None:
     assert not silent, f"public, but without a docstring: {silent}"
 
 
-@pytest.mark.parametrize("package", ["viscofric", "viscofric.rheology", "viscofric.study"])
+@pytest.mark.parametrize("package", ["viscofric", "viscofric.study"])
 def test_name_that_is_loaded_when_used_is_no_module_too(package: str) -> None:
     """Which of the two an import would find would depend on what was imported before."""
     room = importlib.import_module(package)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from refusals import refused
-from viscofric.rheology import ShiftFactors
+from viscofric import ShiftFactors
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 
 WARM = np.arange(0.0, 121.0, 10.0) + 273.15

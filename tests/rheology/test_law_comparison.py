@@ -10,8 +10,8 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric import ShiftFactors
 from viscofric.notes import codes
-from viscofric.rheology import ShiftFactors
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 
 WARM = np.arange(0.0, 121.0, 10.0) + 273.15

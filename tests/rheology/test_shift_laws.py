@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from refusals import refused
+from viscofric import WLF, Arrhenius, ShiftFactors, WLFArrhenius
 from viscofric.errors import InputError
-from viscofric.rheology import WLF, Arrhenius, ShiftFactors, WLFArrhenius
 from viscofric.rheology.shifts.laws import VFT, InversePolynomial
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 

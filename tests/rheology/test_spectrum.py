@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from refusals import refused
+from viscofric import RetardationSpectrum, fit_retardation_spectrum
 from viscofric.data import MasterCurve
 from viscofric.notes import codes
-from viscofric.rheology import RetardationSpectrum, fit_retardation_spectrum
 
 modes = st.lists(st.tuples(st.floats(0.0, 10.0), st.floats(-6.0, 6.0)), min_size=1, max_size=12)
 

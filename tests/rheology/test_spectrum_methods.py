@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from refusals import refused
+from viscofric import RelaxationSpectrum, RetardationSpectrum, fit_retardation_spectrum
 from viscofric.data import MasterCurve
 from viscofric.errors import LiquidError
 from viscofric.notes import codes
-from viscofric.rheology import RelaxationSpectrum, RetardationSpectrum, fit_retardation_spectrum
 from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 from viscofric.rheology.uncertainty.resampled import Refit
 

@@ -11,8 +11,8 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from rheology.planted import planted_sweeps, synthetic_polymer
+from viscofric import RetardationSpectrum, ShiftFactors, fit_retardation_spectrum
 from viscofric.data import MasterCurve
-from viscofric.rheology import RetardationSpectrum, ShiftFactors, fit_retardation_spectrum
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 from viscofric.rheology.superposition.overlap import OverlapQuality
 from viscofric.rheology.superposition.result import Superposition

@@ -247,7 +247,8 @@ def find_rubber(name: str) -> Material:
 
     What was assumed of a card that does not say it, such as its units, is printed.
     """
-    from viscofric.rheology import catalogue_material, open_card
+    from viscofric.rheology.cards import open_card
+    from viscofric.rheology.catalogue import catalogue_material
 
     path = Path(name)
     if not (path.is_file() or path.suffix):

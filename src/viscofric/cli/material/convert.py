@@ -59,7 +59,7 @@ def command(
     """
     from viscofric.cli.rubber_options import find_rubber
     from viscofric.notes import listed, warned
-    from viscofric.rheology import write_card
+    from viscofric.rheology.cards import write_card
 
     target = output or out
     if target is None or (output is not None and out is not None):

@@ -52,7 +52,7 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
 
 
 def _about(material: Material) -> list[str]:
-    from viscofric.rheology import RetardationSpectrum
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.units import shown_celsius
 
     spectrum = material.spectrum
@@ -71,7 +71,7 @@ def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]
     """Return the moduli of a material at a temperature, at frequencies or in each decade."""
     import numpy as np
 
-    from viscofric.rheology import RetardationSpectrum
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.units import angular_frequency, positive
 
     kelvin = None if temperature is None else positive(temperature, "K", "temperature")

@@ -51,8 +51,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     InputError
         If the program cannot take the rubber, with what would make it.
     """
-    from viscofric.rheology import ShiftFactors
     from viscofric.rheology.cards import write_card
+    from viscofric.rheology.shifts.shift_factors import ShiftFactors
     from viscofric.study.rubber_results import CARDS
 
     rubber = made_rubber(study, context)
