@@ -11,7 +11,8 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import DEEPEST_HEADER, Found, guessed, header_of, is_number, named, option_of, place_of
+from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
+from viscofric.readers.headings import option_of, place_of
 from viscofric.readers.source import decimal_comma
 from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets

@@ -14,7 +14,7 @@ from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
 from viscofric.readers.dma.names import deformation_of, quantity, said_by_columns, temperature_in_name
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
-from viscofric.readers.headings import is_number
+from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
 from viscofric.readers.table import MISSING
 from viscofric.readers.tables import name_columns
