@@ -6,20 +6,16 @@ Quantities with units are converted in `viscofric.units`, which uses this module
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from decimal import Decimal
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.notes import Note, note_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from viscofric.arrays import Array
-
 
 #: Letter of a NumPy kind other than real numbers -> its name.
 _KINDS = {

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, Self, TypeAlias
 
-from viscofric.notes import note_of
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from typing import Self
-
-    from viscofric.notes import Reader
+from viscofric.notes import Reader, note_of
 
 Verdict: TypeAlias = Literal["passed", "noted", "warning", "failed"]
 _VERDICTS: dict[bool | None, Verdict] = {True: "passed", False: "warning", None: "noted"}

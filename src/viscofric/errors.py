@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import copy
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Self
 
-from viscofric.notes import Note, codes, note_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-    from typing import Any, Self
-
-    from viscofric.notes import Reader, Remedy
+from viscofric.notes import Note, Reader, Remedy, codes, note_of
 
 _LONGEST = 80
 #: Limit of the message of an error, or of a note; longer ones quote a file or list many mistakes.

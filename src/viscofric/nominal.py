@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Integers
-    from viscofric.notes import Note
-
+from viscofric.notes import Note
 
 #: Smallest difference of nominal conditions; readings scatter less.
 SAME_TEMPERATURE = 1.0  # K

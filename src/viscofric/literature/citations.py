@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import TYPE_CHECKING
 
 from viscofric.errors import InputError
 from viscofric.literature.basis import basis
 from viscofric.literature.references import Reference
-from viscofric.showing import Shown
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.showing import Rows
+from viscofric.showing import Rows, Shown
 
 _WIDTH = 118
 

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
-from viscofric.units import kelvin_hint, positive, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from os import PathLike
-
-    from viscofric.readers.source import Source
-    from viscofric.units import Quantity
+from viscofric.readers.source import Source
+from viscofric.units import Quantity, kelvin_hint, positive, shown_celsius
 
 
 def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]], reader: str) -> list[str]:

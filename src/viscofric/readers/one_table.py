@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from os import PathLike
+from typing import Any, NamedTuple
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.files import file_path
 from viscofric.notes import setting
@@ -16,13 +19,6 @@ from viscofric.readers.source import Source, checked_sheet, insist_on_content
 from viscofric.readers.table import Table, table_of_text
 from viscofric.readers.tables import find_tables, name_columns
 from viscofric.readers.workbook import is_workbook
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from os import PathLike
-
-    from viscofric.arrays import Array
-    from viscofric.readers.table import Table
 
 
 def table_of(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Literal, TypeAlias
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.amplitudes import read_amplitude_sweep
@@ -12,13 +15,7 @@ from viscofric.readers.given_files import bytes_of
 from viscofric.readers.source import Source
 from viscofric.readers.steps.columns import STEPS
 from viscofric.readers.steps.read import step_kind
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from os import PathLike
-    from pathlib import Path
-
-    from viscofric.units import Quantity
+from viscofric.units import Quantity
 
 #: Kinds of tests; all but the amplitude sweep are keys of [material].
 TestKind: TypeAlias = Literal["dma", "ramps", "creep", "relaxation", "amplitude"]

@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from viscofric.arguments import insist_on
 from viscofric.errors import DataFileError, InputError, brief
 from viscofric.files import decoded
 from viscofric.units import conversion
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
 
 #: What a test sweeps: the frequency, the temperature or the strain amplitude.
 Test: TypeAlias = Literal["frequency", "temperature", "amplitude"]

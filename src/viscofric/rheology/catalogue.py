@@ -4,23 +4,18 @@ from __future__ import annotations
 
 import difflib
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import wrong_argument
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, WLFArrhenius
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
-from viscofric.showing import Shown
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-
+from viscofric.showing import Rows, Shown
 
 #: The half-Gaussians end this many standard deviations from their centres, where their compliance is negligible.
 WIDTH = 4.5

@@ -5,38 +5,34 @@ from __future__ import annotations
 import functools
 import math
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypedDict, Unpack
+from typing import Any, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
 from viscofric.arguments import insist_on_function
+from viscofric.arrays import Array
+from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import Layer
 from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.contact.heated_curve import heat_columns, solve_states
 from viscofric.contact.periodic.heating import ACCURACY, MEAN_LEFT_OUT, PeriodicThermalContact, insist_on_heatable
+from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.heat.heating import Heating
+from viscofric.notes import Note
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.patches import contact_statistics
 from viscofric.roughness.rough_friction import HeatedRoughFriction, RoughFriction
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantities, Quantity, positive, shown_speed, to_si_array
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.contact.arrays.backend import Backend
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.heat.heating import Heating
-    from viscofric.notes import Note
-    from viscofric.rheology.interface.law import InterfaceLaw
 
 
 class Numbers(NamedTuple):

@@ -26,23 +26,19 @@ References
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError
+from viscofric.heat.heating import Heating
 from viscofric.heat.interface import SlidingInterface
 from viscofric.heat.means import disc_mean
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.heat.heating import Heating
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.thermal import ThermalProperties
-
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.thermal import ThermalProperties
 
 _MOST_ITERATIONS = 500
 #: Part of the way to the rise produced by which a hot start comes down, and what the way is then over the rise.

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import scipy.fft
 
 from viscofric.arguments import check_cost, flag, numbers, whole_number
+from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note
@@ -17,10 +18,6 @@ from viscofric.roughness.measured_spectrum import LineSpectrum
 from viscofric.roughness.spectrum import PowerSpectrum, hurst_exponent, wanted_rms
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, positive, to_si, two_lengths
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray
-
 
 Density: TypeAlias = Callable[["Array"], "Array"]
 #: A wave just at a cut-off is in, whatever the rounding.

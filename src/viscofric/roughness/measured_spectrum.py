@@ -3,26 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 import scipy.fft
 
 from viscofric.arguments import MOST_PER_DECADE, whole_number
-from viscofric.arrays import non_negative_fit
+from viscofric.arrays import Array, non_negative_fit
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.roughness.spectrum import NODES, Density, PowerSpectrum, integral
+from viscofric.roughness.topography import Topography
+from viscofric.showing import Rows
 from viscofric.units import to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.roughness.topography import Topography
-    from viscofric.showing import Rows
-
 
 #: Weight of the second differences of the surface's density, which matter only where the lines leave it open.
 _SMOOTHNESS = 0.03

@@ -27,11 +27,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.contact.heated_result import INTERFACE, beyond
@@ -39,19 +40,14 @@ from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
 from viscofric.heat.interface import SlidingInterface
 from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.flash import Flash
-from viscofric.roughness.persson_integrals import Case, Theory
+from viscofric.roughness.persson_integrals import Case, Found, Theory
 from viscofric.roughness.persson_result import HeatedPerssonTheory, PerssonTheory
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantities, Quantity, positive, share, shown_speed, to_si, to_si_array
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.roughness.persson_integrals import Found
-
 
 _CLOSEST, _LOOSEST = 1e-8, 0.1
 #: Rises from which hot states are looked for, K: the first at which α is known.

@@ -6,19 +6,16 @@ The formulae are those of `viscofric.roughness.persson`.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import erf
 
+from viscofric.arrays import Array, ComplexArray
 from viscofric.errors import ConvergenceError
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.rheology.material import Material
-    from viscofric.roughness.flash import Flash
-    from viscofric.roughness.spectrum import PowerSpectrum
-
+from viscofric.rheology.material import Material
+from viscofric.roughness.flash import Flash
+from viscofric.roughness.spectrum import PowerSpectrum
 
 #: Refinements after which the integrals count as not converged; the first grid has 8 intervals per decade.
 _MOST_REFINEMENTS = 7

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Mask
 from viscofric.contact.free.geometry import LINE
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.notes import Note
 from viscofric.units import Quantity, to_si
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Mask
-
 
 _TOLD = {
     "mean": "mean height removed",

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from os import PathLike
+from typing import Literal
 
 import numpy as np
 
@@ -14,10 +15,6 @@ from viscofric.readers.topography.scan import ScanOptions
 from viscofric.readers.topography.tables import checked_heights
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, to_si, two_lengths
-
-if TYPE_CHECKING:
-    from os import PathLike
-
 
 #: Heights of a scan that lie further apart, m, were probably read in another unit.
 _LARGE_EXTENT = 0.1

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 import scipy.fft
 
+from viscofric.arrays import Array
 from viscofric.contact.periodic.surface import wave_number, without_nyquist
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.units import Quantity, positive
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
 
 #: A wave just at a cut-off stays whatever the rounding.
 _ROUNDING = 1e-9

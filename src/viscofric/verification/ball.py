@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
 
 from viscofric.contact.reference import high_speed_friction, high_speed_line_friction, low_speed_friction
+from viscofric.rheology.material import Material
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.model_problems import (
     BALL_LOAD,
@@ -24,11 +25,6 @@ from viscofric.verification.model_problems import (
     solve_ball,
     solve_cylinder,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.rheology.material import Material
 
 ACCURACY = 1e-3
 QUANTITIES = ("friction", "indentation", "front", "rear", "half_width", "area", "max_pressure")

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from viscofric.errors import InputError, ViscofricError
 from viscofric.verification.engine import checking
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
 
 #: How a computed number is held against the expected one: its difference relative to the expected one, the difference
 #: itself, or only from one side.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ball, hertz_ellipse, hertz_line, sneddon_cone
@@ -20,9 +20,6 @@ from viscofric.verification.model_problems import (
     solve_ball,
     solve_cylinder,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _RATIO = 10.0
 _RUBBER = one_time(_RATIO, 1.0)

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.contact import steady
 from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic import solve as periodic
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.contact.periodic.surface import PeriodicSurface
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.material import Material
+from viscofric.contact.periodic.solution import PeriodicSolution
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.contact.solution import ContactSolution
+from viscofric.rheology.material import Material
 
 _checked: ContextVar[Backend | None] = ContextVar("backend that is checked", default=None)
 

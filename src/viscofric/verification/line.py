@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from viscofric.contact.reference import HunterContact, hunter_line
 from viscofric.verification.check import Check, Comparison
@@ -18,9 +18,6 @@ from viscofric.verification.model_problems import (
     one_time,
     solve_cylinder,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 MODULUS_RATIOS = (2.0, 10.0, 100.0, 1000.0)
 MEMORY_LENGTHS = (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3)

@@ -6,20 +6,17 @@ same load: lengths in a0, depths in a0²/R, friction in a0/R, pressures in p0.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.contact.indenters.shapes import Ball, Cylinder
+from viscofric.contact.solution import ContactSolution
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification.engine import solve_steady
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.contact.solution import ContactSolution
 
 RUBBER_MODULUS = 1e6  # Pa
 POISSON_RATIO = 0.5

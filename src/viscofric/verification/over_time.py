@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -13,9 +13,6 @@ from viscofric.motion.solve import solve_transient
 from viscofric.rheology.material import Material
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.model_problems import BALL, POISSON_RATIO, RADIUS, RUBBER_MODULUS, one_time, rising_modes
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _LOAD, _DEPTH = 1.0, 2e-4  # N, m
 _PLANE_STRAIN = 1.0 - POISSON_RATIO**2

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.free.geometry import LINE, POINT
+from viscofric.arrays import Array
+from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
@@ -18,12 +19,6 @@ from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import backend
 from viscofric.verification.line import hunter
 from viscofric.verification.model_problems import HERTZ_RADIUS, SLOPE
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
-    from viscofric.contact.free.geometry import Geometry
 
 
 @dataclass(frozen=True)

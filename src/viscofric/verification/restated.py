@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -31,9 +32,6 @@ from viscofric.verification.model_problems import (
     solve_ball,
     solve_cylinder,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _SAME = 1e-7  # what is left of the contact conditions in friction and size
 _COARSE = 1e-2  # both sides are solved on the same grid

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.contact.indenters.height_map import Profile
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.contact.solution import ContactSolution
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.vertical_shift import DensityShift
@@ -29,11 +30,6 @@ from viscofric.verification.model_problems import (
     solve_ball,
     solve_cylinder,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.contact.solution import ContactSolution
 
 _MODULI, _LENGTHS, _TIMES = 1e6, 1e-3, 1e9
 _TIGHT = 1e-10  # of the contact conditions

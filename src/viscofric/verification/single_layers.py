@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.shapes import Ball, Cylinder
@@ -17,9 +17,6 @@ from viscofric.rheology.material import Material
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_steady
 from viscofric.verification.model_problems import HERTZ_RADIUS, one_time, solve_ball
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 # Radius, modulus and speed are one; the elastic contact reaches to ±_HALF.
 _NU, _THICKNESS, _HALF, _RATIO = 0.3, 0.0125, 0.5, 10.0

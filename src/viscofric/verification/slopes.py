@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
 from viscofric.contact.reference import hunter_line
+from viscofric.contact.solution import ContactSolution
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification.check import Check, Comparison
@@ -21,11 +23,6 @@ from viscofric.verification.model_problems import (
     solve_ball,
     solve_cylinder,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from viscofric.contact.solution import ContactSolution
 
 _STEP = 0.06  # of the logarithms: many cells come into contact, so that where edges lie within them evens out
 _CLOSED_STEP = 1e-4

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.reference import (
@@ -22,12 +23,6 @@ from viscofric.rheology.material import Material
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_periodic
 from viscofric.verification.model_problems import POISSON_RATIO, RUBBER_MODULUS, one_time, rising_modes
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
-
 
 _WAVELENGTH, _AMPLITUDE = 1e-3, 1e-6  # m: slopes of 0.006
 _RUBBER = one_time(10.0, 1.0)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_periodic
@@ -19,12 +20,6 @@ from viscofric.verification.model_problems import (
     one_time,
     solve_ball,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
-
 
 MODULUS_RATIO, MEMORY_LENGTH = 10.0, 10.0
 PERIODS = (2.4, 4.8, 9.6, 19.2, 38.4)  # a0

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from os import PathLike
 
 import numpy as np
 
 from viscofric.amplitudes import AmplitudeSweep
+from viscofric.arrays import Indices
+from viscofric.data import Deformation
 from viscofric.errors import DataFileError, short_notes
 from viscofric.notes import Note
 from viscofric.readers.dma.checks import usable
@@ -14,18 +17,9 @@ from viscofric.readers.dma.isotherms import opening
 from viscofric.readers.dma.names import NOT_SAID
 from viscofric.readers.dma.ramps import by_frequency, legs
 from viscofric.readers.dma.read import read_files
-from viscofric.readers.dma.readings import AS_SWEEPS, joined
+from viscofric.readers.dma.readings import AS_SWEEPS, Points, joined
 from viscofric.readers.dma.sweep_checks import SWEPT_AMPLITUDE
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from os import PathLike
-
-    from viscofric.arrays import Indices
-    from viscofric.data import Deformation
-    from viscofric.readers.dma.readings import Points
-    from viscofric.units import Quantity
-
+from viscofric.units import Quantity
 
 #: A sweep has so many amplitudes at least.
 FEWEST = 5

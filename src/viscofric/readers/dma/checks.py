@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Mask
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
+from viscofric.readers.dma.readings import Points
+from viscofric.readers.table import Table
 from viscofric.units import CELSIUS_ZERO, shown_celsius, shown_number
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices, Mask
-    from viscofric.readers.dma.readings import Points
-    from viscofric.readers.table import Table
-
 
 #: A thousand times diamond.
 LARGEST_MODULUS = 1e15  # Pa

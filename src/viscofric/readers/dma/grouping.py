@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.readings import AS_RAMPS
+from viscofric.readers.dma.readings import AS_RAMPS, Points
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices
-    from viscofric.readers.dma.readings import Points
-
 
 #: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.
 ISOTHERM_GAP = 1.0  # K

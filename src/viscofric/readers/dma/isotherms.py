@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.data import DEFORMATIONS, Isotherm, IsothermalSweeps
+from viscofric.arrays import Indices
+from viscofric.data import DEFORMATIONS, Deformation, Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, check_choice, short_notes
 from viscofric.notes import Note, note_of
 from viscofric.readers.dma.checks import usable
 from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
-from viscofric.readers.dma.readings import Sorted, at, joined, listed
+from viscofric.readers.dma.readings import Points, Readings, Sorted, at, joined, listed
 from viscofric.readers.dma.sweep_checks import notes_on, of_one_amplitude
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Indices
-    from viscofric.data import Deformation
-    from viscofric.readers.dma.readings import Points, Readings
-
 
 #: Frequencies closer than this (relative) are the same, printed or measured twice.
 SAME_FREQUENCY = 1e-4

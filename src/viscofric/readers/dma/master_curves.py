@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from os import PathLike
 
 import numpy as np
 
-from viscofric.data import DEFORMATIONS, MasterCurve
+from viscofric.arrays import Array, Integers
+from viscofric.data import DEFORMATIONS, Deformation, MasterCurve
 from viscofric.errors import DataFileError, check_choice
 from viscofric.files import read_bytes
 from viscofric.notes import setting
@@ -16,17 +18,9 @@ from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import delimited, dma_table, reptate, workbook
 from viscofric.readers.source import Source, checked_sheet, unit_conversion
+from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables
-from viscofric.units import checked_poisson_ratio, conversion, positive, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from os import PathLike
-
-    from viscofric.arrays import Array, Integers
-    from viscofric.data import Deformation
-    from viscofric.readers.table import Table
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, conversion, positive, shown_celsius
 
 #: Reference temperatures are printed with few digits.
 _SAME_REFERENCE = 0.01  # K

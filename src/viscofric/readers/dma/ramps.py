@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Literal
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices
+from viscofric.data import Deformation
 from viscofric.errors import DataFileError, check_choice, short_notes
 from viscofric.notes import Note
 from viscofric.ramps import TemperatureRamp, TemperatureRamps
@@ -14,18 +18,9 @@ from viscofric.readers.dma.instruments.ta_steps import RAMP
 from viscofric.readers.dma.isotherms import opening
 from viscofric.readers.dma.names import NOT_SAID
 from viscofric.readers.dma.read import read_files
-from viscofric.readers.dma.readings import AS_SWEEPS, joined
+from viscofric.readers.dma.readings import AS_SWEEPS, Points, joined
 from viscofric.readers.dma.sweep_checks import HELD_FREQUENCY
-from viscofric.units import celsius, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from os import PathLike
-
-    from viscofric.arrays import Array, Indices
-    from viscofric.data import Deformation
-    from viscofric.readers.dma.readings import Points
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, celsius, to_si
 
 
 def by_frequency(points: Points, rows: Indices) -> list[Indices]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Protocol
 
 import numpy as np
 
-from viscofric.data import DEFORMATIONS
+from viscofric.data import DEFORMATIONS, Deformation, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.notes import Remedy
 from viscofric.readers.dma.instruments import (
@@ -17,23 +19,15 @@ from viscofric.readers.dma.instruments import (
     trios_text,
     universal_analysis,
 )
-from viscofric.readers.dma.isotherms import traced_sweeps
+from viscofric.readers.dma.isotherms import TracedSweeps, traced_sweeps
 from viscofric.readers.dma.names import DMA, NOT_SAID
+from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables import delimited, reptate, workbook
 from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
 from viscofric.readers.mtm.delimited import TRACTION
-from viscofric.readers.source import Source, checked_sheet, insist_on_content, unit_conversion
+from viscofric.readers.source import Source, Test, checked_sheet, insist_on_content, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from os import PathLike
-
-    from viscofric.data import Deformation, IsothermalSweeps
-    from viscofric.readers.dma.isotherms import TracedSweeps
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.source import Test
-    from viscofric.units import Quantity
+from viscofric.units import Quantity
 
 
 class Format(Protocol):

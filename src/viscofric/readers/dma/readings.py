@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Integers, Mask
+from viscofric.data import Deformation, Isotherm
 from viscofric.notes import Remedy
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from viscofric.arrays import Array, Indices, Integers, Mask
-    from viscofric.data import Deformation, Isotherm
-
 
 #: What to do with a master curve in place of sweeps, and with sweeps in place of a master curve.
 AS_MASTER_CURVE = Remedy(

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices
+from viscofric.data import Isotherm
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.readings import AS_AMPLITUDES, at
+from viscofric.readers.dma.readings import AS_AMPLITUDES, Points, Sorted, at
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array, Indices
-    from viscofric.data import Isotherm
-    from viscofric.readers.dma.readings import Points, Sorted
-
 
 #: A temperature that ranges further within one isotherm shifts its ends against each other visibly.
 WIDE = 1.0  # K

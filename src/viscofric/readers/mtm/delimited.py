@@ -5,23 +5,19 @@ Reduced tables have rolling speed, slip and the coefficient of traction instead 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.names import DMA
-from viscofric.readers.headings import Vocabulary
+from viscofric.readers.headings import Column, Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
+from viscofric.readers.source import Source
+from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables, holds_table, name_columns
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers
-    from viscofric.readers.headings import Column
-    from viscofric.readers.source import Source
-    from viscofric.readers.table import Table
-
 
 NAME = "delimited text, one reading per row"
 

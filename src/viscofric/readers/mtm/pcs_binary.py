@@ -9,14 +9,11 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
-from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.readers.mtm import pcs_text
-
-if TYPE_CHECKING:
-    from viscofric.readers.mtm.readings import Thermometer, TractionReadings
-    from viscofric.readers.source import Source
+from viscofric.readers.mtm.readings import Thermometer, TractionReadings
+from viscofric.readers.source import Source
 
 NAME = "a binary file of PCS Instruments' MTM or ETM"
 

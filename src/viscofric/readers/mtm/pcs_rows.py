@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import NoReturn
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.mtm.pcs_steps import LARGEST, NUMBER, UNITS, Export, at, number_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from typing import NoReturn
-
-    from viscofric.arrays import Array, Integers
-    from viscofric.readers.mtm.pcs_steps import Block, Export, Step
-
+from viscofric.readers.mtm.pcs_steps import LARGEST, NUMBER, UNITS, Block, Export, Step, at, number_of
 
 SIGNALS = ("tf1", "tf2", "tf3", "tf4")
 

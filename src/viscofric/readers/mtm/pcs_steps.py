@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
-from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.headings import heading
 from viscofric.readers.source import decimal_comma, unit_conversion
 from viscofric.readers.table import MISSING
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
 
 _START = re.compile(r"\s*Step\s+(\d{1,6})(?:\s+\"[^\"]{0,200}\")?\s+started\s+at\b(.*)", re.IGNORECASE)
 NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*", re.ASCII)

@@ -3,27 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError, InputError, check_choice, short_notes
 from viscofric.files import file_path, read_bytes
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.notes import Note, note_of, setting
 from viscofric.readers.mtm import delimited, pcs_binary, pcs_text
+from viscofric.readers.mtm.readings import Thermometer, TractionReadings
 from viscofric.readers.source import Source, checked_sheet, insist_on_content
 from viscofric.readers.workbook import is_workbook, sheet_texts
 from viscofric.traction import TractionRuns, TractionStep, notes_on_friction
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from os import PathLike
-
-    from viscofric.arrays import Array, Integers
-    from viscofric.readers.mtm.readings import Thermometer, TractionReadings
 
 
 def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.names import SET_TEMPERATURE, STEP, STRAIN_AMPLITUDE, TEMPERATURE, temperature_in_name
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import STRAIN_FACTORS, Source, unit_conversion
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.readers.table import Table
-    from viscofric.step_tests import StepKind
-
+from viscofric.readers.table import Table
+from viscofric.step_tests import StepKind
 
 TIME = frozenset(
     {"t", "time", "zeit", "temps", "tiempo", "tempo", "tijd", "tid", "čas", "czas", "время", "时间", "時間"}

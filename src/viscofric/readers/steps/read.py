@@ -9,37 +9,28 @@ the drive, which oscillates with the sample's stiffness (creep ringing: C. Barav
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.data import DEFORMATIONS
+from viscofric.arrays import Array
+from viscofric.data import DEFORMATIONS, Deformation
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
+from viscofric.readers.dma.instruments.ta_steps import Table as StepTable
 from viscofric.readers.dma.names import NOT_SAID, said_by_columns, tools_in
 from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
 from viscofric.readers.source import Source, checked_sheet, insist_on_content
 from viscofric.readers.steps import reptate
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
-from viscofric.readers.table import MISSING, make_table
+from viscofric.readers.table import MISSING, Table, make_table
 from viscofric.readers.tables import find_tables
-from viscofric.step_tests import StepTest, StepTests
-from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from os import PathLike
-
-    from viscofric.arrays import Array
-    from viscofric.data import Deformation
-    from viscofric.readers.dma.instruments.ta_steps import Table as StepTable
-    from viscofric.readers.table import Table
-    from viscofric.step_tests import StepKind
-    from viscofric.units import Quantity
-
+from viscofric.step_tests import StepKind, StepTest, StepTests
+from viscofric.units import Quantity, shown_celsius
 
 #: Temperatures closer than this belong to one test.
 ONE_TEST = 1.0  # K

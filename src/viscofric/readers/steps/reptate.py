@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from viscofric.readers.dma.tables.reptate import parameters_of
+from viscofric.readers.source import Source
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from viscofric.readers.source import Source
 
 #: RepTate's names of columns -> heading with the unit that it means; its tests are in shear.
 _HEADINGS = {"t": "t (s)", "strain": "shear strain (-)", "stress": "shear stress (Pa)", "sxy": "shear stress (Pa)"}

@@ -10,10 +10,11 @@ import warnings
 import zipfile
 from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
 from viscofric.limited_process import LimitedProcess
@@ -21,10 +22,6 @@ from viscofric.readers.source import Source
 from viscofric.readers.topography.scan import Scan, ScanOptions, name_of
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.units import conversion
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
 
 #: The package trusts the header of a file, so that reading a crafted one may never end or need any memory.
 LONGEST_READ = 120.0  # s; 190 MB take 10 s

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from viscofric.errors import DataFileError, InputError, brief, check_choice
 from viscofric.files import LARGEST_FILE, file_path, insist_on_short_text, read_bytes
 from viscofric.readers.source import Source
 from viscofric.readers.topography.package import read_with_package
+from viscofric.readers.topography.scan import Scan, ScanOptions
 from viscofric.readers.topography.tables import NUMPY, is_table, read_array, read_text_table
 from viscofric.units import conversion
-
-if TYPE_CHECKING:
-    from viscofric.readers.topography.scan import Scan, ScanOptions
 
 
 def read_scan(path: object, options: ScanOptions) -> Scan:

@@ -5,16 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers
-    from viscofric.readers.source import Source
+from viscofric.readers.source import Source
 
 
 @dataclass(frozen=True)

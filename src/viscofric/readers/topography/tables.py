@@ -5,23 +5,19 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.files import LARGEST_FILE, decoded, insist_on_short_text, read_bytes, saved_array
 from viscofric.notes import Note
+from viscofric.readers.source import Source
 from viscofric.readers.table import MISSING
 from viscofric.readers.topography.scan import Scan, ScanOptions, name_of, scan_of_points
 from viscofric.units import conversion
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.arrays import Array
-    from viscofric.readers.source import Source
-
 
 NUMPY = b"\x93NUMPY"
 _BLANKS = re.compile(r"\s+")

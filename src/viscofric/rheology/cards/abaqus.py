@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
@@ -26,13 +26,11 @@ from viscofric.rheology.cards.card import (
     written_poisson_ratio,
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from viscofric.rheology.material import Material
 
 NAME = "Abaqus"
 _LONGEST_NAME = 80

@@ -11,8 +11,9 @@ from __future__ import annotations
 import ast
 import operator
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
@@ -27,13 +28,9 @@ from viscofric.rheology.cards.card import (
     written_poisson_ratio,
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.rheology.material import Material
 
 NAME = "ANSYS"
 _MOST_CONSTANTS = 10_000

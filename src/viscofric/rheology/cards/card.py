@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.units import CELSIUS_ZERO, conversion
-
-if TYPE_CHECKING:
-    from viscofric.rheology.material import Material
-    from viscofric.showing import Rows
-
 
 #: Unit systems of a card: SI, or tonne, mm, s, N and so MPa, in which density is in t/mm³.
 UnitSystem: TypeAlias = Literal["Pa", "MPa"]

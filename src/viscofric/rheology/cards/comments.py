@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.files import parse_json
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import Solid, card_law
+from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.cards.native import VERSION, about, assembled, shift_of
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.units import CELSIUS_ZERO, celsius
-
-if TYPE_CHECKING:
-    from viscofric.rheology.cards.card import Writing
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 
 #: Start of each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
 _MARK = "viscofric>"

@@ -12,20 +12,18 @@ from __future__ import annotations
 
 import re
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.cards.card import Reading, Solid, Writing, card_law, relaxation_of, written_poisson_ratio
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.parametric_law import ParametricLaw
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.units import to_si
-
-if TYPE_CHECKING:
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 NAME = "COMSOL"
 #: Bulk moduli within this of those that follow from nu and the shear moduli agree with them.

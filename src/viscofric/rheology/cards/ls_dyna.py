@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
@@ -29,12 +29,10 @@ from viscofric.rheology.cards.card import (
     written_poisson_ratio,
 )
 from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.rheology.material import Material
 
 NAME = "LS-DYNA"
 _TERMS = 18

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.interface.laws import (
     ConstantShearStress,
     EyringShearStress,
@@ -27,12 +29,7 @@ from viscofric.rheology.shifts.law_fitting import (
 )
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 #: Kinds of law as `ShearStress.law` takes them, those of fewest constants first.
 KINDS = {law.kind: law for law in (ConstantShearStress, PowerShearStress, EyringShearStress, GaussianShearStress)}

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
+from viscofric.heat.heating import Heating
 from viscofric.notes import Note
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_law import LN10
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.heat.heating import Heating
-
 
 #: Within this factor pressures are those of the fit.
 SAME_PRESSURE = 1.5

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.parametric_law import Constant
 from viscofric.rheology.shifts.shift_law import LN10
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
-
+from viscofric.units import Quantity
 
 BOLTZMANN = 1.380649e-23  # J/K
 LOG10_E = 1.0 / LN10

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
 from viscofric.errors import InputError, SuperpositionError, brief
 from viscofric.notes import Note
+from viscofric.ramps import TemperatureRamps
+from viscofric.rheology.ramps.glass_transition import GlassTransition
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, ShiftLaw
+from viscofric.rheology.superposition.kramers_kronig import KramersKronig
 from viscofric.units import shown_celsius, to_si
-
-if TYPE_CHECKING:
-    from viscofric.ramps import TemperatureRamps
-    from viscofric.rheology.ramps.glass_transition import GlassTransition
-    from viscofric.rheology.superposition.kramers_kronig import KramersKronig
-
 
 #: The constants that M. L. Williams, R. F. Landel, J. D. Ferry (J. Am. Chem. Soc. 77 (1955) 3701) found for many
 #: amorphous polymers about their glass transition.

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, SuperpositionError, check_choice
 from viscofric.notes import Note, Remedy
 from viscofric.ramps import TemperatureRamps
 from viscofric.rheology.ramps.assumed import assumed_law, on_assumption
-from viscofric.rheology.ramps.common_law import RampPoints, common_law
+from viscofric.rheology.ramps.common_law import CommonLaw, RampPoints, common_law
 from viscofric.rheology.ramps.glass_transition import glass_transition
 from viscofric.rheology.ramps.result import RampCheck, RampSuperposition
 from viscofric.rheology.shifts.laws import WLF, ShiftLaw
@@ -21,13 +22,7 @@ from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, kelvin_hint, positive, shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.ramps.common_law import CommonLaw
-    from viscofric.units import Quantity
-
+from viscofric.units import Quantity, checked_poisson_ratio, kelvin_hint, positive, shown_celsius
 
 RampLaw: TypeAlias = Literal["wlf", "arrhenius", "vft", "wlf+arrhenius"]
 #: Points of a ramp that a common curve needs; a law has up to three constants.

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import comb
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
+from typing import Any, ClassVar, NoReturn
 
 import numpy as np
 
 from viscofric.arguments import flag, numbers
+from viscofric.arrays import Array
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw, Reach, shown_constant
 from viscofric.rheology.shifts.shift_law import NOMINAL
-from viscofric.units import positive, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, positive, shown_celsius
 
 
 @dataclass(frozen=True)

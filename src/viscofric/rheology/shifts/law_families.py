@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from viscofric.arguments import whole_number
+from viscofric.arrays import Array
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
 
 #: Kinds of law as `ShiftFactors.law` takes them.
 LAWS = ("wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")

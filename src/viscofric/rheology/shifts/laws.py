@@ -6,19 +6,16 @@ WLF and VFT are one curve in two sets of constants, with a pole some tens of kel
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.inverse_polynomial import InversePolynomial
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10, ShiftLaw
-from viscofric.units import CELSIUS_ZERO, positive, shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
+from viscofric.units import CELSIUS_ZERO, Quantity, positive, shown_celsius
 
 __all__ = [
     "GAS_CONSTANT",

@@ -5,21 +5,17 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
 from viscofric.arguments import flag, numbers
+from viscofric.arrays import Array, Mask
 from viscofric.datasets import plain
 from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.shift_law import ShiftLaw, as_record, checked_covariance, in_kelvin
-from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si_array
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Mask
-    from viscofric.showing import Rows
-    from viscofric.units import Quantity
-
+from viscofric.showing import Rows
+from viscofric.units import Quantity, kelvin_hint, positive, shown_celsius, shown_number, to_si_array
 
 #: A law is extrapolated no farther than this beyond the hottest temperature of its fit.  WLF and Arrhenius laws fitted
 #: to the same hundred kelvin (C2 of 90 to 130 K) differ by 0.3 to 1.2 decades over the next fifty; and WLF is a law of

@@ -5,11 +5,13 @@ The sign is that of E(ω, T) = E(α(T) ω, T0): α falls as the temperature rise
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from os import PathLike
 
 import numpy as np
 
 from viscofric.arguments import flag
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.notes import Note
@@ -22,14 +24,7 @@ from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_table import ShiftTable, logarithms, read_shift_table
-from viscofric.units import positive, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from os import PathLike
-
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, positive, shown_celsius
 
 
 def read_shift_factors(

@@ -6,22 +6,17 @@ import csv
 import io
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from os import PathLike
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.files import file_path, write_atomically
 from viscofric.notes import Note
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from os import PathLike
-
-    from viscofric.arrays import Array
-
 
 #: Heading without blanks and marks -> log10 α per unit of the column; None for α itself.
 _SHIFTS: dict[str, float | None] = {

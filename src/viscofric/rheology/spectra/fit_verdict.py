@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.data import MasterCurve
 from viscofric.errors import LiquidError
 from viscofric.notes import Note
-from viscofric.rheology.spectra.modulus_misfit import STIFFEST
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, Modes
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -18,14 +21,6 @@ from viscofric.rheology.spectra.sparse import nonnegative_modes
 from viscofric.rheology.spectra.step_misfit import frequencies_of
 from viscofric.step_tests import StepMasterCurve
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.data import MasterCurve
-    from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
-
 
 #: What a spectrum is fitted to.
 Curve: TypeAlias = "MasterCurve | StepMasterCurve"

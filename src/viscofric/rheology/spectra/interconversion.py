@@ -39,13 +39,9 @@ M. Gu, S. C. Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994) 1266 (strengths tha
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices
-
+from viscofric.arrays import Array, Indices
 
 #: A distance is bracketed within e^±700 of its pole at worst: this many halvings determine all bits of its logarithm.
 _HALVINGS = 64

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array, ComplexArray, Mask
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
+from viscofric.arrays import Array, ComplexArray, Mask
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 #: Modes lie between retardation times (1/ω_max) / EDGE and EDGE / ω_min.  A mode further out cannot be separated from
 #: a plateau, nor from the flow of a liquid: its compliance could grow without bound.

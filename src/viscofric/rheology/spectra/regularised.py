@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Modes, descend
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.spectra.modulus_misfit import Misfit
-
+from viscofric.arrays import Array
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, Modes, descend
 
 #: Strengths tried, from too strong to too weak; each fit starts from the one before.
 STRENGTHS = np.geomspace(1.0, 1e-5, 26)

@@ -6,19 +6,13 @@ The number of modes at free times is the smallest that meets an error.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from viscofric.arrays import non_negative_fit
-from viscofric.rheology.spectra.modulus_misfit import Modes, descend
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.spectra.modulus_misfit import Misfit
-
+from viscofric.arrays import Array, non_negative_fit
+from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes, descend
 
 ACTIVE_SET_ITERATIONS = 30
 ACTIVE_SET_CONVERGED = 1e-6  # relative fall of the misfit

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -14,19 +14,16 @@ from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, judged_jointly, solid_modes
+from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.sparse import lattice, nonnegative_modes
 from viscofric.rheology.spectra.step_misfit import by_rate, frequencies_of, joint_misfit, misfit_of, rates_of
 from viscofric.rheology.superposition.joint import JointSuperposition, level_note
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.step_tests import StepMasterCurve
 from viscofric.threads import one_blas_thread
 from viscofric.units import positive
-
-if TYPE_CHECKING:
-    from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.rheology.superposition.step_result import StepSuperposition
-
 
 Method: TypeAlias = Literal["non-negative", "regularised", "sparse"]
 METHODS = ("non-negative", "regularised", "sparse")

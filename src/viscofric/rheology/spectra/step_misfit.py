@@ -12,21 +12,16 @@ Numer. Anal. 44 (2006) 2342, doi:10.1137/050625837; A. Talbot, J. Inst. Math. Ap
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Self
+from collections.abc import Sequence
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array, ComplexArray, Mask
+from viscofric.data import MasterCurve
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, ModulusMisfit
 from viscofric.step_tests import StepMasterCurve
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array, ComplexArray, Mask
-    from viscofric.data import MasterCurve
-
 
 #: Step responses from a time t on determine E(ω) up to this part of 1/t.  Relaxations faster than t have ended in E(t),
 #: but not in E''(ω) below 1/t, and towards the glass they are the strongest; in J(t) they are the weakest.

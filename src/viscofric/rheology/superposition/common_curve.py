@@ -10,13 +10,10 @@ curve that follows the noise has noise in its slope, which would be taken for in
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
+from viscofric.arrays import Array
 
 #: Points per knot, and the smallest distance of knots in decades: spectra have no sharper features.
 POINTS_PER_KNOT = 5

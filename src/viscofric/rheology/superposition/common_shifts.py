@@ -9,24 +9,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.superposition.gauge import continued, continued_covariance, identified
+from viscofric.arrays import Array
+from viscofric.rheology.superposition.common_curve import Smoother
+from viscofric.rheology.superposition.gauge import Gauge, continued, continued_covariance, identified
 from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, Offsets, estimated
-from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, join, parted
-from viscofric.rheology.superposition.quantity import BOTH
+from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, Join, LogSweep, join, parted
+from viscofric.rheology.superposition.quantity import BOTH, Quantities
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
 from viscofric.rheology.superposition.step_profiles import StepProfiles, most_likely
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.superposition.common_curve import Smoother
-    from viscofric.rheology.superposition.gauge import Gauge
-    from viscofric.rheology.superposition.overlap import Join, LogSweep
-    from viscofric.rheology.superposition.quantity import Quantities
-
 
 OFFSET_PASSES = 3  # each smooths the curves again, with the offsets found
 TEST_PASSES = 2  # of step tests; the second has the variance of correlated points

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from viscofric.arrays import Array, Indices
+from viscofric.arrays import Array, Indices
 
 
 @dataclass(frozen=True, eq=False)

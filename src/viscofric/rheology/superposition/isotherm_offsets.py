@@ -11,16 +11,11 @@ one of the sizes, with the probability of that size.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.rheology.superposition.gauge import continued
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.superposition.gauge import Gauge
-
+from viscofric.arrays import Array
+from viscofric.rheology.superposition.gauge import Gauge, continued
 
 #: Where one modulus is shifted, offsets larger than this in both are no offsets: the other modulus is wrong.  Sweeps of
 #: one sample repeat to 0.02 decades (`consistency.REPRODUCIBILITY`); the sizes found scatter by a third.

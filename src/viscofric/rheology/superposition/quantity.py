@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import numbers
+from viscofric.arrays import Array
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.superposition.overlap import LogSweep
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
 
 ShiftBy: TypeAlias = Literal["both", "storage", "loss", "loss-tangent"]
 #: Quantities as combinations (m, 2) of log E' and log E'', and their names.

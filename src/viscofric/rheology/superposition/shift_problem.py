@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Mask
 from viscofric.rheology.superposition.common_curve import Smoother
-from viscofric.rheology.superposition.overlap import failures
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from viscofric.arrays import Array, Indices, Mask
-    from viscofric.rheology.superposition.gauge import Gauge
-    from viscofric.rheology.superposition.overlap import Join, LogSweep
-
+from viscofric.rheology.superposition.gauge import Gauge
+from viscofric.rheology.superposition.overlap import Join, LogSweep, failures
 
 #: Where the data do not determine a step, a prior keeps it near the trend of its neighbours: standard deviation of the
 #: change from step to step of the rate with 1/T, in decades per typical step …

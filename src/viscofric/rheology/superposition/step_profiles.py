@@ -13,24 +13,17 @@ than their level does.  With offsets, errors of the shifts are typically three t
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, ROUGHNESS
-from viscofric.rheology.superposition.overlap import allowed_half_width, steps_that_overlap
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.superposition.common_curve import Smoother
-    from viscofric.rheology.superposition.overlap import LogSweep
-    from viscofric.rheology.superposition.shift_problem import Piece, ShiftProblem
-
+from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, ROUGHNESS, Smoother
+from viscofric.rheology.superposition.overlap import LogSweep, allowed_half_width, steps_that_overlap
+from viscofric.rheology.superposition.shift_problem import Piece, ShiftProblem
 
 #: A profile is followed from this many standard errors on, in distances that double, until it is excluded …
 NEAR = 3.0

@@ -2,35 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, overload
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, TypedDict, Unpack, overload
 
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.data import IsothermalSweeps, MasterCurve
+from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import ShiftLaw
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
+from viscofric.rheology.superposition.joined_isotherms import JoinedIsotherms
 from viscofric.rheology.superposition.joint import JointSuperposition, insist_on_kinds, joined_kinds
 from viscofric.rheology.superposition.overlap import LogSweep
-from viscofric.rheology.superposition.quantity import STEP, Quantities
+from viscofric.rheology.superposition.quantity import STEP, Quantities, ShiftBy
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.shifted_isotherms import shifted_isotherms
 from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition, flowing
-from viscofric.step_tests import StepMasterCurve, StepTests
+from viscofric.step_tests import StepKind, StepMasterCurve, StepTest, StepTests
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, positive
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.data import Isotherm
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.superposition.joined_isotherms import JoinedIsotherms
-    from viscofric.rheology.superposition.quantity import ShiftBy
-    from viscofric.step_tests import StepKind, StepTest
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 
 class Options(TypedDict, total=False):

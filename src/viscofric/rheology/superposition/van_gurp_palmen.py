@@ -7,19 +7,15 @@ shift factors are.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.data import Isotherm
-
+from viscofric.arrays import Array
+from viscofric.data import Isotherm
 
 #: Degree of the curve of an isotherm of two or three decades, by its number of points.
 _DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import InputError
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.spectra import regularised, sparse
-from viscofric.rheology.spectra.modulus_misfit import Modes
+from viscofric.rheology.spectra.fit_verdict import Curve
+from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.sparse import lattice_between, nonnegative_modes
 from viscofric.rheology.spectra.step_misfit import by_rate, misfit_of
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.uncertainty.residuals import Residuals
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.spectra.fit_verdict import Curve
-    from viscofric.rheology.spectra.modulus_misfit import Misfit
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.rheology.superposition.step_result import StepSuperposition
 
 
 class Resampled:

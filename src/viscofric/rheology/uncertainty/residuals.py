@@ -6,15 +6,11 @@ A systematic misfit is correlated over neighbouring points, and no bootstrap of 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers
-
 
 #: Fewest points of an isotherm for a scatter of its own.
 LEAST_POINTS = 3

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.rheology.cards import abaqus
 from viscofric.rheology.cards.card import Writing
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.verification.check import Check, Comparison
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
 
 _NU = 0.49
 

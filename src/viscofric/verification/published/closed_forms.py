@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import beta
 
+from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.rheology.material import Material
@@ -16,11 +17,6 @@ from viscofric.rheology.spectra.retardation import RelaxationSpectrum, Retardati
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_steady
 from viscofric.verification.model_problems import SLOPE, one_time, solve_ball
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
 
 
 def belt(relaxation: RelaxationSpectrum, radius: float, thickness: float, front: float, speed: float) -> Array:

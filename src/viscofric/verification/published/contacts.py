@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.shapes import Ball, Cylinder
@@ -11,9 +11,6 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_steady
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 BALL_RADIUS, BALL_LOAD, BALL_TAU = 0.01, 0.15, 0.01  # m, N, s
 #: vτ/a0 and μ of the figure, and the tolerance at which slippy's test meets μ.

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import erf, erfcx
 
+from viscofric.arrays import Array
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.roughness.persson import persson_theory
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.thermal import ThermalProperties
 from viscofric.verification.check import Check, Comparison
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
 
 _HURST, _FIRST, _LAST, _SLOPE = 0.8, 500.0, 1e6, 1.3  # q in rad/m; rms slope
 _PRESSURE, _NU, _GAMMA = 0.3e6, 0.5, 0.5

@@ -11,7 +11,7 @@ from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_text
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.notes import Note, note_of
-from viscofric.study.run_file.contact import IndenterTable  # noqa: TC001 - pydantic looks at it
+from viscofric.study.run_file.contact import IndenterTable
 from viscofric.study.run_file.errors import wrong_tables
 from viscofric.study.run_file.measurement import MeasurementTable
 from viscofric.study.run_file.study import TABLES

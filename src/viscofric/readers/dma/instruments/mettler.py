@@ -9,21 +9,16 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.data import Deformation
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note
 from viscofric.readers.dma.checks import insist_on_agreement
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.source import LARGEST_FACTOR, decimal_comma, unit_conversion
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.data import Deformation
-    from viscofric.readers.source import Source
-
+from viscofric.readers.source import LARGEST_FACTOR, Source, decimal_comma, unit_conversion
 
 NAME = "Mettler-Toledo DMA text"
 

@@ -16,14 +16,10 @@ import math
 import re
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.readers.dma import names
-from viscofric.readers.source import LARGEST_FACTOR, decimal_comma
-
-if TYPE_CHECKING:
-    from viscofric.readers.source import Source
+from viscofric.readers.source import LARGEST_FACTOR, Source, decimal_comma
 
 _INTERVAL = re.compile(
     r'^"?[^\t;,:"\r\n]{3,60}:"?(?P<mark>[\t;,])"?\d{1,6}"?(?P=mark)"?\d{1,6}"?[\t;, ]*\r?\n(?:[\t;, ]*\r?\n)?'

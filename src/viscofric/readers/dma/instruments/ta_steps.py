@@ -4,20 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError
-from viscofric.readers.source import COMMA_NUMBER, decimal_comma
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.readers.source import Test
-
+from viscofric.readers.source import COMMA_NUMBER, Test, decimal_comma
 
 #: What a column holds -> its names, in small letters.
 ROLES = {

@@ -3,28 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, setting
 from viscofric.readers.dma.checks import insist_on_agreement
-from viscofric.readers.dma.instruments.ta_steps import ROLES, roles
+from viscofric.readers.dma.instruments.ta_steps import ROLES, Signal, Step, roles
 from viscofric.readers.dma.names import said_by_columns
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
+from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, Source, Test, to_rad_per_second, unit_conversion
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.readers.dma.instruments.ta_steps import Signal, Step
-    from viscofric.readers.source import Source, Test
-
 
 #: Tests in words.
 TESTS = {"frequency": "frequency sweep", "temperature": "temperature ramp", "amplitude": "amplitude sweep"}

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,12 +19,8 @@ from viscofric.files import parse_json
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.source import Source
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.source import Source
 
 NAME = "TA Instruments TRIOS JSON"
 

@@ -12,23 +12,19 @@ files written from them.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.files import decoded
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_steps import Signal, Step, Table, roles, steps_of
 from viscofric.readers.dma.instruments.ta_sweeps import readings_of
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.source import Source
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.source import Source
 
 NAME = "TA Instruments Universal Analysis (Q800) text or binary"
 

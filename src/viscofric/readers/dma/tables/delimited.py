@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from viscofric.readers.dma.names import DMA
+from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.source import Source
 from viscofric.readers.tables import find_tables, holds_table
-
-if TYPE_CHECKING:
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.source import Source
 
 NAME = "delimited text"
 

@@ -7,21 +7,16 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.names import deformation_of, quantity
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.headings import heading
-from viscofric.readers.source import to_rad_per_second, unit_conversion
+from viscofric.readers.source import Source, to_rad_per_second, unit_conversion
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers
-    from viscofric.readers.source import Source
-
 
 NAME = "RepTate text (.osc, .tts)"
 #: Lines that show whether columns have names.

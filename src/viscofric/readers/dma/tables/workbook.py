@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, setting
 from viscofric.readers.dma.instruments import rheocompass
 from viscofric.readers.dma.names import DMA
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.source import Source
 from viscofric.readers.tables import find_tables
 from viscofric.readers.workbook import is_workbook, opened, sheet_texts
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.readers.source import Source
 
 NAME = "Excel workbook"
 #: A frequency that is held ranges by less.
