@@ -56,7 +56,7 @@ def numbers(values: object, name: str, *, infinite: bool = False, missing: bool 
     beyond = np.isfinite(found) & (np.abs(found) > LARGEST)
     if beyond.any():
         wrong = float(found[beyond].flat[0])
-        raise wrong_argument(name, values, f"holds {wrong:g}, beyond {LARGEST:g}, too large for computations.", "too-large")
+        raise wrong_argument(name, values, f"holds {wrong:g}, too large for computations ({LARGEST:g}).", "too-large")
     return found
 
 
