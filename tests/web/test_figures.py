@@ -115,13 +115,13 @@ def test_more_than_six_temperatures_have_a_colour_bar_instead_of_a_legend(tab: T
 
 
 def test_axes_name_the_quantity_that_their_unit_has(tab: Tab) -> None:
-    omega = {"label": "reduced frequency α {omega}", "kind": "angular_frequency", "log": True}
+    omega = {"label": "reduced {frequency} α {omega}", "kind": "angular_frequency", "log": True}
     plot = draw(tab, "axes", figure("axes", omega, [{"x": [2.0, 20.0, 200.0], "y": [1.0, 2.0, 3.0]}]))
     title, values = f"{plot}.layout.xaxis.title.text", f"Array.from({plot}.data[0].x)"
     assert tab.value(title) == "reduced frequency α f (Hz)"
     in_hertz = tab.value(values)
     tab.value("page.units.choose('frequency', 'rad/s')")
-    tab.until(f"{title} === 'reduced frequency α ω (rad/s)'")
+    tab.until(f"{title} === 'reduced angular frequency α ω (rad/s)'")
     assert tab.value(values) == pytest.approx([2.0, 20.0, 200.0])
     assert in_hertz == pytest.approx([one / (2.0 * math.pi) for one in (2.0, 20.0, 200.0)])
     tab.value("page.units.choose('frequency', 'Hz')")

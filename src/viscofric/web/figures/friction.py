@@ -236,7 +236,7 @@ def _identified(found: dict[str, Any], **more: Any) -> Spec:
         "Modulus identified from friction",
         {
             **REDUCED_FREQUENCY,
-            "label": f"reduced frequency α {{omega}} at {quantity(found['reference'], 'temperature')}",
+            "label": f"reduced {{frequency}} α {{omega}} at {quantity(found['reference'], 'temperature')}",
         },
         MODULUS,
         traces,

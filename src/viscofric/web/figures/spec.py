@@ -1,7 +1,7 @@
 """Figures, numbers and tables as data, SI; `static/js/figures.js` and `views.js` show them in the user's units.
 
 A column is an array, or the path of a column of the result that is shown ("profile.x").  Texts may hold quantities,
-"{0.02|speed}", and the symbols {omega} and {v/a} of the chosen unit of frequency.
+"{0.02|speed}", and, of the chosen unit of frequency, its name {frequency} and the symbols {omega} and {v/a}.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ def axis_of(data: xarray.Dataset, name: str, **look: Any) -> Spec:
 
 SPEED = axis("speed", "speed", log=True)
 TEMPERATURE = axis("temperature", "temperature")
-FREQUENCY = axis("frequency", "angular_frequency", log=True)
-REDUCED_FREQUENCY = axis("reduced frequency α {omega}", "angular_frequency", log=True)
+FREQUENCY = axis("{frequency} {omega}", "angular_frequency", log=True)
+REDUCED_FREQUENCY = axis("reduced {frequency} α {omega}", "angular_frequency", log=True)
 MODULUS = axis("modulus", "modulus", log=True)
 
 

@@ -103,6 +103,7 @@ export const filled = (text) =>
       show(Number(value), kind, Number(digits ?? 3)),
     )
     .replaceAll("{omega}", label("angular_frequency") === "Hz" ? "f" : "ω")
+    .replaceAll("{frequency}", label("angular_frequency") === "Hz" ? "frequency" : "angular frequency")
     .replaceAll("{v/a}", label("angular_frequency") === "Hz" ? "v/(2πa)" : "v/a");
 
 /** The user's unit as a run file writes it: "degC" for °C. */
