@@ -8,6 +8,7 @@ import numpy as np
 import openpyxl
 import pytest
 
+import viscofric as vf
 from refusals import refused
 from viscofric.readers import read_dma
 from viscofric.web.jobs.context import Context, JobError
@@ -192,6 +193,20 @@ def test_files_that_differ_where_they_should_agree_are_asked_about(workspace: Co
     specimens, notes = asked("d")
     assert specimens is None
     assert "repeats-differ" in notes
+
+
+def test_swapped_moduli_are_recognised(workspace: Context) -> None:
+    rubber, codes = vf.catalogue_material("synthetic fluoroelastomer"), {}
+    for name in ("sound", "swapped"):
+        rows = ["T (degC),f (Hz),E' (MPa),E'' (MPa)"]
+        for celsius in (-20.0, -10.0, 0.0, 20.0, 60.0, 100.0):
+            modulus = 1e-6 * rubber.complex_modulus(2.0 * np.pi * HERTZ, celsius + 273.15)
+            columns = [modulus.real, modulus.imag][:: 1 if name == "sound" else -1]
+            rows += [f"{celsius},{f},{one},{two}" for f, one, two in zip(HERTZ, *columns, strict=True)]
+        (workspace.files / f"{name}.csv").write_text("\n".join([*rows, ""]))
+        found = done("sweeps", workspace, {"dma": f"{name}.csv", "deformation": "tension"})
+        codes[name] = {record["code"] for record in found["note_records"]}
+    assert "columns-swapped" in codes["swapped"] - codes["sound"]
 
 
 def test_sheets_that_overlap_are_named(workspace: Context) -> None:
