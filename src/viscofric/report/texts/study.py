@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -178,10 +177,12 @@ def inputs(tree: xr.DataTree) -> list[Input]:
     return [item for item in listed if item.value not in ("", ABSENT)]
 
 
-# Keys of a run file that the list of inputs shows in words of its own.
-_WORDED = re.compile(
-    r"[^.]*|conditions\.(load|pressure|speed|temperature|direction|thickness)(\..*)?|indenter\.(shape|radius\w*|angle).*"
-    r"|material\.(poisson_ratio|reference_temperature|name|catalogue)|solver\.accuracy|cluster\..*|outputs\..*"
+# Tables and keys of a run file that the list of inputs shows in words of its own.
+_WORDED = frozenset(
+    {"cluster", "outputs", "solver.accuracy"}
+    | {f"material.{name}" for name in ("poisson_ratio", "reference_temperature", "name", "catalogue")}
+    | {f"indenter.{name}" for name in ("shape", "radius", "radius_x", "radius_y", "angle")}
+    | {f"conditions.{name}" for name in ("load", "pressure", "speed", "temperature", "direction", "thickness")}
 )
 
 
@@ -193,7 +194,9 @@ def _other_settings(text: str, known: set[str]) -> list[Input]:
         return []
     found = []
     for key, value in keys.items():
-        if not _WORDED.fullmatch(key) and key.rpartition(".")[2] not in known:
+        table, *names = key.split(".")
+        worded = not names or table in _WORDED or f"{table}.{names[0]}" in _WORDED
+        if not worded and names[-1] not in known:
             shown = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
             found.append(Input(key.replace("_", " ").replace(".", ": ", 1), shown))
     return found
