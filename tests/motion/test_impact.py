@@ -247,3 +247,15 @@ def test_the_error_of_restitution_includes_merged_modes_and_springs(accuracy: fl
         )
         assert abs(hit.restitution - finer.restitution) <= hit.restitution_error <= accuracy
         assert abs(hit.largest_indentation - finer.largest_indentation) <= hit.run.errors.indentation[0]
+
+
+def test_the_error_of_the_largest_force_includes_springs_that_are_touched_one_by_one() -> None:
+    """Where glass is ten thousand times as stiff as rubber, each spring that is touched adds a spike of force."""
+    share = np.array([0.0256, 0.0668, 0.2584, 0.5822, 0.0036, 0.0633])
+    tau = [5.18e-4, 2.107e-3, 2.485e-3, 5.905e-3, 2.2625e-2, 0.56956]
+    spectrum = vf.RetardationSpectrum(85e6, 4.8e12, share / share.sum() * (1.0 / 85e6 - 1.0 / 4.8e12), tau)
+    hit, finer = (
+        vf.solve_impact(vf.Material(spectrum), vf.Ball("3.564 mm"), mass=0.2256, speed=0.0111, accuracy=one)
+        for one in (1e-3, 3e-5)
+    )
+    assert abs(hit.peak_force - finer.peak_force) <= hit.run.errors.load[0] < 0.05 * hit.peak_force

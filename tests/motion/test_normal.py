@@ -263,6 +263,16 @@ def test_stated_errors_cover_those_of_random_histories(control, indenter):
             assert np.all(off <= 2.0 * getattr(rough.errors, error) + rounding), name
 
 
+def test_the_error_of_a_small_loss_after_a_long_rest_is_not_in_proportion_to_the_loss():
+    """A contact at rest stores a thousand times what a short change of its load dissipates, at its edge only."""
+    stiff = vf.Material.standard_linear_solid(E0=1e6, E_inf=43e6, tau=1.236e-3)
+    history = vf.History([0.0, 3.51e-5, 3.72e-5], load=[0.44, 0.48, 0.74], before="at rest")
+    times = np.linspace(0.0, 3.72e-5, 40)
+    rough, exact = (vf.solve_transient(stiff, BALL, history, times=times, accuracy=one) for one in (1e-2, 1e-4))
+    assert np.all(np.abs(rough.dissipated - exact.dissipated) <= rough.errors.energy)
+    assert rough.errors.energy[-1] < 0.05 * exact.dissipated[-1]
+
+
 @dataclass(frozen=True)
 class Rippled(Indenter):
     """A ball with rings: it touches the material in rings."""

@@ -23,6 +23,7 @@ import numpy as np
 
 from viscofric.errors import ConvergenceError
 from viscofric.motion.history import dense_parts
+from viscofric.motion.springs import quadrature_error
 from viscofric.motion.steps import StepParts, step_parts
 
 if TYPE_CHECKING:
@@ -97,7 +98,7 @@ class Bounce:
     ----------
     contacts : list of Contact
     rows : list of tuple
-        Of each step: time, depth, speed, force, radius, stored and dissipated energy.
+        Of each step: time, depth, speed, force, radius, stored and dissipated energy, error of the force by springs.
     """
 
     springs: Springs
@@ -285,7 +286,8 @@ class Bounce:
                 springs.weights
                 @ (springs.instantaneous * np.square(self._force) + springs.compliances @ np.square(self._memory))
             )
-            self.rows.append((time, depth, speed, force, radius, stored, self._lost))
+            error = quadrature_error(self._force, springs.s)
+            self.rows.append((time, depth, speed, force, radius, stored, self._lost, error))
 
 
 def _root_of_speed(v: float, start: float, end: float) -> float:

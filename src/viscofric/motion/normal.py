@@ -27,7 +27,7 @@ from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import quickest_time, recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
-from viscofric.motion.springs import both_sides, elastic_radius, graded_row
+from viscofric.motion.springs import both_sides, elastic_radius, graded_row, quadrature_error
 from viscofric.motion.steps import StepParts, step_parts
 
 if TYPE_CHECKING:
@@ -41,9 +41,6 @@ SPRINGS, MOST_SPRINGS = 400, 2000
 _MARGIN = 1.05
 #: Points of a pressure, roughly.
 _POINTS = 230
-#: Error of the load by the trapezoidal rule, over the largest difference of neighbouring forces times their
-#: distance.
-_LEFT_OUT = 0.5
 #: Parts of a period in contact that are distinguished.
 _LEVELS = 16
 #: Retardation times without steps of their own, in the duration of the history, whose digits end at 1e-16.
@@ -60,6 +57,7 @@ class SpringState:
     memory: Array  # (n, modes) N/m
     dissipated: float
     threshold: Array = field(repr=False)  # (n,) depth at which each spring is touched: g + known, m
+    lost_error: float = 0.0  # of the dissipated energy by the distance of springs, J
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +169,8 @@ class NormalMotion:
             memory[left] = held * late.decay
             lost[left] = _lost(first, none, state.memory[left], early, c) + _lost(none, none, held, late, c)
         dissipated = state.dissipated + float(self.weights @ lost)
-        return SpringState(depth, self._carried(force, end), force, memory, dissipated, threshold)
+        lost_error = state.lost_error + quadrature_error(lost, self.s)
+        return SpringState(depth, self._carried(force, end), force, memory, dissipated, threshold, lost_error)
 
     def settle(self, state: SpringState, instant: Instant) -> SpringState:
         """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
@@ -183,7 +182,8 @@ class NormalMotion:
         memory = np.where(quick, force[:, None], state.memory)
         found = SpringState(depth, self._carried(force, instant), force, memory, state.dissipated, self.g + known)
         lost = found.load * (depth - state.depth) - (self._stored(found) - self._stored(state))
-        return replace(found, dissipated=state.dissipated + lost)
+        lost_error = state.lost_error + quadrature_error(force * (depth - state.depth), self.s)
+        return replace(found, dissipated=state.dissipated + lost, lost_error=lost_error)
 
     def observe(self, state: SpringState) -> Observation:
         """Return load, depth, radius and energies."""
@@ -204,9 +204,9 @@ class NormalMotion:
         """Return the discretisation errors of the springs, caused by a force that is not smooth at the contact edge."""
         if self.indenter.has_walls:
             return 0.0, 0.0, 0.0, 0.0
-        least = _LEFT_OUT * (self.spacing / self.radius) ** 2
-        load = _LEFT_OUT * float(np.max(np.abs(np.diff(state.force)) * np.diff(self.s)))
-        energy = 2.0 * least * state.dissipated
+        least = (self.spacing / self.radius) ** 2
+        load = quadrature_error(state.force, self.s)
+        energy = 2.0 * least * state.dissipated + state.lost_error
         if self.schedule.control != "load":
             return load, 0.0, 0.0, energy
         depth = least * abs(state.depth)
