@@ -659,9 +659,7 @@ WITHOUT_CALL = {
     "synthetic_fluoroelastomer",
     "InterfaceLaw",
     "ShiftLaw",
-    "ShiftLaw.at_reference",
     "VerticalShift",
-    "VerticalShift.at_reference",
     "read_vendor_law",
 }
 #: What takes seconds, for what its good call needs.

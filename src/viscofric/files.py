@@ -194,16 +194,16 @@ def _umask() -> int:
     return mask
 
 
-def _sync_folder(folder: Path) -> None:
+def sync_folder(folder: Path) -> None:
     """Have a folder's names on the disk, so that a power failure does not lose a renamed file; not on Windows."""
     if os.name == "nt":
         return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        with contextlib.suppress(OSError):  # some network folders refuse
+    with contextlib.suppress(OSError):  # some network folders refuse
+        handle = os.open(folder, os.O_RDONLY)
+        try:
             os.fsync(handle)
-    finally:
-        os.close(handle)
+        finally:
+            os.close(handle)
 
 
 def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> None:
@@ -225,7 +225,7 @@ def write_atomically(path: Path, content: bytes, make_folder: bool = True) -> No
                 file.flush()
                 os.fsync(file.fileno())
             temporary.replace(path)
-            _sync_folder(path.parent)
+            sync_folder(path.parent)
         except BaseException:
             temporary.unlink(missing_ok=True)
             raise

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.measurement.conditions import Condition, where
+from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
 from viscofric.units import shown_number
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 #: Probability of a note on one kind of deviation in a sound test of any number of conditions: one in 370.  The
 #: threshold in standard errors is Student's t, larger with few replicates or many conditions.
 CHANCE = 0.0027
-ROUNDING = 1e-9  # relative; smaller deviations come from rounding
 # Least significant contribution of unnoticed slip to viscoelastic friction, over Coulomb friction.
 _MATTERS = 0.1
 _OUTLIER = 5.0  # robust standard deviations

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.measurement.doubts import CHANCE, ROUNDING, threshold
+from viscofric.friction.measurement.doubts import CHANCE, threshold
 from viscofric.friction.measurement.fit import DRIFT, FORCE, ZERO_CHANGES, Fit
-from viscofric.friction.measurement.zeros import Zeros, wanders
+from viscofric.friction.measurement.zeros import ROUNDING, Zeros, wanders
 from viscofric.notes import Note
 from viscofric.units import shown_number
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.measurement.conditions import where
-from viscofric.friction.measurement.doubts import CHANCE, ROUNDING
+from viscofric.friction.measurement.doubts import CHANCE
+from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.notes import Note
 from viscofric.units import shown_number
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.measurement.doubts import ROUNDING
 from viscofric.notes import Note
 from viscofric.units import Quantity, shown_number, to_si
 
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from viscofric.traction import TractionRuns
 
 
+ROUNDING = 1e-9  # relative; smaller deviations come from rounding
 # Fewer recordings do not distinguish a drift from scatter.
 _FEWEST_FOR_DRIFT = 8
 # Standard deviations that the ratio of von Neumann is below its mean where values drift.

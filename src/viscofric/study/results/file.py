@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError, not_written
-from viscofric.files import file_path, insist_on_true_size
+from viscofric.files import file_path, insist_on_true_size, sync_folder
 
 if TYPE_CHECKING:
     import xarray
@@ -122,6 +122,7 @@ def save_results(tree: xarray.DataTree, folder: Path) -> Path:
             with path.open("rb+") as file:
                 os.fsync(file.fileno())
             path.replace(target)
+            sync_folder(folder)
     except (OSError, RuntimeError) as error:  # RuntimeError: HDF5, where it closes a file on a full disk
         raise not_written(target, error) from error
     return target
