@@ -176,3 +176,26 @@ def test_an_error_names_the_option_that_was_given(
 ) -> None:
     monkeypatch.chdir(folder)
     assert refusal(*words).sentence.startswith((f"{option} = ", f"{option}: "))
+
+
+def test_a_table_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    curves = tmp_path / "curves.csv"
+    curves.write_text("speed (m/s),temperature (K),load (N),viscoelastic\n0.1,300,5,0.1\n0.2,300,5,0.2\n")
+    target = str(tmp_path / "file" / "table.csv")
+    for arguments, status in (
+        (["compare", str(curves), str(curves), "--out", target], 2),
+        (["verify", "--only", "hertz-ball", "--out", target], 1),
+    ):
+        done = CliRunner().invoke(main, arguments)
+        assert (done.exit_code, done.stderr.count("\n")) == (status, 1), done.stderr
+        assert target in done.stderr
+
+
+def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for arguments in (["demo"], ["run", "study.toml"], ["material", "fit", "dma.csv"]):
+        assert CliRunner().invoke(main, [*arguments, "--out", "-"]).exit_code == 2
+    assert CliRunner().invoke(main, ["verify", "--list", "--json"]).exit_code == 2
+    assert CliRunner().invoke(main, ["new", "-", "--json"]).exit_code == 2
+    assert not list(tmp_path.iterdir())

@@ -44,13 +44,13 @@ def command(first: Path, second: Path, tolerance: float | None, out: Path | None
 
     try:
         found = compare_results(first, second, tolerance=tolerance)
+        if out is not None:
+            from viscofric.study.results.case_table import shown_place
+
+            write_rows(out, [asdict(one) | {"where": shown_place(one.where)} for one in found.differences])
     except ViscofricError as error:
         click.echo(f"Error: {error}", err=True)
         sys.exit(TROUBLE)
-    if out is not None:
-        from viscofric.study.results.case_table import shown_place
-
-        write_rows(out, [asdict(one) | {"where": shown_place(one.where)} for one in found.differences])
     if as_json:
         print_json(_record(first, second, found))
     elif out != DASH:

@@ -112,7 +112,7 @@ def command(
 
 
 def _beyond_accuracy(curves: FrictionCurves, accuracy: float) -> int:
-    """Return the number of points whose estimated error exceeds the accuracy; friction near zero as the solver does."""
+    """Return the number of points whose estimated error exceeds the accuracy, relative to friction (1e-6 at least)."""
     from viscofric.contact.free.estimates import FRICTION_FLOOR
 
     sizes = abs(curves.viscoelastic).clip(min=FRICTION_FLOOR)

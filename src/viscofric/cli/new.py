@@ -59,7 +59,7 @@ def command(folder: Path | None, template: str, schema: bool, out: Path | None, 
     With - instead of FOLDER, only the run file is printed.
     """
     if folder is not None and out is not None:
-        raise click.UsageError("FOLDER and --out are both given; they are the same.")
+        raise click.UsageError("FOLDER and --out name the same folder; give one of them.")
     folder = folder or out
     if folder is None:
         if not schema:
@@ -70,6 +70,8 @@ def command(folder: Path | None, template: str, schema: bool, out: Path | None, 
     if schema:
         run_file = SCHEMA_LINE + run_file
     if str(folder) == "-":
+        if as_json:
+            raise click.UsageError("- prints the run file; give it without --json.")
         click.echo(run_file, nl=False)
         return
     contents = {"study.toml": run_file.encode()}

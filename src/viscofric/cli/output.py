@@ -43,8 +43,14 @@ def out_option(
         if found is not None and ctx.get_parameter_source("out") is not click.core.ParameterSource.DEFAULT:
             raise click.UsageError(f"--out and {old} are both given; they are the same option.")
         found = value if found is None else found
+        if found == DASH and not kind.allow_dash:
+            raise click.BadParameter(
+                "is a file or folder here; nothing but tables can be printed.", param_hint="--out -"
+            )
         if found == DASH and ctx.params.get("as_json"):
-            raise click.UsageError("--json and --out - both print; give one of them, or --out a file.")
+            raise click.UsageError(
+                "--json and --out - both write to standard output; use one of them, or give --out a file."
+            )
         if endings:
             check_ending(found, "--out", endings)
         return found

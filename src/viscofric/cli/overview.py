@@ -50,8 +50,8 @@ COMMANDS = {name: words for group in GROUPS.values() for name, words in group.it
 
 _ABOUT = "Hysteresis friction (rolling resistance) of rubber, from laboratory data."
 _STATUSES = (
-    "0 success, 1 bad input or not solved, 2 wrong usage, 3 some cases",
-    "failed, 4 accuracy not reached, 130 interrupted, 143 terminated.",
+    "0 success, 1 bad input or not solved, 2 wrong usage, 3 cases failed,",
+    "4 accuracy missed or check failed, 130 interrupted, 143 terminated.",
 )
 
 

@@ -14,7 +14,7 @@ from viscofric.cli.output import FOLDER, json_option, out_option, print_json
 @click.command(name="report")
 @click.argument("results", type=click.Path(path_type=Path))
 @out_option("Folder for report.html and figures [default: RESULTS].", FOLDER)
-@click.option("--pdf", is_flag=True, help="Also write report.pdf (A4); needs an installed Chromium, Chrome or Edge.")
+@click.option("--pdf", is_flag=True, help="Also write report.pdf (A4); needs Chromium, Chrome or Edge on the path.")
 @json_option("Print the written files, and what the report says of failed cases and checks, as JSON.")
 def command(results: Path, out: Path | None, pdf: bool, as_json: bool) -> None:
     """Write figures and report of a study again, from its RESULTS folder; the exit status is that of `run`."""
@@ -26,14 +26,14 @@ def command(results: Path, out: Path | None, pdf: bool, as_json: bool) -> None:
     with reported_errors("run_file"):
         found = open_results(results)
         figures, report = write_figures_and_report(found.tree, found.folder if out is None else out)
-        printed = write_pdf(report) if pdf else None
         print_outcome(found, quiet=True)
-        if as_json:
-            print_json(outcome_record(found, figures, report) | ({"pdf": printed} if pdf else {}))
-        else:
+        if not as_json:
             for figure in figures:
                 click.echo(f"figure   {figure}")
             click.echo(f"report   {report}")
-            if printed is not None:
-                click.echo(f"pdf      {printed}")
+        printed = {"pdf": write_pdf(report)} if pdf else {}
+        if as_json:
+            print_json(outcome_record(found, figures, report) | printed)
+        elif printed:
+            click.echo(f"pdf      {printed['pdf']}")
     sys.exit(status_of(found))

@@ -63,6 +63,8 @@ def command(
             raise click.UsageError("--test takes a folder and --json only.")
         compare_test(folder, as_json)
         return
+    if listed and (as_json or out is not None):
+        raise click.UsageError("--list only prints; give it without --json and --out.")
     with reported_errors():
         from viscofric.verification import CHECKS, run_checks, select
         from viscofric.verification.published import PUBLISHED
@@ -81,9 +83,7 @@ def command(
                     click.echo(_line(outcome))
                     if details:
                         _print_details(outcome)
-    if out is not None:
-        checks_of = _record(outcomes)["checks"]
-        write_rows(out, [{"check": each["name"], **one} for each in checks_of for one in each["comparisons"]])
+        _write_table(out, outcomes)
     if as_json:
         print_json({"backend": backend} | _record(outcomes))
     elif out != DASH:
@@ -92,6 +92,12 @@ def command(
         _print_verdict(outcomes)
     if not all(outcome.passed for outcome in outcomes):
         sys.exit(1)
+
+
+def _write_table(out: Path | None, outcomes: list[Outcome]) -> None:
+    if out is not None:
+        checks_of = _record(outcomes)["checks"]
+        write_rows(out, [{"check": each["name"], **one} for each in checks_of for one in each["comparisons"]])
 
 
 def _list(checks: tuple[Check, ...]) -> None:

@@ -101,7 +101,7 @@ _MOST_SECONDS = 120.0
 
 
 def write_pdf(report: Path) -> Path:
-    """Print a report as PDF (A4) beside it, with an installed browser of the Chromium family.
+    """Print a report as PDF (A4) beside it, with a browser of the Chromium family that is on the path.
 
     Parameters
     ----------
@@ -121,9 +121,13 @@ def write_pdf(report: Path) -> Path:
     target = report.with_suffix(".pdf")
     browser = next((found for name in _BROWSERS if (found := shutil.which(name))), None)
     if browser is None:
-        missing = "needs Chromium, Chrome or Edge; without one, open report.html in any browser and print it to a file."
+        missing = (
+            "needs Chromium, Chrome or Edge on the path; without one, open report.html in any browser and print it "
+            "to a file."
+        )
         raise DataFileError(target, missing, code="no-browser")
-    with TemporaryDirectory(prefix="viscofric-") as folder:
+    # beside the report: some packaged browsers have a temporary folder of their own
+    with TemporaryDirectory(prefix="viscofric-", dir=target.resolve().parent) as folder:
         made = Path(folder) / "report.pdf"
         words = [browser, "--headless", "--disable-gpu", "--no-pdf-header-footer", f"--user-data-dir={folder}/profile"]
         if hasattr(os, "geteuid") and os.geteuid() == 0:  # of the system's administrator, it has no sandbox

@@ -115,7 +115,7 @@ class CheckedStudy:
         return tuple(dict.fromkeys([*said, *self._too_soft(), *self._of_jobs()]))
 
     def _too_soft(self) -> Iterator[Note]:
-        """Yield a warning if contacts will not be solved because they are wider than the indenter."""
+        """Yield a warning if contacts are expected to be wider than the indenter, so that they are not solved."""
         cases = self.sweep.cases
         found = contacts_beyond_indenter(cases, [rubber.material for rubber in self.rubbers])
         if not found:
@@ -124,9 +124,9 @@ class CheckedStudy:
         indenter = case.indenter
         yield Note(
             "beyond-indenter",
-            f"{len(found)} of {len(cases)} cases will fail: the contact would be wider than the {indenter.noun}, by "
-            f"this estimate {1e3 * width:.3g} mm of {2e3 * indenter.reach:.3g} mm under {case.load:.4g} "
-            f"{indenter.geometry.load_unit} ({case.label}). The material is too soft for its load; ",
+            f"{len(found)} of {len(cases)} cases are expected to fail: the estimated contact is wider than the "
+            f"{indenter.noun}, {1e3 * width:.3g} mm of {2e3 * indenter.reach:.3g} mm under {case.load:.4g} "
+            f"{indenter.geometry.load_unit} ({case.label}). The material is too soft for this load; ",
             remedy=Remedy("reduce the load or take a larger indenter.", field="conditions.load"),
             values={"cases": len(found), "of": len(cases), "width": width, "reach": indenter.reach},
         )

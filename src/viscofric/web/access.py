@@ -47,7 +47,7 @@ class Door:
 
     @property
     def session(self) -> str:
-        """Value of the cookie: follows from the token, which does not follow from it."""
+        """Value of the cookie: derived from the token, which cannot be found from it."""
         return hmac.digest(self.token.encode(), b"cookie", "sha256").hex()
 
     @property

@@ -67,7 +67,8 @@ def main(parent: int, warm: Iterable[str] = WARM) -> None:
             try:
                 job = desk.jobs.get(timeout=_IDLE if later else None)
             except queue.Empty:
-                import_module(later.pop(0))
+                with contextlib.suppress(ImportError, MemoryError):  # the job that needs it says so
+                    import_module(later.pop(0))
             else:
                 desk.work(job)
 

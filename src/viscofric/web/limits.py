@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from viscofric.web.replies import App, Receive, Scope, Send
 
 LARGEST_STUDY = 4_000_000  # bytes, of a job's body
-_BODY_WAIT, _LEAST_RATE = 30.0, 1e5  # s for a body that was announced, and longer for what comes at so many bytes/s
+_BODY_WAIT, _LEAST_RATE = 30.0, 1e4  # s for a body that was announced, and longer for what comes at so many bytes/s
 
 
 class Limits:
@@ -50,7 +50,12 @@ class Limits:
                 await refuse(scope, send, 413, words)
         except _TooSlow:
             if not replied.begun:
-                await refuse(scope, send, 408, f"The body did not come within {self.pause:g} s.")
+                await refuse(
+                    scope,
+                    send,
+                    408,
+                    f"The body came too slowly: after {self.pause:g} s, at least {_LEAST_RATE / 1e3:g} kB/s.",
+                )
 
 
 class _TooLarge(BaseException):

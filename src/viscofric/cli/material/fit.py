@@ -153,22 +153,22 @@ def command(
     said = [*(("file", path) for path in written), *(("figure", path) for path in figures), ("report", report)]
     made = [_write_card(rubber.material, folder, form, card_law) for form in cards]
     said += [("card", path) for path in made if path is not None]
+    status = 1 if None in made else status_of(results)
     if as_json:
         from viscofric.datasets import record
 
-        spectrum = {"spectrum": record(rubber.material.to_dataset())}
-        print_json(spectrum | outcome_record(results, figures, report) | {"files": written, "cards": made})
+        found = {"spectrum": record(rubber.material.to_dataset())} | outcome_record(results, figures, report)
+        cards_made = [path for path in made if path is not None]
+        print_json(found | {"files": written, "cards": cards_made, "exit_status": status})
     else:
         _print(results)
         for word, path in said:
             click.echo(f"{word:<8} {path}")
-    if None in made:
-        raise click.exceptions.Exit(1)
-    raise click.exceptions.Exit(status_of(results))
+    raise click.exceptions.Exit(status)
 
 
 def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw | None) -> Path | None:
-    """Write one card; a program that cannot hold the rubber keeps no other from it."""
+    """Write one card; one that fails does not stop the others."""
     from viscofric.errors import ViscofricError
     from viscofric.notes import warned
     from viscofric.study.rubber_results import write_program_card

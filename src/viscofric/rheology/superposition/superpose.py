@@ -142,7 +142,7 @@ def superpose(
     over twentieths of a decade of time first: instruments record far more of them at long times, with errors that are
     alike.  One curve for each temperature shows less than E' and E'': offsets of isotherms are found as far as the
     curve bends, and where it is a power law, they pass for shifts.  The shifts are the most likely ones with offsets of
-    the size found (`most_likely_shifts`).  With ``vertical="free"`` offsets are part of b.
+    the size found (`step_profiles`).  With ``vertical="free"`` offsets are part of b.
 
     Given or fixed factors that join the isotherms clearly worse than shifts of their own would are mentioned in a note.
 

@@ -139,10 +139,10 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
     for name in shared:
         units = one.units.get(name, "1"), other.units.get(name, "1")
         if units[0] != units[1]:
+            what = "contacts of different geometry cannot be compared." if name == "load" else "convert one of them."
             raise InputError(
-                f"The {name} of {one.name} is in {units[0]}, that of {other.name} in {units[1]}: contacts of "
-                "different geometry cannot be compared.",
-                code="other-geometry",
+                f"The {name} of {one.name} is in {units[0]}, that of {other.name} in {units[1]}: {what}",
+                code="other-geometry" if name == "load" else "other-unit",
             )
     remarks = []
     for table, other_table in ((one, other), (other, one)):

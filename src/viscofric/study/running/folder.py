@@ -109,7 +109,7 @@ def _refuse_links(folder: Path) -> None:
             raise DataFileError(
                 part,
                 "is a symbolic link; results are written into their folder only. Remove the link, or give its "
-                "target as the results folder (--output).",
+                "target as the results folder (--out).",
                 code="link",
             )
 

@@ -21,13 +21,13 @@ _SIGNS = {"at least": "≥ ", "at most": "≤ "}
 
 
 class Options(BaseModel):
-    """There are none."""
+    """No options."""
 
     model_config = ConfigDict(extra="forbid")
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Compute all comparisons of ``viscofric verify --published``; the study does not count.
+    """Compute all comparisons of ``viscofric verify --published``; the study is not used.
 
     Returns
     -------
@@ -42,8 +42,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     all_of = [one for outcome in outcomes for one in outcome.comparisons]
     said = (
         f"{sum(one.passed for one in all_of)} of {len(all_of)} published numbers agree within the allowed difference. "
-        f"The computed ones are of viscofric {__version__}, computed on this computer in "
-        f"{time.perf_counter() - begun:.1f} s; the published ones are stored in it."
+        f"viscofric {__version__} computed its values on this computer in {time.perf_counter() - begun:.1f} s; the "
+        "published values are stored in the program."
     )
     return {"said": said, "checks": [_shown(outcome) for outcome in outcomes]}
 

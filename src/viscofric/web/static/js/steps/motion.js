@@ -164,7 +164,7 @@ function play(of) {
   tick();
 }
 
-/** The pressure along the motion at one time; who wants no motion is given steps. */
+/** The pressure along the motion at one time; in steps if reduced motion is requested. */
 const Pressure = view(({ of, id, title, empty }) => {
   const { time = [0] } = of?.animation ?? {};
   const last = time.length - 1;

@@ -1,4 +1,4 @@
-// How the numbers of this page are known: published results beside those that this computer computes once somebody looks.
+// How the numbers of this page are known: published results beside those that this computer computes when the section is opened.
 
 import { Job } from "../jobs.js";
 import { html, signal, view } from "../reactive.js";
