@@ -142,7 +142,7 @@ class Shift(Plotted, ABC):
         if np.any(np.abs(decades) > _MOST_DECADES):
             kelvin = np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))]
             raise InputError(
-                f"temperature = {kelvin:.4g} K: the shift factor there is more than {_MOST_DECADES} decades from 1"
+                f"temperature = {kelvin:.4g} K: the shift there is more than {_MOST_DECADES} decades from 1"
                 f"{kelvin_hint(float(kelvin))}.",
                 code="out-of-range",
             )
