@@ -431,6 +431,20 @@ def test_no_module_reads_the_sentences_of_another() -> None:
     assert not found, f"use the codes of notes and errors, and values where the text is made, instead: {found}"
 
 
+def test_every_error_has_a_code() -> None:
+    """Errors that are made of a sentence have a code beside it; those that are made of a note have the note's."""
+    errors = {"InputError", "DataFileError", "ConvergenceError"}
+    found = [
+        f"{module}, line {node.lineno}"
+        for module, path in MODULES.items()
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in errors
+        if any(isinstance(one, (ast.JoinedStr, ast.Constant)) for one in node.args[:2])
+        if not {"code", None} & {one.arg for one in node.keywords}
+    ]
+    assert not found
+
+
 def test_the_page_reads_no_sentences() -> None:
     """Its patterns are for numbers, units and names of fields, and none is made of text."""
     scripts = [path for path in (SOURCE / "web" / "static" / "js").rglob("*.js") if "vendor" not in path.parts]

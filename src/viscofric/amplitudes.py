@@ -66,7 +66,7 @@ class AmplitudeSweep(Origin, Plotted):
         columns = ("strain_amplitude", "storage_modulus", "loss_modulus")
         set_columns(self, *columns, of="an amplitude sweep", per="amplitude")
         if np.any(np.diff(self.strain_amplitude) <= 0.0):
-            raise InputError("the amplitudes of an amplitude sweep must ascend without repeats.")
+            raise InputError("the amplitudes of an amplitude sweep must ascend without repeats.", code="not-ascending")
         object.__setattr__(self, "angular_frequency", _rad_per_second(self.angular_frequency))
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an amplitude sweep"))
 

@@ -58,7 +58,7 @@ class TemperatureRamp(Moduli, Plotted):
         vars(self).update(columns)
         set_columns(self, *columns, of="a ramp", per="temperature")
         if np.any(np.diff(self.temperature) < 0):
-            raise InputError("the temperatures of a ramp must ascend.")
+            raise InputError("the temperatures of a ramp must ascend.", code="not-ascending")
 
     def __len__(self) -> int:
         return len(self.temperature)
@@ -134,11 +134,11 @@ class TemperatureRamps(Origin, Plotted, Items[TemperatureRamp]):
         self._check_origin("the ramps")
         set_members(self, "ramps", TemperatureRamp, lambda ramp: ramp.angular_frequency)
         if not self.ramps:
-            raise InputError("ramps must hold at least one TemperatureRamp.")
+            raise InputError("ramps must hold at least one TemperatureRamp.", code="empty-list")
         if self.heating_rate is not None:
             object.__setattr__(self, "heating_rate", number(self.heating_rate, "heating_rate"))
         if np.any(np.diff(self.angular_frequencies) <= 0.0):
-            raise InputError("two ramps have the same frequency; join them to one.")
+            raise InputError("two ramps have the same frequency; join them to one.", code="given-twice")
 
     def _items(self) -> Sequence[TemperatureRamp]:
         return self.ramps

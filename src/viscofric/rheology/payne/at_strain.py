@@ -54,7 +54,7 @@ def contact_strain(slope: float) -> float:
     0.05
     """
     if not (value := number(slope, "slope")) >= 0.0:
-        raise InputError(f"slope = {value:g}: must not be below zero.")
+        raise InputError(f"slope = {value:g}: must not be below zero.", code="negative")
     return TABOR * value
 
 
@@ -112,7 +112,9 @@ def material_at_strain(
     amplitude = number(strain, "strain")
     start = 0.0 if measured_at is None else number(measured_at, "measured_at")
     if not (0.0 <= start <= 10.0 and 0.0 <= amplitude <= 10.0):
-        raise InputError("strain and measured_at must be fractions (0.05 is 5 %), none below zero.")
+        raise InputError(
+            "strain and measured_at must be fractions (0.05 is 5 %), none below zero.", code="out-of-range"
+        )
     ends = law.complex_modulus(np.array([law.tensile_strain(start), law.tensile_strain(amplitude)]))
     storage, loss = float(ends[1].real / ends[0].real), float(ends[1].imag / ends[0].imag)
     omega = law.angular_frequency

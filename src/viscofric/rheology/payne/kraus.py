@@ -92,7 +92,7 @@ class KrausLaw(Plotted):
             value = getattr(self, name)
             value = to_si(value, _UNITS[name], name) if isinstance(value, str) else number(value, name)
             if not value > 0.0:
-                raise InputError(f"{name} = {value:g}: must be above zero.")
+                raise InputError(f"{name} = {value:g}: must be above zero.", code="not-positive")
             object.__setattr__(self, name, value)
         check_choice(self.deformation, "deformation", *DEFORMATIONS)
         if self.covariance is not None:
@@ -100,7 +100,9 @@ class KrausLaw(Plotted):
         if self.strain_range is not None:
             ends = numbers(self.strain_range, "strain_range")
             if ends.shape != (2,) or not 0.0 < ends[0] < ends[1]:
-                raise InputError("strain_range must be two amplitudes above zero, the smaller one first.")
+                raise InputError(
+                    "strain_range must be two amplitudes above zero, the smaller one first.", code="not-ascending"
+                )
             object.__setattr__(self, "strain_range", (float(ends[0]), float(ends[1])))
 
     def _shown(self) -> Rows:
@@ -143,7 +145,7 @@ class KrausLaw(Plotted):
         """Return G' + iG'' (or E) at amplitudes above zero, Pa."""
         amplitude = numbers(strain, "strain")
         if not np.all(amplitude >= 0.0):
-            raise InputError("strain must hold amplitudes as fractions, none below zero.")
+            raise InputError("strain must hold amplitudes as fractions, none below zero.", code="negative")
         return kraus_moduli(np.log(np.maximum(self.constants, 1e-300)), amplitude)
 
     def tensile_strain(self, strain: float) -> float:

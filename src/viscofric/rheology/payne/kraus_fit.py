@@ -258,7 +258,7 @@ def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
     """Return the amplitude where the storage modulus has fallen by a part, from a smooth curve without a law."""
     insist_on(sweep, "sweep", AmplitudeSweep)
     if not 0.0 < (part := number(drop, "drop")) < 1.0:
-        raise InputError(f"drop = {part:g}: must lie between 0 and 1, such as 0.05.")
+        raise InputError(f"drop = {part:g}: must lie between 0 and 1, such as 0.05.", code="out-of-range")
     logarithm = np.log10(sweep.strain_amplitude)
     storage = np.log10(sweep.storage_modulus)[:, None]
     smoother = Smoother.fitted(logarithm, storage)

@@ -27,7 +27,9 @@ def assumed_of(text: str, reference: float) -> ShiftLaw | Literal["universal"]:
     if words[:3].lower() == "wlf":
         parts = [part.strip() for part in words[3:].split(",")]
         if len(parts) != 3:
-            raise InputError(f"{brief(text)}: write 'WLF 17.44, 51.6 K, -30 degC': C1, C2 and their reference.")
+            raise InputError(
+                f"{brief(text)}: write 'WLF 17.44, 51.6 K, -30 degC': C1, C2 and their reference.", code="no-law"
+            )
         return WLF(to_si(parts[0], "dimensionless", "C1"), parts[1], parts[2])
     return Arrhenius(words, reference)
 

@@ -81,7 +81,10 @@ class Quantities:
     def insist_on_use(self, vertical: object, shift: object) -> None:
         """Raise an error for a choice without effect beside the other arguments of `superpose`."""
         if shift is not None and self.notes:
-            raise InputError("shift and by (or weights): give one of them; with shift no factor is left to be fitted.")
+            raise InputError(
+                "shift and by (or weights): give one of them; with shift no factor is left to be fitted.",
+                code="give-one",
+            )
         if self.by == "loss-tangent" and vertical == "free":
             raise InputError(
                 "vertical shifts cancel in tan δ, so that none can be fitted to it.",
