@@ -27,7 +27,7 @@ def curves(tab: Tab) -> dict[str, list[float | None]]:
 
 def finished(tab: Tab) -> None:
     """Wait until the friction curve is there to its end, and the live contact is sharp."""
-    tab.until("Boolean(document.querySelector('#step-contact .progress.done'))", 60.0)
+    tab.until("page.jobs.result('curve') !== null && page.figures.areDrawn()", 60.0)
     tab.until("document.querySelector('.live-status').textContent === 'converged'", 60.0)
 
 

@@ -155,6 +155,7 @@ function play(of) {
   const [rate, end] = [(time.at(-1) - time[0]) / LASTS, time.at(-1)];
   const begun = performance.now() - (time[from] - time[0]) / rate;
   const tick = () => {
+    if (!plays.value) return; // paused
     const now = time[0] + rate * (performance.now() - begun);
     plays.value &&= now < end && motion.result === of && state.step === "motion";
     frame.value = Math.max(time.findLastIndex((one) => one <= now), from);
