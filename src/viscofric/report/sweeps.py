@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -225,7 +226,10 @@ def over_seeds(cases: xr.Dataset) -> xr.Dataset:
 
     named = [name for name in dict.fromkeys((*VARIED, "temperature", "speed")) if name in cases and name != SEED]
     keys = list(zip(*(cases[name].values.tolist() for name in named), strict=True))
-    rows = [[row for row, key in enumerate(keys) if key == one] for one in dict.fromkeys(keys)]
+    alike: defaultdict[tuple[Any, ...], list[int]] = defaultdict(list)
+    for row, key in enumerate(keys):
+        alike[key].append(row)
+    rows = list(alike.values())
     friction = np.asarray(cases["friction_coefficient"].values, dtype=float)
     each = [friction[one][np.isfinite(friction[one])] for one in rows]
     ends = np.array([interval_of_mean(one) if len(one) > 1 else (np.nan, np.nan) for one in each])

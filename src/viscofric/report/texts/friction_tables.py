@@ -60,17 +60,18 @@ _MEANINGS = (
 )
 
 
-_ROUGH_MEANINGS = (
-    "95 %: confidence band from the uncertainty of the material; energy balance: friction from the pressure minus "
-    "friction from the dissipation, relative; complementarity: largest violation of the contact conditions; cells: "
-    "points along the longer edge of the surface; products: number of products with the influence matrix."
+_ROUGH_NUMBERS = (
+    "energy balance: friction from the pressure minus friction from the dissipation, relative; complementarity: "
+    "largest violation of the contact conditions; cells: points along the longer edge of the surface; products: number "
+    "of products with the influence matrix."
 )
+_ROUGH_MEANINGS = f"95 %: confidence band from the uncertainty of the material; {_ROUGH_NUMBERS}"
 
 
 _SEEDS_MEAN = (
     "Means over the seeds of the surface; 95 %: confidence interval of the mean friction (Student's t); numerical "
-    "error, energy balance and complementarity: the largest of the seeds. The results have every seed. "
-    + _ROUGH_MEANINGS.partition("; ")[2]
+    "error, energy balance and complementarity: the largest of the seeds. The results have every seed; "
+    + _ROUGH_NUMBERS
 )
 
 

@@ -120,20 +120,22 @@ def contacts_beyond_indenter(cases: Sequence[Case], materials: Sequence[Material
     Width of an elastic contact with the modulus |E| at its own frequency v/a.  A contact on a layer is narrower, and is
     left out; bootstrap samples are as soft as the best estimate.
     """
-    found: list[tuple[IndenterCase, float]] = []
-    relaxed: dict[tuple[object, ...], float] = {}
+    together: defaultdict[tuple[object, ...], list[IndenterCase]] = defaultdict(list)
     for case in cases:
-        if not isinstance(case, IndenterCase) or case.layer is not None or math.isinf(case.indenter.reach):
-            continue
-        material = materials[case.material]
-        key = (*case.alike, case.temperature)
-        if key not in relaxed:  # no contact of these is wider
-            relaxed[key] = _half_width(case, material, 0.0)
-        half = relaxed[key]
-        for _ in range(_ROUNDS if half > case.indenter.reach else 0):
-            half = _half_width(case, material, case.speed / half)
-        if half > case.indenter.reach:
-            found.append((case, 2.0 * half))
+        if isinstance(case, IndenterCase) and case.layer is None and math.isfinite(case.indenter.reach):
+            softens = materials[case.material].vertical_shift is not None  # the relaxed modulus, with temperature
+            together[case.material, case.indenter, case.temperature if softens else None].append(case)
+    found: list[tuple[IndenterCase, float]] = []
+    for group in together.values():
+        material, reach = materials[group[0].material], group[0].indenter.reach
+        if _half_width(max(group, key=lambda case: case.load), material, 0.0) <= reach:
+            continue  # no contact of these is wider
+        for case in group:
+            half = _half_width(case, material, 0.0)
+            for _ in range(_ROUNDS if half > reach else 0):
+                half = _half_width(case, material, case.speed / half)
+            if half > reach:
+                found.append((case, 2.0 * half))
     return found
 
 

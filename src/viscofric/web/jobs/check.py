@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict
-
 from viscofric.notes import listed
+from viscofric.web.jobs.context import NoOptions
 
 if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
 
-class Options(BaseModel):
-    """There are none."""
-
-    model_config = ConfigDict(extra="forbid")
+Options = NoOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:

@@ -7,6 +7,8 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from pydantic import BaseModel, ConfigDict
+
 from viscofric.datasets import plain
 from viscofric.errors import ViscofricError
 from viscofric.notes import Note
@@ -16,6 +18,12 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
+
+
+class NoOptions(BaseModel):
+    """Options of a job that has none."""
+
+    model_config = ConfigDict(extra="forbid")
 
 
 class JobError(ViscofricError):

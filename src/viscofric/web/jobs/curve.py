@@ -7,7 +7,6 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
 from viscofric.friction.cases.record import Failure
@@ -22,7 +21,7 @@ from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import band_columns
 from viscofric.web.figures.curve import curve_layout, curve_parts
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
-from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.context import JobError, NoOptions
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
@@ -44,10 +43,7 @@ _DIGITS = 6
 _MOST_REASONS = 5
 
 
-class Options(BaseModel):
-    """There are none."""
-
-    model_config = ConfigDict(extra="forbid")
+Options = NoOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:

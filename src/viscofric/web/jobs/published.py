@@ -6,11 +6,10 @@ import itertools
 import time
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict
-
 from viscofric.verification import run_checks
 from viscofric.verification.published import PUBLISHED
 from viscofric.web.figures.spec import Spec, table
+from viscofric.web.jobs.context import NoOptions
 
 if TYPE_CHECKING:
     from viscofric.verification import Comparison, Outcome
@@ -20,10 +19,7 @@ _HEAD = ["case", "quantity", "published", "computed", "difference", "allowed"]
 _SIGNS = {"at least": "≥ ", "at most": "≤ "}
 
 
-class Options(BaseModel):
-    """No options."""
-
-    model_config = ConfigDict(extra="forbid")
+Options = NoOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:

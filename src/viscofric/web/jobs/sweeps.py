@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain, record
 from viscofric.errors import DataFileError, InputError
@@ -16,7 +15,7 @@ from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.study.make_rubber import read_steps_of
 from viscofric.web.figures.sweeps import sweeps_view
-from viscofric.web.jobs.context import Context, JobError
+from viscofric.web.jobs.context import Context, JobError, NoOptions
 from viscofric.web.jobs.other_tests import read_other, step_curves
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
 
@@ -38,10 +37,7 @@ _TESTS = {"dma", "ramps", "creep", "relaxation"}
 _ANY_REFERENCE = "30 degC"
 
 
-class Options(BaseModel):
-    """There are none."""
-
-    model_config = ConfigDict(extra="forbid")
+Options = NoOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
