@@ -33,11 +33,12 @@ print((time.perf_counter() - wall) / 0.5)
 """
 _SEEN = "[...document.querySelectorAll('.figure .plot')].some((one) => one.data?.some(({ x }) => x?.length > 1))"
 _WHOLE = "page.jobs.result('curve') !== null && page.figures.areDrawn()"
-#: Seconds from each move of the speed's slider to the drawn draft.
+#: Seconds from each move of the speed's slider to the draft drawn in all figures in sight.
 _MOVES = """await (async (places) => {
   const { jobs, figures, reactive } = page;
   const slider = document.getElementById("live-speed");
   const taken = [];
+  slider.scrollIntoView({ block: "start" }); // two figures below it are in sight
   for (const place of places) {
     const [before, begun] = [jobs.newest("contact"), performance.now()];
     let end = () => {};
@@ -49,7 +50,7 @@ _MOVES = """await (async (places) => {
     await came;
     end();
     await new Promise(requestAnimationFrame);
-    while (!figures.areDrawn()) await new Promise((done) => setTimeout(done));
+    while (!figures.areDrawn(figures.inSight)) await new Promise((done) => setTimeout(done));
     taken.push((performance.now() - begun) / 1000);
   }
   return taken;

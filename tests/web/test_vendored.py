@@ -1,9 +1,11 @@
-"""Libraries that are served with the page: as the npm registry has them, with their licences, and small."""
+"""What the page loads: libraries as the npm registry has them, with their licences, and small."""
 
 from __future__ import annotations
 
 import csv
 import hashlib
+import posixpath
+import re
 
 import pytest
 
@@ -13,6 +15,7 @@ FOLDER = ROOT / "vendor"
 LIBRARIES = list(csv.DictReader((FOLDER / "vendored.csv").read_text(encoding="utf-8").splitlines()))
 #: What the page's elements, templates and signals may weigh together.
 LARGEST_REACTIVE = 30_000  # bytes
+_IMPORTED = re.compile(r'^(?:import|export)\b[^;]*? from "(.+?)";', re.MULTILINE)
 #: The opening words of a licence's text, by its SPDX name.
 OPENINGS = {"MIT": "MIT License", "Apache-2.0": "Apache License"}
 
@@ -33,3 +36,20 @@ def test_every_script_and_licence_is_listed() -> None:
 def test_the_reactive_libraries_are_small() -> None:
     sizes = [len((FOLDER / one["file"]).read_bytes()) for one in LIBRARIES if not one["package"].startswith("plotly")]
     assert 0 < sum(sizes) <= LARGEST_REACTIVE
+
+
+def test_the_document_names_in_advance_all_modules_of_the_first_step() -> None:
+    found = {"vendor/plotly-cartesian.min.js"}  # figures.js imports it once there is something to draw
+    left = ["js/main.js", "js/steps/contact.js"]
+    while left:
+        name = left.pop()
+        if name in found:
+            continue
+        found.add(name)
+        if not name.startswith("vendor/"):
+            imported = _IMPORTED.findall((ROOT / name).read_text("utf-8"))
+            left += [posixpath.normpath(posixpath.join(posixpath.dirname(name), one)) for one in imported]
+    document = (ROOT / "index.html").read_text("utf-8")
+    assert {f"/static/{name}" for name in found - {"js/main.js"}} == set(
+        re.findall(r'rel="modulepreload" href="(.+?)"', document)
+    )

@@ -118,16 +118,34 @@ function download(spec, format) {
   return format === "CSV" ? save(`${kept.id}.csv`, csv(kept), "text/csv") : savePicture(kept, format.toLowerCase());
 }
 
-let busy = Promise.resolve();
-let owed = 0;
+const REST = 200; // ms
+const owed = new Set(); // painters of figures that show something else than they were told
 
-/** Whether all figures that are seen show what they were told last. */
-export const areDrawn = () => owed === 0;
+/** Whether the middle of a painter's figure is in sight. */
+export function inSight({ plot }) {
+  const { top, bottom } = plot.getBoundingClientRect();
+  return bottom > -top && top + bottom < 2 * innerHeight;
+}
+
+/** Whether all figures that are seen, or some of them (inSight), show what they were told last. */
+export const areDrawn = (some = () => true) => ![...owed].some(some);
+
+/** Draw what is owed: figures in sight go first, each other one once those before it are seen and no slider changes it. */
+async function paint() {
+  for (await null; owed.size; await new Promise(requestAnimationFrame)) {
+    const near = [...owed].filter(inSight);
+    const resting = [...owed].filter(({ asked }) => performance.now() - asked > REST);
+    for (const one of near.length ? near : resting.slice(0, 1)) {
+      const { spec } = one;
+      await one.draw().catch(console.error);
+      if (one.spec === spec) owed.delete(one);
+    }
+  }
+}
 
 /** What draws one figure again, each time that it has another spec or is seen. */
 class Painter {
   drawn = null; // the spec that is drawn; another one is owed
-  waits = false;
 
   constructor(plot) {
     this.plot = plot;
@@ -139,28 +157,21 @@ class Painter {
   }
 
   request(spec = this.spec) {
-    this.spec = spec;
-    if (this.waits || !spec) return;
-    this.waits = true;
-    owed += 1;
-    requestAnimationFrame(() => {
-      busy = busy
-        .then(() => this.draw())
-        .catch(console.error)
-        .finally(() => (owed -= 1));
-    });
+    Object.assign(this, { spec, asked: performance.now() });
+    if (!spec) return;
+    if (owed.size === 0) paint();
+    owed.add(this);
   }
 
   async draw() {
-    this.waits = false;
     const { plot, spec } = this;
     if (!plot.isConnected || plot.clientWidth === 0) return; // drawn when it is seen
     const Plotly = await drawing();
     const options = { displayModeBar: false, displayNotifier: false, responsive: false, doubleClick: "reset+autosize" };
     const content = [hasData(spec) ? dataOf(spec, isDark()) : [], layoutOf(spec, isDark(), false)];
-    const [first, words, size] = [!this.drawn, JSON.stringify(content), `${plot.clientWidth} ${plot.clientHeight}`];
-    const same = this.words === words && this.sized === size; // to draw it again takes longer than all else
-    Object.assign(this, { drawn: spec, words, sized: size });
+    const [first, words] = [!this.drawn, JSON.stringify([content, plot.clientWidth, plot.clientHeight])];
+    const same = this.words === words; // to draw it again takes longer than all else
+    Object.assign(this, { drawn: spec, words });
     if (same) return;
     await Plotly.react(plot, ...content, options);
     if (!first) return;
@@ -187,6 +198,7 @@ class Painter {
   }
 
   end() {
+    owed.delete(this);
     this.size.disconnect();
     if (this.drawn) window.Plotly.purge(this.plot);
   }

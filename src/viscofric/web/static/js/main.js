@@ -33,7 +33,11 @@ const FIRST = "contact";
 const RESTARTED = "The program behind this page was started again; your files were uploaded again.";
 const { steps } = page;
 for (const step of STEPS) steps.set(step.id, step);
-const check = new Job("export-run-file", { wait: 200, inputs: () => ({ study: state.study }) });
+const check = new Job("export-run-file", {
+  wait: 200,
+  when: () => steps.get(state.step)?.content.value, // what a step computes goes first
+  inputs: () => ({ study: state.study }),
+});
 
 const Link = view(({ id, title, summary, number }) => {
   const go = (event) => {

@@ -57,10 +57,10 @@ export function label(kind) {
 
 /** A number, or a list of numbers, in the user's unit; null stays null. */
 export function number(value, kind) {
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value, (one) => number(one, kind));
-  if (value === null || value === undefined) return null;
   const [factor, offset] = scale(kind);
-  return factor === 1 && offset === 0 ? value : (value - offset) / factor;
+  const shown = (one) => (factor === 1 && offset === 0 ? one : (one - offset) / factor);
+  const each = (one) => (one === null || one === undefined ? null : shown(one));
+  return Array.isArray(value) || ArrayBuffer.isView(value) ? Array.from(value, each) : each(value);
 }
 
 /** The SI value of a number in the user's unit. */

@@ -134,11 +134,8 @@ const cancelledOnly = ({ cancelled }) => (cancelled ? "Cancelled." : "");
 export const Progress = view(({ job, label, cancels = true, ended = cancelledOnly }) => {
   const { done, total, label: words } = job.progress ?? {};
   const counted = total > 1 ? `${Math.round(done)} of ${total}` : "";
-  const text = job.progress
-    ? [counted, words].filter(Boolean).join(" · ") || `${label} …`
-    : job.ended
-      ? ended(job.ended)
-      : "";
+  const ending = job.ended ? ended(job.ended) : "";
+  const text = job.progress ? [counted, words].filter(Boolean).join(" · ") || `${label} …` : ending;
   return html`<div class="progress ${job.progress ? "" : "done"}" hidden=${text === ""}>
     ${job.progress && html`<progress max="1" ...${total > 0 ? { value: done / total } : {}} aria-label=${label} />`}
     <span class="progress-text">${text}</span>

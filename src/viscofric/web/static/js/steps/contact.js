@@ -180,7 +180,7 @@ if (!position().speed || !position().temperature) {
   const middle = { speed: rounded(Math.sqrt(low * high), 2), temperature: rounded(0.5 * (cold + warm), 7) };
   moveTo(middle, state.setView);
 }
-for (const job of [curve, contact]) job.start();
+for (const job of [contact, curve]) job.start();
 
 export default () => html`
   <${Welcome} />
