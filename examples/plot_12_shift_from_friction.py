@@ -54,7 +54,7 @@ mark_synthetic([below])
 # %%
 # The comparison with the law of the modulus from which the friction was computed tests the agreement within the errors.
 
-agreement = vf.compare_shift_factors(master, rubber.shift)
+agreement = vf.friction.compare_shift_factors(master, rubber.shift)
 print(agreement)
 
 figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")

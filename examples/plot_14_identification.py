@@ -44,7 +44,7 @@ measured = vf.FrictionCurves(
 # found in the same fit.
 
 modulus = abs(planted.complex_modulus(2.0 * np.pi, "60 degC"))
-anchor = vf.ModulusAnchor(modulus, "1 Hz", "60 degC")
+anchor = vf.friction.ModulusAnchor(modulus, "1 Hz", "60 degC")
 found = vf.identify_material(measured, indenter=ball, anchor=anchor, reference="60 degC", samples=40, accuracy=3e-3)
 print(found)
 

@@ -37,7 +37,7 @@ figure.colorbar(colours, ax=right, label=label)
 # shorter than the shortest of the track are those of the pressure: the edges of the contact patches.
 
 figure, axes = plt.subplots(figsize=(7.5, 4.3), layout="constrained")
-plot_friction_by_wavelength(axes, {name: vf.friction_by_wavelength(one) for name, one in solutions.items()})
+plot_friction_by_wavelength(axes, {name: vf.roughness.friction_by_wavelength(one) for name, one in solutions.items()})
 
 # %%
 # At high speed the rubber is stiff, and the contact area is smaller. The errors are estimated discretisation
@@ -45,7 +45,7 @@ plot_friction_by_wavelength(axes, {name: vf.friction_by_wavelength(one) for name
 
 for name, one in solutions.items():
     print(f"{name:>8s}: μ = {one.friction_coefficient:.4f} ± {one.diagnostics.friction_error:.4f}", end="")
-    print(f", {100 * vf.contact_statistics(one).corrected_area_fraction:.2f} % in contact")
+    print(f", {100 * vf.roughness.contact_statistics(one).corrected_area_fraction:.2f} % in contact")
 friction = solutions["0.1 m/s"].friction_coefficient
 
 plt.show()

@@ -26,7 +26,7 @@ solved = vf.predict_rough_friction(rubber, tracks, speeds=np.geomspace(1e-4, 1.0
 # part; the factor :math:`S = \gamma + (1-\gamma)P^2` of the theory reduces the energy accordingly, with P the share in
 # contact: 1 for :math:`\gamma = 1`, the theory of 2001, and less in later work with :math:`\gamma = 1/2`.
 
-spectrum = vf.PowerSpectrum.self_affine(0.8, longest="1.024 mm", **waves)
+spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1.024 mm", **waves)
 theories = {
     f"Persson, γ = {gamma:g}": vf.persson_theory(
         rubber, spectrum, speeds=np.geomspace(1e-4, 1.0, 25), gamma=gamma, **contact

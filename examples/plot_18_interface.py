@@ -21,7 +21,9 @@ from viscofric import report
 from viscofric.report.figures.style import mark_synthetic
 
 rubber, ball = vf.synthetic_fluoroelastomer(), vf.Ball(radius="9.525 mm")
-planted = vf.GaussianShearStress("0.15 MPa", "1 mm/s", 1.2, shift=vf.Arrhenius("80 kJ/mol", reference="60 degC"))
+planted = vf.friction.GaussianShearStress(
+    "0.15 MPa", "1 mm/s", 1.2, shift=vf.Arrhenius("80 kJ/mol", reference="60 degC")
+)
 contacts = vf.predict_friction(
     rubber,
     ball,
@@ -44,7 +46,7 @@ measured = replace(
 # %%
 # The shear stress, and the laws that describe it. Each law has an activation energy of its own.
 
-stress = vf.shear_stress(measured, contacts, reference="60 degC")
+stress = vf.friction.shear_stress(measured, contacts, reference="60 degC")
 laws = stress.compare_laws()
 print(laws.explanation)
 print(laws.best)

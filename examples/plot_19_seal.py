@@ -46,7 +46,7 @@ axes.legend()
 
 for celsius in temperatures:
     one = solved[celsius, speeds[3]]
-    area = vf.contact_statistics(one).corrected_area_fraction
+    area = vf.roughness.contact_statistics(one).corrected_area_fraction
     print(f"{celsius:3.0f} °C: μ = {one.friction_coefficient:.4f} ± {one.diagnostics.friction_error:.4f}", end="")
     print(f", {100 * area:.0f} % in contact")
 

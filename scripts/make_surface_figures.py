@@ -33,7 +33,7 @@ def road(seed: int) -> vf.Topography:
 def main() -> None:
     rubber = vf.synthetic_fluoroelastomer()
     one = road(1)
-    spectrum = vf.PowerSpectrum.self_affine(0.8, **WAVES)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, **WAVES)
     solved = {
         f"{speed:g} m/s": vf.solve_periodic(
             rubber, one.to_surface(), speed=speed, pressure=PRESSURE, temperature=TEMPERATURE
@@ -49,7 +49,9 @@ def main() -> None:
     theories = {
         f"Persson, γ = {gamma:g}": vf.persson_theory(rubber, spectrum, gamma=gamma, **asked) for gamma in (0.5, 1.0)
     }
-    wide = vf.PowerSpectrum.self_affine(0.8, longest="5 mm", rolloff="3 mm", shortest="2 um", rms_height="0.1 mm")
+    wide = vf.roughness.PowerSpectrum.self_affine(
+        0.8, longest="5 mm", rolloff="3 mm", shortest="2 um", rms_height="0.1 mm"
+    )
     cut = ["200 um", "20 um", "2 um"]
     limited = [vf.persson_theory(rubber, wide.limited(shortest=length), **asked) for length in cut]
 
@@ -59,8 +61,10 @@ def main() -> None:
     def scales() -> object:
         figure = new_figure(8.6, 3.7)
         left, right = figure.subplots(1, 2)
-        plot_power_spectra(left, {"made of": spectrum, "of the heights": vf.power_spectrum(one)})
-        plot_friction_by_wavelength(right, {name: vf.friction_by_wavelength(one) for name, one in solved.items()})
+        plot_power_spectra(left, {"made of": spectrum, "of the heights": vf.roughness.power_spectrum(one)})
+        plot_friction_by_wavelength(
+            right, {name: vf.roughness.friction_by_wavelength(one) for name, one in solved.items()}
+        )
         return figure
 
     def curves() -> object:

@@ -21,6 +21,8 @@ import pytest
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
+from viscofric.lazy import full_names, public_names
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
@@ -281,13 +283,17 @@ def test_start_loads_nothing_slow(program: str) -> None:
     assert done.stderr.splitlines()[-1].split() == ["loaded:"]
 
 
-def test_public_names_resolve_and_say_what_they_are() -> None:
-    viscofric = importlib.import_module("viscofric")
-    assert len(set(viscofric.__all__)) == len(viscofric.__all__)
-    assert set(viscofric.__all__) <= set(dir(viscofric))
+PACKAGES = [module_name(path.with_suffix(".py")) for path in sorted(SOURCE.rglob("__init__.pyi"))]
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_public_names_resolve_and_say_what_they_are(package: str) -> None:
+    room = importlib.import_module(package)
+    assert len(set(room.__all__)) == len(room.__all__)
+    assert set(room.__all__) <= set(dir(room))
     silent = []
-    for name in viscofric.__all__:
-        thing = getattr(viscofric, name)
+    for name in room.__all__:
+        thing = getattr(room, name)
         if inspect.isclass(thing) or inspect.isroutine(thing) or inspect.ismodule(thing):
             reported = inspect.getdoc(thing) or ""
             if not reported or reported.startswith(f"{name}("):  # what dataclasses write by themselves
@@ -295,11 +301,41 @@ def test_public_names_resolve_and_say_what_they_are() -> None:
     assert not silent, f"public, but without a docstring: {silent}"
 
 
-@pytest.mark.parametrize("package", ["viscofric", "viscofric.study"])
+@pytest.mark.parametrize("package", PACKAGES)
 def test_name_that_is_loaded_when_used_is_no_module_too(package: str) -> None:
     """Which of the two an import would find would depend on what was imported before."""
-    room = importlib.import_module(package)
-    assert not set(room._HOME) & {module.name for module in pkgutil.iter_modules(room.__path__)}
+    names = {name for name, home in public_names(package).items() if home != package}
+    assert not names & {module.name for module in pkgutil.iter_modules(importlib.import_module(package).__path__)}
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_public_name_comes_from_its_own_room_or_from_the_left(package: str) -> None:
+    wrong = [name for name, home in public_names(package).items() if goes_right(Import(package, home, 0, True))]
+    assert not wrong
+
+
+def test_every_public_name_has_one_home() -> None:
+    """Submodules are public names of the front door, which has fewer names than they have."""
+    homes = [name for package in PACKAGES for name, home in public_names(package).items() if home != package]
+    assert len(homes) == len(set(homes))
+    submodules = {f"viscofric.{name}" for name, home in public_names("viscofric").items() if home == "viscofric"}
+    assert submodules == set(PACKAGES) - {"viscofric"}
+    assert 2 * len(public_names("viscofric")) < len(homes)
+
+
+@pytest.mark.parametrize("name", ["Backend", "History", "power_spectrum", "ModulusAnchor", "StudyResults"])
+def test_a_name_of_a_submodule_at_the_front_door_says_what_to_write(name: str) -> None:
+    full = full_names()[name]
+    assert full != f"viscofric.{name}"
+    with pytest.warns(DeprecationWarning, match=rf"^viscofric\.{name} .* {re.escape(full)}\.$") as caught:
+        found = getattr(importlib.import_module("viscofric"), name)
+    assert found is pkgutil.resolve_name(full)
+    assert caught[0].filename == __file__
+
+
+def test_a_name_of_the_front_door_in_a_submodule_is_an_error_that_says_what_to_write() -> None:
+    with pytest.raises(AttributeError, match=r"write viscofric\.Ball$"):
+        importlib.import_module("viscofric.contact").Ball  # noqa: B018
 
 
 def test_unknown_public_name_is_an_attribute_error() -> None:

@@ -105,25 +105,29 @@ def superposition():
 
 def steps(deformation="tension"):
     time = np.array([1.0, 10.0, 100.0, 1000.0])
-    return vf.StepTests((vf.StepTest(300.0, time, 1e-7 * time**0.1),), "creep", deformation)
+    return vf.readers.StepTests((vf.readers.StepTest(300.0, time, 1e-7 * time**0.1),), "creep", deformation)
 
 
 @functools.cache
 def master_curve():
     modulus = rubber().complex_modulus(np.geomspace(1.0, 1e5, 20))
-    return vf.MasterCurve(np.geomspace(1.0, 1e5, 20), modulus.real, modulus.imag, np.full(20, 300.0), 300.0)
+    return vf.readers.MasterCurve(np.geomspace(1.0, 1e5, 20), modulus.real, modulus.imag, np.full(20, 300.0), 300.0)
 
 
 @functools.cache
 def ramps():
     kelvin = np.arange(270.0, 330.0, 2.0)
     moduli = {omega: rubber().spectrum.complex_modulus(omega * wlf()(kelvin)) for omega in (6.0, 60.0)}
-    return vf.TemperatureRamps(tuple(vf.TemperatureRamp(omega, kelvin, E.real, E.imag) for omega, E in moduli.items()))
+    return vf.readers.TemperatureRamps(
+        tuple(vf.readers.TemperatureRamp(omega, kelvin, E.real, E.imag) for omega, E in moduli.items())
+    )
 
 
 def eyring():
     arrhenius = vf.Arrhenius(9e4, 300.0)
-    return vf.EyringShearStress(2e-26, 1e-6, shift=arrhenius, covariance=np.diag([1e-54, 1e-14, 1e6]), **stress_fit())
+    return vf.friction.EyringShearStress(
+        2e-26, 1e-6, shift=arrhenius, covariance=np.diag([1e-54, 1e-14, 1e6]), **stress_fit()
+    )
 
 
 def stress_fit():
@@ -138,13 +142,13 @@ def rubbed():
 
 
 def kraus():
-    return vf.KrausLaw(6e6, 5e6, 0.02, 0.6, 5e5, 4e5, 6.0, 300.0)
+    return vf.rheology.KrausLaw(6e6, 5e6, 0.02, 0.6, 5e5, 4e5, 6.0, 300.0)
 
 
 def payne():
     strain = np.geomspace(1e-3, 0.3, 12)
     modulus = kraus().complex_modulus(strain)
-    return vf.AmplitudeSweep(strain, modulus.real, modulus.imag, 6.0, 300.0, "shear")
+    return vf.readers.AmplitudeSweep(strain, modulus.real, modulus.imag, 6.0, 300.0, "shear")
 
 
 @functools.cache
@@ -180,7 +184,7 @@ def friction_master_curve():
 def record(**settings):
     time = np.geomspace(0.01, 10.0, 12)
     depth = 1e-4 * (1.0 + 0.1 * np.log10(time / 0.01))
-    return vf.IndentationRecord(time, np.ones(12), depth, 300.0, control="load", start=0.0, **settings)
+    return vf.friction.IndentationRecord(time, np.ones(12), depth, 300.0, control="load", start=0.0, **settings)
 
 
 @functools.cache
@@ -209,7 +213,7 @@ def rough_friction():
 
 @functools.cache
 def spectrum():
-    return vf.PowerSpectrum.self_affine(0.8, longest=1e-3, shortest=1e-5, rms_slope=0.5)
+    return vf.roughness.PowerSpectrum.self_affine(0.8, longest=1e-3, shortest=1e-5, rms_slope=0.5)
 
 
 @functools.cache
@@ -220,7 +224,9 @@ def scan():
 
 @functools.cache
 def runs():
-    return vf.TractionRuns(**READINGS, step=[0, 0, 1, 1], steps=(vf.TractionStep(0), vf.TractionStep(1)))
+    return vf.readers.TractionRuns(
+        **READINGS, step=[0, 0, 1, 1], steps=(vf.readers.TractionStep(0), vf.readers.TractionStep(1))
+    )
 
 
 STUDY = """[material]
@@ -359,13 +365,16 @@ CALLS: dict[str, Any] = {
     "read_history": lambda: {"path": at("history.csv"), "load": 1.0, "indentation": None, "pressure": None, "gap":
         None, "speed": None, "temperature": 300.0, "before": "untouched", "direction": (1.0, 0.0), "columns": {},
         "sheet": None},
-    "History.schedule": lambda: (vf.History([0.0, 0.1], load=1.0, temperature=[300.0, 310.0]), {"material": shifted(),
+    "History.schedule": lambda: (vf.motion.History([0.0, 0.1], load=1.0, temperature=[300.0, 310.0]),
+        {"material": shifted(),
         "kind": "point"}),
-    "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "history": vf.History([0.0, 0.1],
-        load=[0.0, 1.0], temperature=300.0), "times": np.array([0.05, 0.1]), "accuracy": 1e-2, "layer": None,
+    "solve_transient": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2),
+        "history": vf.motion.History([0.0, 0.1], load=[0.0, 1.0], temperature=300.0),
+        "times": np.array([0.05, 0.1]), "accuracy": 1e-2, "layer": None,
         "indenter_modulus": 1e9, "indenter_poisson_ratio": 0.3, "progress": None, "resume": None, "heating": None},
-    "solve_cycle": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "one_period": vf.History([0.0, 0.1, 0.2],
-        load=[0.5, 1.0, 0.5], temperature=300.0), "accuracy": 1e-2, "layer": None, "indenter_modulus": 1e9,
+    "solve_cycle": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2),
+        "one_period": vf.motion.History([0.0, 0.1, 0.2], load=[0.5, 1.0, 0.5], temperature=300.0),
+        "accuracy": 1e-2, "layer": None, "indenter_modulus": 1e9,
         "indenter_poisson_ratio": 0.3, "coulomb": 0.1, "most_periods": 60, "times": None, "progress": None},
     "solve_impact": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "mass": 0.03, "speed": 0.1, "gravity":
         9.81, "rebounds": 1, "temperature": 300.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
@@ -373,9 +382,11 @@ CALLS: dict[str, Any] = {
     "restitution_curve": lambda: {"material": shifted(), "indenter": vf.Ball(1e-2), "speeds": [0.1], "temperatures":
         [300.0], "mass": 0.03, "gravity": 0.0, "accuracy": 1e-3, "indenter_modulus": 1e9, "indenter_poisson_ratio":
         0.3},
-    "TransientSolution.pressure_at": lambda: (vf.solve_transient(rubber(), vf.Ball(1e-2), vf.History([0.0, 0.1],
+    "TransientSolution.pressure_at": lambda: (vf.motion.solve_transient(rubber(), vf.Ball(1e-2),
+        vf.motion.History([0.0, 0.1],
         load=1.0), times=[0.1]), {"time": 0.1}),
-    "TransientSolution.save_state": lambda: (vf.solve_transient(rubber(), vf.Ball(1e-2), vf.History([0.0, 0.1],
+    "TransientSolution.save_state": lambda: (vf.motion.solve_transient(rubber(), vf.Ball(1e-2),
+        vf.motion.History([0.0, 0.1],
         load=1.0), times=[0.1]), {"path": "state.npz"}),
     "Isotherm": lambda: {"temperature": 300.0, "angular_frequency": np.array([1.0, 10.0]), "storage_modulus":
         np.array([3e6, 4e6]), "loss_modulus": np.array([3e5, 4e5]), "strain_amplitude": np.array([1e-3, 1e-3])},
@@ -389,8 +400,8 @@ CALLS: dict[str, Any] = {
         "notes": (), "format": ""},
     "TemperatureRamps.between": lambda: (ramps(), {"lowest": 280.0, "highest": 300.0}),
     "TemperatureRamps.in_tension": lambda: (
-        vf.TemperatureRamps(ramps().ramps, "shear"), {"poisson_ratio": 0.5}),
-    "superpose_ramps": lambda: {"ramps": vf.TemperatureRamps(ramps().ramps, "shear"), "reference": 300.0,
+        vf.readers.TemperatureRamps(ramps().ramps, "shear"), {"poisson_ratio": 0.5}),
+    "superpose_ramps": lambda: {"ramps": vf.readers.TemperatureRamps(ramps().ramps, "shear"), "reference": 300.0,
         "law": "arrhenius", "assumed": None, "poisson_ratio": 0.5, "vertical": None},
     "glass_transition": lambda: {"ramp": ramps().ramps[0], "by": "tan delta"},
     "AmplitudeSweep": lambda: {"strain_amplitude": np.array([0.01, 0.1]), "storage_modulus": np.array([4e6, 3e6]),
@@ -408,8 +419,8 @@ CALLS: dict[str, Any] = {
     "solve_at_contact_strain": lambda: {"material": shifted(), "law": kraus(), "indenter": CYLINDER, "speed": 0.0,
         "load": 1e3, "temperature": 300.0, "measured_at": None, "accuracy": 1e-2},
     "TractionRuns": lambda: {**READINGS, "source": "", "notes": (), "zero_force": np.zeros(4), "time": np.arange(4.0),
-        "step": np.array([0, 0, 1, 1]), "track_radius": np.full(4, 0.02), "steps": (vf.TractionStep(0),
-        vf.TractionStep(1))},
+        "step": np.array([0, 0, 1, 1]), "track_radius": np.full(4, 0.02), "steps": (vf.readers.TractionStep(0),
+        vf.readers.TractionStep(1))},
     "TractionRuns.select": lambda: (runs(), {"rows": np.array([0, 1]), "steps": 0, "except_steps": None}),
     "compare": lambda: {"measured": curves(), "predicted": curves()},
     "read_friction_curves": lambda: {"path": at("friction.csv"), "columns": {}, "sheet": None},
@@ -429,7 +440,8 @@ CALLS: dict[str, Any] = {
         "passes": 3, "average": "loss", "branch": "cold", "nominal_radius": 5e-3},
     "MovingHeatSource": lambda: {"power": 1.0, "size": 1e-3, "speed": 0.1, "body": steel(), "shape": "disc",
         "distribution": "uniform"},
-    "MovingHeatSource.temperature_at": lambda: (vf.MovingHeatSource(1.0, 1e-3, 0.1, steel()), {"x": [0.0, 1e-4], "y":
+    "MovingHeatSource.temperature_at": lambda: (vf.heat.MovingHeatSource(1.0, 1e-3, 0.1, steel()), {"x": [0.0, 1e-4],
+        "y":
         0.0}),
     "surface_temperature": lambda: {"heat": np.eye(4), "spacing": 1e-4, "body": steel(), "speed": 0.1, "time": None,
         "thickness": 1e-3, "base": "insulated", "periodic": False},
@@ -469,8 +481,8 @@ CALLS: dict[str, Any] = {
         "progress": None, "finest": 2048, "heating": None, "exact": False},
     "shear_stress": lambda: {"curves": rubbed(), "contacts": rubbed(), "shift": None, "reference": 300.0,
         "level_error": 0.0, "area_error": 0.0},
-    "ShearStress.law": lambda: (vf.shear_stress(rubbed(), rubbed()), {"kind": "power"}),
-    "ShearStress.to_dataset": lambda: (vf.shear_stress(rubbed(), rubbed()), {"law": eyring()}),
+    "ShearStress.law": lambda: (vf.friction.shear_stress(rubbed(), rubbed()), {"kind": "power"}),
+    "ShearStress.to_dataset": lambda: (vf.friction.shear_stress(rubbed(), rubbed()), {"law": eyring()}),
     "ConstantShearStress": lambda: {"stress": 3e5, "shift": None, "covariance": np.eye(1), **stress_fit()},
     "PowerShearStress": lambda: {"stress": 3e5, "exponent": 0.2, "speed": 0.1, "shift": wlf(), "covariance": np.eye(2),
         **stress_fit()},
@@ -489,7 +501,7 @@ CALLS: dict[str, Any] = {
     "FrictionMasterCurve.covers": lambda: (friction_master_curve(), {"speed": np.array([0.05]), "temperature": 305.0,
         "load": 25.0}),
     "compare_shift_factors": lambda: {"found": factors(), "other": wlf()},
-    "separate": lambda: {"runs": vf.TractionRuns(**READINGS), "zero": None, "coulomb": None, "outliers": "keep",
+    "separate": lambda: {"runs": vf.readers.TractionRuns(**READINGS), "zero": None, "coulomb": None, "outliers": "keep",
         "speed_tolerance": 0.05, "temperature_tolerance": 1.0},
     "read_dma": lambda: {"paths": EXAMPLE / "dma.csv", "deformation": "tension", "temperature": None, "modulus_unit":
         None, "columns": None, "sheet": None},
@@ -538,8 +550,8 @@ CALLS: dict[str, Any] = {
     "WLF.at_reference": lambda: (wlf(), {"reference": 310.0}),
     "InversePolynomial.at_reference": lambda: (polynomial(), {"reference": 310.0}),
     "InversePolynomial.with_parameters": lambda: (polynomial(), {"parameters": [4e3, 1e6]}),
-    "DensityShift.at_reference": lambda: (vf.DensityShift(300.0), {"reference": 310.0}),
-    "VerticalShiftFactors.at_reference": lambda: (vf.VerticalShiftFactors(**table()), {"reference": 305.0}),
+    "DensityShift.at_reference": lambda: (vf.rheology.DensityShift(300.0), {"reference": 310.0}),
+    "VerticalShiftFactors.at_reference": lambda: (vf.rheology.VerticalShiftFactors(**table()), {"reference": 305.0}),
     "PowerSpectrum.rms_height": lambda: (spectrum(), {"shortest": 2e-5}),
     "PowerSpectrum.rms_curvature": lambda: (spectrum(), {"shortest": 2e-5}),
     "FrictionCurves.select": lambda: (curves(), {"keep": np.ones(len(curves()), dtype=bool)}),
@@ -548,17 +560,20 @@ CALLS: dict[str, Any] = {
     "read_shift_factors": lambda: {"path": at("alpha.csv"), "reference": 300.0, "inverse": False, "columns": None,
         "sheet": None},
     "DensityShift": lambda: {"reference": 300.0, "expansion": 6e-4},
-    "VerticalShift.log10": lambda: (vf.DensityShift(300.0), {"temperature": np.array([300.0, 310.0])}),
-    "VerticalShift.to_dataset": lambda: (vf.DensityShift(300.0), {"temperatures": [310.0]}),
+    "VerticalShift.log10": lambda: (vf.rheology.DensityShift(300.0), {"temperature": np.array([300.0, 310.0])}),
+    "VerticalShift.to_dataset": lambda: (vf.rheology.DensityShift(300.0), {"temperatures": [310.0]}),
     "VerticalShiftFactors": lambda: table(),
-    "VerticalShiftFactors.to_dataset": lambda: (vf.VerticalShiftFactors(**table()), {"temperatures": [310.0]}),
+    "VerticalShiftFactors.to_dataset": lambda: (vf.rheology.VerticalShiftFactors(**table()), {"temperatures": [310.0]}),
     "ModulusTable": lambda: {"angular_frequency": np.array([1.0, 10.0]), "storage_modulus": np.array([3e6, 4e6]),
         "loss_modulus": np.array([3e5, 4e5]), "extrapolate": "refuse", "notes": ()},
-    "ModulusTable.from_master_curve": lambda: (vf.ModulusTable, {"master_curve": master_curve(), "resolution": 0.05,
+    "ModulusTable.from_master_curve": lambda: (vf.rheology.ModulusTable, {"master_curve": master_curve(),
+        "resolution": 0.05,
         "extrapolate": "refuse"}),
-    "ModulusTable.complex_modulus": lambda: (vf.ModulusTable.from_master_curve(master_curve()), at_frequencies()),
-    "ModulusTable.compliance": lambda: (vf.ModulusTable.from_master_curve(master_curve()), at_frequencies()),
-    "ModulusTable.shifted": lambda: (vf.ModulusTable.from_master_curve(master_curve()), {"alpha": 2.0, "b": 1.0}),
+    "ModulusTable.complex_modulus": lambda: (vf.rheology.ModulusTable.from_master_curve(master_curve()),
+        at_frequencies()),
+    "ModulusTable.compliance": lambda: (vf.rheology.ModulusTable.from_master_curve(master_curve()), at_frequencies()),
+    "ModulusTable.shifted": lambda: (vf.rheology.ModulusTable.from_master_curve(master_curve()), {"alpha": 2.0,
+        "b": 1.0}),
     "RelaxationSpectrum": lambda: {"E0": 1e6, "E": np.array([9e6]), "tau": np.array([1e-4])},
     **{f"RelaxationSpectrum.{name}": functools.partial(lambda name: (rubber().spectrum.to_relaxation(),
         OF_SPECTRA[name]), name) for name in OF_SPECTRA},
@@ -577,7 +592,7 @@ CALLS: dict[str, Any] = {
     "StepTests.thinned": lambda: (steps(), {"per_decade": 20}),
     "StepMasterCurve": lambda: {"time": np.array([1.0, 10.0]), "response": np.array([1e-7, 2e-7]),
         "temperature": np.full(2, 300.0), "reference": 300.0, "kind": "creep"},
-    "RetardationSpectrum.step_curve_dataset": lambda: (rubber().spectrum, {"curve": vf.StepMasterCurve(
+    "RetardationSpectrum.step_curve_dataset": lambda: (rubber().spectrum, {"curve": vf.readers.StepMasterCurve(
         np.array([1.0, 10.0]), np.array([1e-7, 2e-7]), np.full(2, 300.0), 300.0, "creep")}),
     "read_step_tests": lambda: {"paths": at("creep.csv"), "kind": None, "deformation": "tension", "temperature": None,
         "response_unit": None, "columns": None, "sheet": None},
@@ -591,7 +606,7 @@ CALLS: dict[str, Any] = {
         "poisson_ratio": 0.5, "name": ""},
     "RoughFriction.interval": lambda: (rough_friction(), {"probability": 0.9, "of": "hysteresis"}),
     "predict_rough_friction": lambda: {"material": rubber(), "surfaces": road(), "speeds": [0.1], "pressure": 5e3,
-        "temperatures": None, "interface": vf.ConstantShearStress(3e5), "workers": 1, "progress": None,
+        "temperatures": None, "interface": vf.friction.ConstantShearStress(3e5), "workers": 1, "progress": None,
         "tolerance": 1e-6, "heating": None},
     "self_affine": lambda: {"hurst": 0.8, **MADE, "shortest": 4e-5, "longest": 1.6e-4, "rolloff": None, "rms_height":
         None, "rms_slope": 0.1},
@@ -601,19 +616,21 @@ CALLS: dict[str, Any] = {
     "contact_statistics": lambda: {"solution": rough_contact()},
     "pressure_distribution": lambda: {"solution": rough_contact(), "edges": np.array([0.0, 1e4, 1e6])},
     "persson_theory": lambda: {"material": rubber(), "spectrum": spectrum(), "speeds": [0.1], "pressure": 1e5,
-        "temperatures": None, "gamma": 0.5, "thermal": None, "heating": None, "interface": vf.ConstantShearStress(3e5),
+        "temperatures": None, "gamma": 0.5, "thermal": None, "heating": None,
+        "interface": vf.friction.ConstantShearStress(3e5),
         "macroasperity_area": 0.3, "accuracy": 1e-2},
     "read_topography": lambda: {"path": at("scan.csv"), "unit": "um", "spacing": 2e-6, "channel": None, "missing": -1.0,
         "lines": "x"},
     "friction_by_wavelength": lambda: {"solution": rough_contact(), "edges": [1e-5, 4e-5, 1e-4], "per_decade": 6},
     "LineSpectrum": lambda: {"wave_number": Q, "density": 1e-10 * Q**-1.6},
-    "LineSpectrum.moment": lambda: (vf.LineSpectrum(Q, 1e-10 * Q**-1.6), {"order": 2.0}),
+    "LineSpectrum.moment": lambda: (vf.roughness.LineSpectrum(Q, 1e-10 * Q**-1.6), {"order": 2.0}),
     "PowerSpectrum": lambda: {"wave_number": Q, "density": 1e-10 * Q**-3.6},
     "PowerSpectrum.moment": lambda: (spectrum(), {"order": 2.0}),
     "PowerSpectrum.limited": lambda: (spectrum(), {"shortest": 2e-5, "longest": 5e-4}),
     "PowerSpectrum.rms_slope": lambda: (spectrum(), {"shortest": 2e-5}),
     "PowerSpectrum.scaled": lambda: (spectrum(), {"rms_height": None, "rms_slope": 0.2}),
-    "PowerSpectrum.self_affine": lambda: (vf.PowerSpectrum, {"hurst": 0.8, "longest": 1e-3, "shortest": 1e-5, "rolloff":
+    "PowerSpectrum.self_affine": lambda: (vf.roughness.PowerSpectrum, {"hurst": 0.8, "longest": 1e-3,
+        "shortest": 1e-5, "rolloff":
         5e-4, "rms_height": None, "rms_slope": 0.1}),
     "Topography": lambda: {"heights": 1e-6 * np.eye(4), "spacing": 1e-5, "periodic": False, "name": "", "history": ()},
     "Topography.crop": lambda: (road(), {"x": (0.0, 8e-5), "y": None}),
@@ -638,7 +655,7 @@ def good_call(name):
     """Return the callable of a name, and the arguments of its good call."""
     entry = CALLS[name]()
     if not isinstance(entry, tuple):
-        return getattr(vf, name), entry
+        return PUBLIC[name], entry
     owner, arguments = entry
     return getattr(owner, name.split(".")[1]), arguments
 
@@ -912,8 +929,7 @@ def test_every_public_name_is_attacked():
 
 
 def issubclass_of_error(name):
-    one = getattr(vf, name)
-    return inspect.isclass(one) and issubclass(one, Exception)
+    return inspect.isclass(PUBLIC[name]) and issubclass(PUBLIC[name], Exception)
 
 
 @pytest.mark.parametrize(
@@ -923,8 +939,8 @@ def issubclass_of_error(name):
         ("a made surface", lambda: made(shape=(10**9, 10**9))),
         ("a made profile", lambda: made(shape=10**9)),
         ("heights resampled", lambda: road().resample(1e-14)),
-        ("classes of pressure", lambda: vf.pressure_distribution(rough_contact(), 10**12)),
-        ("a window of a field", lambda: vf.surface_displacement(
+        ("classes of pressure", lambda: vf.roughness.pressure_distribution(rough_contact(), 10**12)),
+        ("a window of a field", lambda: vf.contact.surface_displacement(
             **on_cells(), **modes(), speed=1.0, poisson_ratio=0.5, behind=1e9
         )),
     ],

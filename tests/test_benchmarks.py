@@ -114,7 +114,7 @@ def test_spectra_of_peers_are_measured_as_prony_series() -> None:
     omega = np.geomspace(1e-2, 1e4, 50)
     series = RelaxationSpectrum(1e6, [3e6, 5e7], [1.0, 1e-3])
     modulus = series.complex_modulus(omega)
-    curve = vf.MasterCurve(omega, 1.1 * modulus.real, modulus.imag, np.full(50, 293.15), 293.15)
+    curve = vf.readers.MasterCurve(omega, 1.1 * modulus.real, modulus.imag, np.full(50, 293.15), 293.15)
     found = measures.of_modes(curve, 1e6, [3e6, 5e7, 0.0], [1.0, 1e-3, 1e-4])
     assert found["modes"] == 2
     assert found["storage"] == pytest.approx(np.log10(1.1))
@@ -290,7 +290,7 @@ def test_steps_in_time_lead_to_the_steady_friction_in_first_order() -> None:
     import maxwell
     import problems
 
-    surface = vf.PeriodicSurface(problems.self_affine(32, points_per_shortest_wave=16.0), 1.0 / 32)
+    surface = vf.contact.PeriodicSurface(problems.self_affine(32, points_per_shortest_wave=16.0), 1.0 / 32)
     steady = maxwell.steady_friction(surface)
     coarse, fine = (
         maxwell.steady_friction(surface, maxwell.time_step(surface, substeps)) - steady for substeps in (128, 256)

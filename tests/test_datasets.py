@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric import _HOME
+from test_docstrings import PUBLIC
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.datasets import dataset, record
 
@@ -54,7 +54,7 @@ def test_sweeps_become_one_row_per_reading_named_as_in_the_results_of_studies():
 
 
 def test_a_master_curve_carries_its_reference_temperature():
-    curve = vf.MasterCurve([0.1, 10.0], [3e6, 4e6], [3e5, 6e5], [303.15, 300.0], 303.15)
+    curve = vf.readers.MasterCurve([0.1, 10.0], [3e6, 4e6], [3e5, 6e5], [303.15, 300.0], 303.15)
     found = curve.to_dataset()
     assert list(found.data_vars) == ["temperature", "angular_frequency", "storage_modulus", "loss_modulus"]
     assert found["loss_modulus"].attrs == {"units": "Pa", "long_name": "loss modulus"}
@@ -63,7 +63,9 @@ def test_a_master_curve_carries_its_reference_temperature():
 
 
 def test_traction_runs_leave_out_what_was_not_recorded():
-    runs = vf.TractionRuns([0.1, 0.1], [0.15, 0.05], [1.0, 2.0], [25.0, 25.0], [303.15, 303.15], [1, 1], step=[1, 2])
+    runs = vf.readers.TractionRuns(
+        [0.1, 0.1], [0.15, 0.05], [1.0, 2.0], [25.0, 25.0], [303.15, 303.15], [1, 1], step=[1, 2]
+    )
     found = runs.to_dataset()
     names = ["disc_speed", "ball_speed", "traction_force", "load", "temperature", "replicate", "step"]
     assert list(found.data_vars) == names
@@ -95,7 +97,7 @@ PARTS = {
 
 
 def test_every_public_result_has_a_data_set():
-    classes = {name: found for name in _HOME if inspect.isclass(found := getattr(vf, name))}
+    classes = {name: found for name, found in PUBLIC.items() if inspect.isclass(found)}
     results = {name for name, found in classes.items() if not issubclass(found, (Exception, Indenter))}
     without = {name for name in results if not hasattr(classes[name], "to_dataset")}
     assert without == INPUTS | PARTS.keys()
@@ -108,20 +110,22 @@ def small_results():
     kelvin = np.arange(253.0, 323.0, 2.0)
     rubber = vf.synthetic_fluoroelastomer()
     modulus = rubber.spectrum.complex_modulus(2.0 * np.pi * rubber.shift(kelvin))
-    ramp = vf.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
-    law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
+    ramp = vf.readers.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
+    law = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
     solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     contact = {"speed": "1 m/s", "load": "100 N/m", "measured_at": 1e-3, "accuracy": 0.1}
     return {
         "isotherm": vf.Isotherm(280.0, [1.0, 10.0], [2e6, 3e6], [2e5, 3e5], strain_amplitude=[1e-3, 1e-3]),
         "ramp": ramp,
-        "peak": vf.glass_transition(ramp, "loss modulus"),
-        "ramp check": vf.RampCheck(0.01, 0.005, (0.001, -0.002)),
-        "overlap": vf.OverlapQuality(0.01, 0.02, 5, 2, (1,)),
-        "fit": vf.SpectrumFit(0.01, None, True, False, (1.0, 1e3), method="sparse", measured_storage=(1e6, 1e9)),
+        "peak": vf.rheology.glass_transition(ramp, "loss modulus"),
+        "ramp check": vf.rheology.RampCheck(0.01, 0.005, (0.001, -0.002)),
+        "overlap": vf.rheology.OverlapQuality(0.01, 0.02, 5, 2, (1,)),
+        "fit": vf.rheology.SpectrumFit(
+            0.01, None, True, False, (1.0, 1e3), method="sparse", measured_storage=(1e6, 1e9)
+        ),
         "law": law,
-        "range": vf.LinearRange(0.05, 0.01, 1e-4),
-        "at strain": vf.solve_at_contact_strain(solid, law, vf.Cylinder("10 mm"), **contact),
+        "range": vf.rheology.LinearRange(0.05, 0.01, 1e-4),
+        "at strain": vf.friction.solve_at_contact_strain(solid, law, vf.Cylinder("10 mm"), **contact),
     }
 
 
@@ -146,7 +150,7 @@ def test_data_sets_of_small_results_hold_their_numbers():
     assert int(found["overlap"]["neighbours_without_overlap"]) == 1
     assert found["fit"]["frequency_range"].values.tolist() == [1.0, 1e3]
     assert "rms_log10_loss" not in found["fit"]
-    half = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear").to_dataset([0.0, 0.02])
+    half = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear").to_dataset([0.0, 0.02])
     np.testing.assert_allclose(half["storage_modulus"], [6e6, 3.75e6])
     assert (half.attrs["critical_strain"], half.attrs["deformation"]) == (0.02, "shear")
     both = found["at strain"]["friction_coefficient"]

@@ -7,13 +7,15 @@ import doctest
 import inspect
 import io
 import itertools
+import pkgutil
 import re
 
 import pytest
 
-import viscofric
+from viscofric.lazy import full_names
 
-PUBLIC = [name for name in viscofric.__all__ if callable(getattr(viscofric, name))]
+#: public name -> the object, of the front door and of its submodules, but for the functions that draw
+PUBLIC = {name: pkgutil.resolve_name(full) for name, full in full_names().items() if ".report." not in full}
 
 
 def documented(docstring: str) -> list[str]:
@@ -38,8 +40,7 @@ def signature(function: object) -> list[str]:
 def methods() -> list[tuple[str, object]]:
     """Functions and public methods that have a section of parameters."""
     found = []
-    for name in PUBLIC:
-        one = getattr(viscofric, name)
+    for name, one in PUBLIC.items():
         if not inspect.isclass(one):
             found.append((name, one))
             continue
@@ -56,9 +57,9 @@ def test_documented_parameters_are_those_of_the_signature(name, function):
     assert documented(function.__doc__) == signature(function)
 
 
-@pytest.mark.parametrize("name", [name for name in PUBLIC if dataclasses.is_dataclass(getattr(viscofric, name))])
+@pytest.mark.parametrize("name", [name for name, one in PUBLIC.items() if dataclasses.is_dataclass(one)])
 def test_documented_parameters_of_a_dataclass_are_those_it_takes(name):
-    one = getattr(viscofric, name)
+    one = PUBLIC[name]
     reported = documented(one.__doc__)
     assert not reported or reported == signature(one)
 
@@ -124,7 +125,7 @@ WITHOUT_EXAMPLE = {"InterfaceLaw", "ShiftLaw", "VerticalShift", "read_vendor_law
 def examples() -> list[doctest.DocTest]:
     """Examples of all public names and of their methods."""
     finder = doctest.DocTestFinder(exclude_empty=True)
-    found = [one for name in PUBLIC for one in finder.find(getattr(viscofric, name), name, module=False)]
+    found = [found for name, one in PUBLIC.items() for found in finder.find(one, name, module=False)]
     return [one for one in found if one.examples]
 
 
@@ -159,7 +160,7 @@ def sections(docstring: str) -> set[str]:
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_docstrings_are_complete(name):
-    one = getattr(viscofric, name)
+    one = PUBLIC[name]
     has = sections(one.__doc__)
     is_error = inspect.isclass(one) and issubclass(one, Exception)
     if inspect.isclass(one):
@@ -173,4 +174,4 @@ def test_docstrings_are_complete(name):
 
 def test_lists_of_names_without_examples_hold_only_such():
     for name in RETURNED | WITHOUT_EXAMPLE:
-        assert "Examples" not in sections(getattr(viscofric, name).__doc__), name
+        assert "Examples" not in sections(PUBLIC[name].__doc__), name

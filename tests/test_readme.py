@@ -142,7 +142,7 @@ def check_study(block: Block, folder: Path) -> None:
 
     It is stored under the name in its first line, where that is a comment, else as study.toml.
     """
-    from viscofric.study import load_study
+    from viscofric import load_study
 
     name = re.match(r"#\s*([\w-]+\.toml)\b", block.text)
     path = folder / (name[1] if name else "study.toml")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric import _HOME
+from test_docstrings import PUBLIC
 from viscofric.showing import Items, Plotted, Shown, shown_as_html, shown_as_text, shown_value
 
 #: Longer than 600 characters would be more than a glance.
@@ -19,10 +19,8 @@ LONGEST = 600
 MOST_LINES = 12
 CLASSES = {
     name: found
-    for name in _HOME
-    if inspect.isclass(found := getattr(vf, name))
-    and not issubclass(found, Exception)
-    and not inspect.isabstract(found)
+    for name, found in PUBLIC.items()
+    if inspect.isclass(found) and not issubclass(found, Exception) and not inspect.isabstract(found)
 }
 #: Results that are single numbers, or parts of others: there is nothing to draw.
 NOTHING_TO_DRAW = {
@@ -66,8 +64,8 @@ def one_of_each(folder):
     fit = vf.superpose(sweeps, "30 degC", vertical="free")
     spectrum = vf.fit_retardation_spectrum(fit)
     add(sweeps, sweeps.isotherms[0], fit, fit.master_curve, fit.quality, fit.check, fit.shift_factors)
-    add(spectrum, spectrum.fit, spectrum.to_relaxation(), vf.ModulusTable.from_master_curve(fit.master_curve))
-    add(fit.vertical_shift, vf.DensityShift(303.15), fit.shift_factors.compare_laws())
+    add(spectrum, spectrum.fit, spectrum.to_relaxation(), vf.rheology.ModulusTable.from_master_curve(fit.master_curve))
+    add(fit.vertical_shift, vf.rheology.DensityShift(303.15), fit.shift_factors.compare_laws())
     add(
         vf.sample_materials(fit, spectrum, samples=20), fit.shift_factors.law("wlf"), fit.shift_factors.law("arrhenius")
     )
@@ -75,46 +73,54 @@ def one_of_each(folder):
     add(vf.WLFArrhenius(12.0, 50.0, "-10 degC", "30 degC"))
     warm = np.arange(253.0, 323.0, 2.0)
     ramps = [
-        vf.TemperatureRamp(one, warm, (m := rubber.spectrum.complex_modulus(one * rubber.shift(warm))).real, m.imag)
+        vf.readers.TemperatureRamp(
+            one, warm, (m := rubber.spectrum.complex_modulus(one * rubber.shift(warm))).real, m.imag
+        )
         for one in omega[[0, 6, 12]]
     ]
-    ramped = vf.superpose_ramps(vf.TemperatureRamps(tuple(ramps)), "30 degC")
-    add(ramps[0], vf.glass_transition(ramps[1], "loss modulus"), ramped, ramped.ramps, ramped.check)
+    ramped = vf.superpose_ramps(vf.readers.TemperatureRamps(tuple(ramps)), "30 degC")
+    add(ramps[0], vf.rheology.glass_transition(ramps[1], "loss modulus"), ramped, ramped.ramps, ramped.check)
     times = np.geomspace(0.1, 1e3, 20)
     tests = tuple(
-        vf.StepTest(kelvin, times, rubber.spectrum.creep_compliance(times / rubber.shift(kelvin))) for kelvin in kelvins
+        vf.readers.StepTest(kelvin, times, rubber.spectrum.creep_compliance(times / rubber.shift(kelvin)))
+        for kelvin in kelvins
     )
-    steps = vf.StepTests(tests, "creep")
+    steps = vf.readers.StepTests(tests, "creep")
     crept = vf.superpose(steps, "30 degC")
     add(steps, tests[0], crept, crept.master_curve, crept.check, vf.superpose([sweeps, steps], "30 degC"))
     strain = np.geomspace(1e-3, 0.5, 20)
-    law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
+    law = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
     payne = law.complex_modulus(strain)
-    swept = vf.AmplitudeSweep(strain, payne.real, payne.imag, 62.8, 333.15, "shear")
-    fitted = vf.fit_kraus(swept)
+    swept = vf.readers.AmplitudeSweep(strain, payne.real, payne.imag, 62.8, 333.15, "shear")
+    fitted = vf.rheology.fit_kraus(swept)
     add(law, swept, fitted, fitted.linear_ranges[0])
-    add(vf.catalogue()[0], vf.Card(rubber, "native"), vf.citations(fit))
+    add(vf.catalogue()[0], vf.rheology.Card(rubber, "native"), vf.citations(fit))
     # --- contact
     contact = {"speed": "1 m/s", "accuracy": 0.1}
     add(vf.solve_steady(solid, ball, load="1 N", derivatives=True, **contact).derivatives)
     solution = vf.solve_steady(rubber, ball, load="1 N", temperature="60 degC", heating=heating, **contact)
     add(solution, solution.diagnostics, solution.heating)
-    add(vf.solve_at_contact_strain(solid, law, cylinder, load="100 N/m", measured_at=1e-3, **contact))
+    add(vf.friction.solve_at_contact_strain(solid, law, cylinder, load="100 N/m", measured_at=1e-3, **contact))
     bumps = 1e-6 * np.cos(2.0 * np.pi * np.arange(32) / 32.0)
-    add(vf.HeightMap(bumps[:, None] + bumps, "10 um"), vf.Profile(bumps, "10 um"), vf.Layer("2 mm"), vf.Backend())
+    add(
+        vf.HeightMap(bumps[:, None] + bumps, "10 um"),
+        vf.Profile(bumps, "10 um"),
+        vf.Layer("2 mm"),
+        vf.contact.Backend(),
+    )
     add(vf.Cone("10 deg"), vf.Ellipsoid("10 mm", "30 mm"), vf.FlatPunch("1 mm"))
-    add(vf.MovingHeatSource("10 W", size="0.5 mm", speed="1 m/s", body=steel))
+    add(vf.heat.MovingHeatSource("10 W", size="0.5 mm", speed="1 m/s", body=steel))
     # --- motion
-    press = vf.History(time=[0.0, 0.01], load="1 N")
-    run = vf.solve_transient(solid, ball, press, accuracy=1e-2)
-    impact = vf.solve_impact(solid, ball, mass="33 g", speed="1 m/s", accuracy=1e-2)
+    press = vf.motion.History(time=[0.0, 0.01], load="1 N")
+    run = vf.motion.solve_transient(solid, ball, press, accuracy=1e-2)
+    impact = vf.motion.solve_impact(solid, ball, mass="33 g", speed="1 m/s", accuracy=1e-2)
     add(press, run, run.errors, impact, impact.contacts[0])
-    add(vf.restitution_curve(solid, ball, mass="33 g", speeds=["0.5 m/s", "1 m/s"], accuracy=1e-2))
+    add(vf.motion.restitution_curve(solid, ball, mass="33 g", speeds=["0.5 m/s", "1 m/s"], accuracy=1e-2))
     phase = np.linspace(0.0, 2.0 * np.pi, 25)
-    swing = vf.History(time=phase / 100.0, indentation=1e-4 + 3e-6 * np.sin(phase))
-    add(vf.solve_cycle(solid, ball, swing, accuracy=1e-2))
-    rises = {name: np.linspace(0.0, 1.0, 5) for name in inspect.signature(vf.TransientHeating).parameters}
-    add(vf.TransientHeating(**rises))
+    swing = vf.motion.History(time=phase / 100.0, indentation=1e-4 + 3e-6 * np.sin(phase))
+    add(vf.motion.solve_cycle(solid, ball, swing, accuracy=1e-2))
+    rises = {name: np.linspace(0.0, 1.0, 5) for name in inspect.signature(vf.heat.TransientHeating).parameters}
+    add(vf.heat.TransientHeating(**rises))
     # --- roughness
     road = vf.self_affine(0.8, shape=(32, 32), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
     track = vf.self_affine(0.8, shape=(64, 1), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
@@ -124,48 +130,51 @@ def one_of_each(folder):
         road.to_surface(),
         rough,
         rough.diagnostics,
-        vf.contact_statistics(rough),
-        vf.friction_by_wavelength(rough),
+        vf.roughness.contact_statistics(rough),
+        vf.roughness.friction_by_wavelength(rough),
     )
-    add(vf.power_spectrum(road), vf.line_spectrum(track))
+    add(vf.roughness.power_spectrum(road), vf.roughness.line_spectrum(track))
     sliding = {"speeds": ["0.1 m/s", "1 m/s"], "pressure": "5 kPa"}
     for extra in ({}, {"heating": heating, "temperatures": "30 degC"}):
         add(vf.predict_rough_friction(rubber if extra else solid, [road], **sliding, **extra))
-        add(vf.persson_theory(rubber if extra else solid, vf.power_spectrum(road), **sliding, **extra))
+        add(vf.persson_theory(rubber if extra else solid, vf.roughness.power_spectrum(road), **sliding, **extra))
     # --- friction
     case = {"speeds": [0.02, 0.06, 0.2], "temperatures": [313.15, 333.15, 353.15], "load": 2500.0, "accuracy": 1e-2}
     predicted = vf.predict_friction(rubber, cylinder, **case)
     add(predicted, vf.compare(predicted, predicted), vf.check_assumptions(rubber, cylinder, predicted)[0])
     add(vf.predict_friction(rubber, cylinder, **case | {"temperatures": 333.15}, heating=heating))
     master = vf.shift_friction(predicted, shift=rubber.shift, reference="60 degC")
-    add(master, vf.compare_shift_factors(fit.shift_factors, rubber.shift))
+    add(master, vf.friction.compare_shift_factors(fit.shift_factors, rubber.shift))
     signs = [(d, b) for v in (0.1, 0.2, 0.4) for d in (-v, v) for b in (0.5 * d, 1.5 * d)]
     disc, rolling = np.array(signs * 3).T
     celsius = np.repeat([30.0, 50.0, 70.0], len(signs))
     force = 0.3 + 25.0 * (0.05 * np.sign(disc - rolling) + 0.02 * np.sign(disc))
-    runs = vf.TractionRuns(
+    runs = vf.readers.TractionRuns(
         disc, rolling, force, np.full(36, 25.0), celsius + 273.15, np.ones(36), source="synthetic.csv",
-        step=np.arange(36) // 12, steps=(vf.TractionStep(0, kind="traction"),),
+        step=np.arange(36) // 12, steps=(vf.readers.TractionStep(0, kind="traction"),),
     )  # fmt: skip
     measured = vf.separate(runs)
     add(runs, runs.steps[0])
     slow = {"speeds": measured.speeds, "temperatures": measured.temperatures, "load": 25.0, "accuracy": 0.1}
-    add(vf.shear_stress(measured, vf.predict_friction(rubber, ball, **slow)))
-    add(vf.ConstantShearStress("1 MPa"), vf.EyringShearStress("1e-26 m**3", "1 mm/s"))
-    add(vf.GaussianShearStress("1 MPa", "1 m/s", 2.0), vf.PowerShearStress("1 MPa", 0.1, "1 m/s"))
-    add(vf.ModulusAnchor("5 MPa", "1 Hz", "30 degC"), vf.ContactAnchor("0.1 m/s", "30 degC", "25 N", half_width="3 mm"))
+    add(vf.friction.shear_stress(measured, vf.predict_friction(rubber, ball, **slow)))
+    add(vf.friction.ConstantShearStress("1 MPa"), vf.friction.EyringShearStress("1e-26 m**3", "1 mm/s"))
+    add(vf.friction.GaussianShearStress("1 MPa", "1 m/s", 2.0), vf.friction.PowerShearStress("1 MPa", 0.1, "1 m/s"))
+    add(
+        vf.friction.ModulusAnchor("5 MPa", "1 Hz", "30 degC"),
+        vf.friction.ContactAnchor("0.1 m/s", "30 degC", "25 N", half_width="3 mm"),
+    )
     time = np.geomspace(1e-2, 1e2, 30)
     depth = (0.75 * 1.0 / np.sqrt(0.01) * 0.75 * rubber.spectrum.creep_compliance(time)) ** (2.0 / 3.0)
-    record = vf.IndentationRecord(time, np.full(30, 1.0), depth, "30 degC", control="load", start=0.0)
+    record = vf.friction.IndentationRecord(time, np.full(30, 1.0), depth, "30 degC", control="load", start=0.0)
     pressed = vf.identify_from_indentation(record, ball, modes=8, samples=20)
     add(record, pressed, pressed.records[0])
-    names = inspect.signature(vf.Identified).parameters
+    names = inspect.signature(vf.friction.Identified).parameters
     shared = {name: getattr(pressed, name) for name in names}
     own = {"level_range": (1.0, 1.0), "family": (), "residuals": np.zeros(9), "iterations": 3}
-    add(vf.Identified(**shared), vf.IdentifiedMaterial(**shared, **own, friction=predicted))
-    add(vf.ReboundRecord(["1 m/s", "2 m/s"], "23 degC", mass="33 g", restitution=[0.62, 0.58], error=0.01))
+    add(vf.friction.Identified(**shared), vf.friction.IdentifiedMaterial(**shared, **own, friction=predicted))
+    add(vf.friction.ReboundRecord(["1 m/s", "2 m/s"], "23 degC", mass="33 g", restitution=[0.62, 0.58], error=0.01))
     add(
-        vf.OscillationRecord(
+        vf.friction.OscillationRecord(
             ["1 Hz", "10 Hz"], [1e4, 2e4], [1e3, 3e3], "23 degC", indentation="0.1 mm", amplitude="1 um", error=0.01
         )
     )
@@ -265,8 +274,10 @@ def test_items_of_tables_are_their_rows(objects):
 
 @pytest.mark.parametrize("name", sorted(name for name, found in CLASSES.items() if issubclass(found, Plotted)))
 def test_a_result_becomes_a_table(objects, name):
-    arguments = [[303.15, 313.15]] if isinstance(objects[name], (vf.ShiftLaw, vf.VerticalShift)) else []
-    arguments = [np.geomspace(1.0, 100.0, 5)] if isinstance(objects[name], vf.MaterialSamples) else arguments
+    arguments = (
+        [[303.15, 313.15]] if isinstance(objects[name], (vf.rheology.ShiftLaw, vf.rheology.VerticalShift)) else []
+    )
+    arguments = [np.geomspace(1.0, 100.0, 5)] if isinstance(objects[name], vf.rheology.MaterialSamples) else arguments
     assert objects[name].to_dataframe(*arguments).size > 0
 
 

@@ -54,10 +54,10 @@ def test_friction_curves_open() -> None:
 
 def test_the_state_of_a_run_is_resumed() -> None:
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
-    longer = vf.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"])
+    longer = vf.motion.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"])
     about = {"times": ["0.2 s"]}
-    resumed = vf.solve_transient(rubber, vf.Ball("10 mm"), longer, resume=STORED / "state.npz", **about)
-    whole = vf.solve_transient(rubber, vf.Ball("10 mm"), longer, **about)
+    resumed = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), longer, resume=STORED / "state.npz", **about)
+    whole = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), longer, **about)
     np.testing.assert_allclose(resumed.indentation[-1], whole.indentation[-1], rtol=2e-3)
 
 
@@ -65,11 +65,11 @@ def test_changed_numbers_of_a_state_are_noticed(tmp_path: Path) -> None:
     with np.load(STORED / "state.npz") as stored:
         arrays = {name: stored[name] for name in stored.files}
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
-    history, path = vf.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"]), tmp_path / "state.npz"
+    history, path = vf.motion.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"]), tmp_path / "state.npz"
     arrays["reached/told"] = arrays["reached/told"] + 1e-9
     np.savez_compressed(path, **arrays)
     with refused("not-a-state"):
-        vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=["0.2 s"], resume=path)
+        vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=["0.2 s"], resume=path)
 
 
 def test_a_changed_byte_of_results_is_noticed(tmp_path: Path) -> None:
@@ -107,8 +107,8 @@ def test_mutated_files_are_refused_or_read_whole(name: str, tmp_path: Path) -> N
                 case ".nc":
                     _ = vf.open_results(path).dataset
                 case ".npz":
-                    history = vf.History(time=[0.0, 0.1], load="1 N")
-                    vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=["0.1 s"], resume=path)
+                    history = vf.motion.History(time=[0.0, 0.1], load="1 N")
+                    vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=["0.1 s"], resume=path)
                 case ".csv":
                     read_friction_curves(path)
                 case _ if name == "material.json":

@@ -208,9 +208,9 @@ def test_measurements_take_text_with_units() -> None:
     omega = 2.0 * math.pi * np.array([1.0, 10.0])
     isotherm = vf.Isotherm("30 degC", hertz, moduli, loss)
     assert isotherm.storage_modulus.tolist() == [1e6, 2e6]
-    master = vf.MasterCurve(hertz, moduli, loss, ["30 degC"] * 2, "30 degC")
+    master = vf.readers.MasterCurve(hertz, moduli, loss, ["30 degC"] * 2, "30 degC")
     np.testing.assert_allclose(master.angular_frequency, omega)
-    table = vf.ModulusTable(["1 Hz", "10 Hz", "100 Hz", "1 kHz"], ["1 MPa", *moduli, "3 MPa"], ["0.1 MPa"] * 4)
+    table = vf.rheology.ModulusTable(["1 Hz", "10 Hz", "100 Hz", "1 kHz"], ["1 MPa", *moduli, "3 MPa"], ["0.1 MPa"] * 4)
     np.testing.assert_allclose(table.loss_modulus_values, 1e5)
     spectrum = vf.RelaxationSpectrum("1 MPa", ["9 MPa"], ["1 ms"])
     assert spectrum.E.tolist() == [9e6]
@@ -218,7 +218,7 @@ def test_measurements_take_text_with_units() -> None:
     assert float(spectrum.relaxation_modulus("1 ms")) == pytest.approx(float(spectrum.relaxation_modulus(1e-3)))
     curves = vf.FrictionCurves(["10 mm/s"], ["30 degC"], ["2 N/mm"], [0.1], [0.0], [0.0], [1], load_unit="N/m")
     assert (curves.speed[0], curves.load[0]) == (0.01, 2000.0)
-    law = vf.KrausLaw("6 MPa", "1.5 MPa", 0.02, 0.6, "0.9 MPa", "0.2 MPa", "10 Hz", "60 degC")
+    law = vf.rheology.KrausLaw("6 MPa", "1.5 MPa", 0.02, 0.6, "0.9 MPa", "0.2 MPa", "10 Hz", "60 degC")
     assert (law.critical_strain, law.storage_linear) == (0.02, 6e6)
     heights = vf.Topography([["1 um", "2 um"], ["1 um", "2 um"]], "10 um").heights
     np.testing.assert_allclose(heights, [[1e-6, 2e-6]] * 2)
@@ -228,13 +228,13 @@ def test_measurements_take_text_with_units() -> None:
 def test_numbers_whose_squares_overflow_are_refused_in_arrays_too() -> None:
     load = np.array([1.0, 1e300])
     with pytest.raises(InputError) as found:
-        vf.History(time=[0.0, 1.0], load=load)
+        vf.motion.History(time=[0.0, 1.0], load=load)
     assert found.value.code == "too-large"
     with pytest.raises(InputError) as found:
-        vf.TractionRuns([0.1] * 2, [0.05] * 2, load, [1.0] * 2, [300.0] * 2, [1, 2])
+        vf.readers.TractionRuns([0.1] * 2, [0.05] * 2, load, [1.0] * 2, [300.0] * 2, [1, 2])
     assert found.value.code == "too-large"
     material = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
     with pytest.raises(InputError) as found:
         vf.solve_steady(material, vf.Ball("10 mm"), speed=1e-320, load=0.1)
     assert found.value.code == "too-small"
-    assert vf.History(time=[0.0, 1.0], load=np.array([1.0, 1e149])).load is not None
+    assert vf.motion.History(time=[0.0, 1.0], load=np.array([1.0, 1e149])).load is not None

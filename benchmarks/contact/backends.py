@@ -41,9 +41,9 @@ RUBBER = vf.Material(MODES, poisson_ratio=0.0)
 BALL_ACCURACY = 3e-4
 
 
-def backend_of(name: str) -> vf.Backend:
+def backend_of(name: str) -> vf.contact.Backend:
     library, threads = re.fullmatch(r"(.*?)(?:x(\d+))?", name).groups()  # type: ignore[union-attr]
-    return vf.Backend(library, threads=int(threads)) if threads else vf.Backend(library)
+    return vf.contact.Backend(library, threads=int(threads)) if threads else vf.contact.Backend(library)
 
 
 class Stopwatch:
@@ -62,7 +62,7 @@ class Stopwatch:
         return min(times), found
 
 
-def transforms(backend: vf.Backend, points: int, least: Stopwatch) -> dict[str, float]:
+def transforms(backend: vf.contact.Backend, points: int, least: Stopwatch) -> dict[str, float]:
     """Seconds of a pair of FFTs, and of a padded convolution."""
     shape = (points, points)
     padded = (scipy.fft.next_fast_len(2 * points - 1), scipy.fft.next_fast_len(2 * points - 1, real=True))
@@ -84,7 +84,7 @@ def transforms(backend: vf.Backend, points: int, least: Stopwatch) -> dict[str, 
 def measure(name: str, points: int, least: Stopwatch) -> dict[str, Any]:
     """One row of the table."""
     backend = backend_of(name)
-    surface = vf.PeriodicSurface(self_affine(points), 1.0 / points)
+    surface = vf.contact.PeriodicSurface(self_affine(points), 1.0 / points)
     row: dict[str, Any] = {"backend": name, "points": points, **transforms(backend, points, least)}
     for what, speed, pressure in (("elastic", 0.0, 0.05), ("viscoelastic", 1.0, 0.1)):
         row[what], solution = least(

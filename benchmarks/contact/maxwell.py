@@ -98,19 +98,19 @@ class Stepped:
         return found
 
 
-def steady_friction(surface: vf.PeriodicSurface, time_step: float | None = None) -> float:
+def steady_friction(surface: vf.contact.PeriodicSurface, time_step: float | None = None) -> float:
     """Friction of the steady contact, or of that to which steps in time lead."""
     rubber: Any = problems.VISCOELASTIC if time_step is None else Stepped(problems.VISCOELASTIC, time_step)
     solution = vf.solve_periodic(rubber, surface, speed=SPEED, pressure=problems.VISCOELASTIC_PRESSURE, tolerance=1e-6)
     return solution.pressure_friction_coefficient
 
 
-def time_step(surface: vf.PeriodicSurface, substeps: int) -> float:
+def time_step(surface: vf.contact.PeriodicSurface, substeps: int) -> float:
     """Return Δt for so many steps per point."""
     return surface.spacing[0] / (SPEED * substeps)
 
 
-def substeps_needed(surface: vf.PeriodicSurface) -> int:
+def substeps_needed(surface: vf.contact.PeriodicSurface) -> int:
     """Return the steps per point, a power of two from eight on, with which the friction is right to 1 %."""
     exact, substeps = steady_friction(surface), 8
     while abs(steady_friction(surface, time_step(surface, substeps)) / exact - 1.0) > ERROR:
@@ -126,7 +126,7 @@ def periods_needed() -> float:
 
 
 def stepped(
-    surface: vf.PeriodicSurface, substeps: int, steps: int, python: Path, limit: float
+    surface: vf.contact.PeriodicSurface, substeps: int, steps: int, python: Path, limit: float
 ) -> dict[str, np.ndarray]:
     """Have Tamaas take some steps."""
     prony = problems.VISCOELASTIC.spectrum.to_relaxation()
@@ -148,7 +148,7 @@ def verify(points: int, python: Path, limit: float) -> list[dict[str, Any]]:
     heights = problems.self_affine(points, points_per_shortest_wave=16.0)
     rows: list[dict[str, Any]] = []
     for every in VERIFIED_GRIDS:
-        surface = vf.PeriodicSurface(heights[::every, ::every], every / points)
+        surface = vf.contact.PeriodicSurface(heights[::every, ::every], every / points)
         steps = math.ceil(periods_needed() * surface.shape[0])
         row: dict[str, Any] = {"case": "Tamaas 2.9, Maxwell", "points": surface.shape[0], "steps": steps}
         try:

@@ -34,22 +34,24 @@ VISCOELASTIC = vf.Material(
 )
 
 
-def rough_surface(points: int) -> vf.PeriodicSurface:
+def rough_surface(points: int) -> vf.contact.PeriodicSurface:
     """H = 0.8, eight points per shortest wave, rms slope 1, period 1."""
-    return vf.PeriodicSurface(self_affine(points), 1.0 / points)
+    return vf.contact.PeriodicSurface(self_affine(points), 1.0 / points)
 
 
-def refined_surface(points: int) -> vf.PeriodicSurface:
+def refined_surface(points: int) -> vf.contact.PeriodicSurface:
     """Return that of 256 x 256 points on a finer grid."""
-    return vf.PeriodicSurface(refined(self_affine(256), points), 1.0 / points)
+    return vf.contact.PeriodicSurface(refined(self_affine(256), points), 1.0 / points)
 
 
-def elastic_rough(surface: vf.PeriodicSurface, tolerance: float = TOLERANCE) -> vf.PeriodicSolution:
+def elastic_rough(surface: vf.contact.PeriodicSurface, tolerance: float = TOLERANCE) -> vf.contact.PeriodicSolution:
     """Press the surface against an elastic half-space."""
     return vf.solve_periodic(ELASTIC, surface, speed=0.0, pressure=PRESSURE, tolerance=tolerance)
 
 
-def viscoelastic_rough(surface: vf.PeriodicSurface, tolerance: float = TOLERANCE) -> vf.PeriodicSolution:
+def viscoelastic_rough(
+    surface: vf.contact.PeriodicSurface, tolerance: float = TOLERANCE
+) -> vf.contact.PeriodicSolution:
     """Slide the surface over a viscoelastic half-space."""
     return vf.solve_periodic(VISCOELASTIC, surface, speed=1.0, pressure=VISCOELASTIC_PRESSURE, tolerance=tolerance)
 

@@ -47,9 +47,9 @@ class Contact(NamedTuple):
     motion: dict[str, Any]
 
     @property
-    def surface(self) -> vf.PeriodicSurface:
+    def surface(self) -> vf.contact.PeriodicSurface:
         """The surface of its heights."""
-        return vf.PeriodicSurface(self.heights, self.spacing)
+        return vf.contact.PeriodicSurface(self.heights, self.spacing)
 
 
 def draw(random: np.random.Generator, seed: int, sizes: Sequence[int] = (64, 96, 128, 192, 256)) -> Contact:

@@ -42,7 +42,9 @@ COLUMNS = (
 )
 
 
-def own(surface: vf.PeriodicSurface, *, viscoelastic: bool) -> tuple[dict[str, Any], vf.PeriodicSolution]:
+def own(
+    surface: vf.contact.PeriodicSurface, *, viscoelastic: bool
+) -> tuple[dict[str, Any], vf.contact.PeriodicSolution]:
     """Solve with viscofric."""
     solve = problems.viscoelastic_rough if viscoelastic else problems.elastic_rough
     solution, seconds = measuring.cpu_seconds(lambda: solve(surface))
@@ -63,7 +65,11 @@ def own(surface: vf.PeriodicSurface, *, viscoelastic: bool) -> tuple[dict[str, A
 
 
 def peer(
-    tool: str, surface: vf.PeriodicSurface, solution: vf.PeriodicSolution, environment: Path, limit: float
+    tool: str,
+    surface: vf.contact.PeriodicSurface,
+    solution: vf.contact.PeriodicSolution,
+    environment: Path,
+    limit: float,
 ) -> list[dict[str, Any]]:
     """Have a peer solve the elastic contact in its environment; one row for each of its solvers."""
     given = {
@@ -92,7 +98,7 @@ def peer(
     ]
 
 
-def residual(pressure: np.ndarray, surface: vf.PeriodicSurface) -> float:
+def residual(pressure: np.ndarray, surface: vf.contact.PeriodicSurface) -> float:
     """Largest gap under pressure, or overlap without it, over the rms height."""
     solid = SlidingSolid(problems.ELASTIC.spectrum, 0.0, (0.0, 0.0))
     operator = PeriodicOperator(solid.transfer(surface.shape, surface.spacing), surface.shape)

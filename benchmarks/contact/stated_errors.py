@@ -111,18 +111,18 @@ def draw_periodic(number: int) -> Case:
     return Case(name, drawn.material, (drawn.heights, np.array(drawn.spacing)), drawn.motion)
 
 
-def solve_both_periodic(case: Case) -> tuple[vf.PeriodicSolution, vf.PeriodicSolution]:
+def solve_both_periodic(case: Case) -> tuple[vf.contact.PeriodicSolution, vf.contact.PeriodicSolution]:
     """Solve a rough contact as it stands, and with more points."""
     z, spacing = case.body
     surfaces = (z, spacing), (refined(z, PERIODIC_FINER * len(z)), spacing / PERIODIC_FINER)
     coarse, fine = (
-        vf.solve_periodic(case.material, vf.PeriodicSurface(heights, tuple(cell)), **case.settings)
+        vf.solve_periodic(case.material, vf.contact.PeriodicSurface(heights, tuple(cell)), **case.settings)
         for heights, cell in surfaces
     )
     return coarse, fine
 
 
-def solve_both(case: Case) -> tuple[vf.ContactSolution, vf.ContactSolution]:
+def solve_both(case: Case) -> tuple[vf.contact.ContactSolution, vf.contact.ContactSolution]:
     """Solve a case as it stands, and much more finely.
 
     Raises
@@ -145,7 +145,7 @@ def solve_both(case: Case) -> tuple[vf.ContactSolution, vf.ContactSolution]:
     return coarse, vf.solve_steady(case.material, case.body, grid=wanted, **settings)
 
 
-def stated(solution: vf.ContactSolution) -> dict[str, tuple[Any, float]]:
+def stated(solution: vf.contact.ContactSolution) -> dict[str, tuple[Any, float]]:
     """Return all numbers that come with an error, and the errors."""
     found, errors = solution, solution.diagnostics
     numbers: dict[str, tuple[Any, float]] = {

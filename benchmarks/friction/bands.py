@@ -38,7 +38,7 @@ def sweeps(noise: float, seed: int) -> IsothermalSweeps:
     return IsothermalSweeps(tuple(isotherms))
 
 
-def predicted(material: vf.Material, samples: vf.MaterialSamples | None) -> vf.FrictionCurves:
+def predicted(material: vf.Material, samples: vf.rheology.MaterialSamples | None) -> vf.FrictionCurves:
     return vf.predict_friction(material, BALL, speeds=SPEEDS, temperatures=TEMPERATURES, load=LOAD, samples=samples)
 
 

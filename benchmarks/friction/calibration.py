@@ -47,7 +47,7 @@ class Frozen:
             self.rubber, BALL, speeds=SPEEDS, temperatures=KELVIN, load="25 N", accuracy=1e-4
         )
         modulus = float(abs(self.rubber.complex_modulus(FREQUENCY, KELVIN[0])))
-        self.moduli = tuple(anchored([vf.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)]))
+        self.moduli = tuple(anchored([vf.friction.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)]))
         observed, shifts = self.observed(None)
         contacts = Contacts(BALL, 0.5, observed.points.load, ACCURACY, 1)
         problem = problem_of(observed.points, shifts, self.moduli, contacts, MODES)

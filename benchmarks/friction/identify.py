@@ -117,7 +117,7 @@ def measured(
 def identified(material: vf.Material, curves: vf.FrictionCurves) -> dict[str, Any]:
     """Identify, and compare with what was planted."""
     modulus = float(abs(material.complex_modulus(FREQUENCY, KELVIN[0])))
-    anchor = vf.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)
+    anchor = vf.friction.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)
     begin = time.process_time()
     found = vf.identify_material(curves, indenter=BALL, anchor=anchor, reference=KELVIN[0])
     seconds = time.process_time() - begin

@@ -64,7 +64,7 @@ class Test:
         load, depth = (load, depth * scatter) if control == "load" else (load * scatter, depth)
         touching = depth > 0.0
         depth = np.where(touching, depth - self.zero, depth)
-        return vf.IndentationRecord(time, load / self.gain, depth, kelvin, control=control, **more)
+        return vf.friction.IndentationRecord(time, load / self.gain, depth, kelvin, control=control, **more)
 
     def creep(self, kelvin: float = KELVIN) -> Any:
         """Return creep after a step of load."""
@@ -80,8 +80,8 @@ class Test:
 
     def over_time(self, knots: Any, values: Any, rows: Any, control: str) -> Any:
         """Return a record solved over time."""
-        history = vf.History(knots, **{control: values}, temperature=KELVIN)
-        run = vf.solve_transient(self.rubber, self.ball, history, times=rows, accuracy=3e-4)
+        history = vf.motion.History(knots, **{control: values}, temperature=KELVIN)
+        run = vf.motion.solve_transient(self.rubber, self.ball, history, times=rows, accuracy=3e-4)
         given = np.interp(rows, knots, values)
         load, depth = (given, run.indentation) if control == "load" else (run.load, given)
         keep = (load > 0.0) | (control == "indentation")  # a given depth is part of the history where contact is lost
@@ -119,12 +119,14 @@ class Test:
             part / self.gain * (1.0 + size * self.random.standard_normal(13))
             for part, size in zip((K.real, K.imag), error.values(), strict=True)
         )
-        return vf.OscillationRecord(omega, storage, loss, KELVIN, indentation=DEPTH, amplitude=DEPTH / 50, error=error)
+        return vf.friction.OscillationRecord(
+            omega, storage, loss, KELVIN, indentation=DEPTH, amplitude=DEPTH / 50, error=error
+        )
 
     def rebound(self, kelvin: float, *names: str) -> Any:
         """Return rebounds at one temperature."""
         speeds = np.array([0.3, 0.7, 1.6])
-        hits = [vf.solve_impact(self.rubber, self.ball, mass=0.033, speed=v, temperature=kelvin) for v in speeds]
+        hits = [vf.motion.solve_impact(self.rubber, self.ball, mass=0.033, speed=v, temperature=kelvin) for v in speeds]
         found = {
             "restitution": [one.restitution for one in hits], "contact_time": [one.contact_time for one in hits],
             "peak_force": [one.peak_force / self.gain for one in hits],
@@ -133,7 +135,7 @@ class Test:
         scattered = {
             name: np.array(found[name]) * (1.0 + error[name] * self.random.standard_normal(3)) for name in names
         }
-        return vf.ReboundRecord(speeds, kelvin, mass=0.033, error={n: error[n] for n in names}, **scattered)
+        return vf.friction.ReboundRecord(speeds, kelvin, mass=0.033, error={n: error[n] for n in names}, **scattered)
 
     def rebounds(self, *names: str) -> list[Any]:
         """Return rebounds at five temperatures."""

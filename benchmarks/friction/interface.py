@@ -23,22 +23,22 @@ import viscofric as vf
 KINDS = ("constant", "power", "eyring", "gaussian")
 
 
-def planted(kind: str, random: np.random.Generator, middle: float, reference: float) -> vf.InterfaceLaw:
+def planted(kind: str, random: np.random.Generator, middle: float, reference: float) -> vf.friction.InterfaceLaw:
     """Return a law whose features lie about a reduced speed (log10 of m/s)."""
     shift = vf.Arrhenius(random.uniform(40e3, 120e3), reference)
     stress = 10.0 ** random.uniform(4.5, 6.5)
     if kind == "constant":
-        return vf.ConstantShearStress(stress)
+        return vf.friction.ConstantShearStress(stress)
     if kind == "power":
-        return vf.PowerShearStress(stress, random.uniform(0.05, 0.4), 10.0**middle, shift=shift)
+        return vf.friction.PowerShearStress(stress, random.uniform(0.05, 0.4), 10.0**middle, shift=shift)
     if kind == "eyring":
         speed = 10.0 ** (middle - random.uniform(0.0, 2.0))
-        return vf.EyringShearStress(4e-21 / stress, speed, shift=shift)
+        return vf.friction.EyringShearStress(4e-21 / stress, speed, shift=shift)
     speed = 10.0 ** (middle + random.uniform(-1.0, 1.0))
-    return vf.GaussianShearStress(stress, speed, random.uniform(0.8, 2.5), shift=shift)
+    return vf.friction.GaussianShearStress(stress, speed, random.uniform(0.8, 2.5), shift=shift)
 
 
-def problem(kind: str, random: np.random.Generator) -> tuple[vf.InterfaceLaw, vf.ShearStress]:
+def problem(kind: str, random: np.random.Generator) -> tuple[vf.friction.InterfaceLaw, vf.friction.ShearStress]:
     """Return a planted law, and the shear stress of one measurement of it."""
     kelvin = 293.15 + np.linspace(0.0, random.uniform(30.0, 80.0), random.integers(3, 7))
     low = random.uniform(-4.0, -2.0)
@@ -62,10 +62,10 @@ def problem(kind: str, random: np.random.Generator) -> tuple[vf.InterfaceLaw, vf
         slip=v,
     )
     contacts = vf.FrictionCurves(**columns, mean_pressure=pressure, mean_pressure_error=np.zeros(n))
-    return law, vf.shear_stress(measured, contacts, level_error=level)
+    return law, vf.friction.shear_stress(measured, contacts, level_error=level)
 
 
-def held(law: vf.InterfaceLaw, found: vf.InterfaceLaw, speed: Any, kelvin: Any) -> float:
+def held(law: vf.friction.InterfaceLaw, found: vf.friction.InterfaceLaw, speed: Any, kelvin: Any) -> float:
     """Return the share of places whose band holds the planted stress."""
     lower, upper = found.interval(speed, kelvin)
     true = law(speed, kelvin)

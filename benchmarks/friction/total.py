@@ -37,7 +37,7 @@ TRUE, OTHERS = 100, 40
 PARTS = ("mostly hysteresis", "mixed", "mostly interface")
 
 #: Of a law fitted, and the true stress: total friction, half-width of its band, truth, and interface over total.
-Compared = Callable[[vf.InterfaceLaw, Callable[..., Any], np.random.Generator], tuple[Any, Any, Any, Any]]
+Compared = Callable[[vf.friction.InterfaceLaw, Callable[..., Any], np.random.Generator], tuple[Any, Any, Any, Any]]
 
 
 class Measured(NamedTuple):
@@ -48,7 +48,7 @@ class Measured(NamedTuple):
     true: vf.FrictionCurves
 
 
-def material(random: np.random.Generator, *, fitted: bool) -> tuple[vf.Material, vf.MaterialSamples | None]:
+def material(random: np.random.Generator, *, fitted: bool) -> tuple[vf.Material, vf.rheology.MaterialSamples | None]:
     """Return the rubber as the user knows it."""
     if not fitted:
         return vf.synthetic_fluoroelastomer(), None
@@ -91,7 +91,7 @@ def scene(shape: str, random: np.random.Generator, *, fitted: bool) -> tuple[Mea
 def smooth(
     shape: str,
     rubber: vf.Material,
-    samples: vf.MaterialSamples | None,
+    samples: vf.rheology.MaterialSamples | None,
     other: dict[str, Any],
     random: np.random.Generator,
 ) -> Compared:
@@ -101,7 +101,9 @@ def smooth(
     found = vf.predict_friction(rubber, **asked, samples=samples, accuracy=1e-2)
     true = vf.predict_friction(vf.synthetic_fluoroelastomer(), **asked, accuracy=2e-4)
 
-    def compared(law: vf.InterfaceLaw, stress: Callable[..., Any], random: np.random.Generator) -> tuple[Any, ...]:
+    def compared(
+        law: vf.friction.InterfaceLaw, stress: Callable[..., Any], random: np.random.Generator
+    ) -> tuple[Any, ...]:
         both = with_interface(found, law)
         truth = true.viscoelastic + stress(true.speed, true.temperature) / true.mean_pressure
         return both.total, 1.96 * both.total_error, truth, both.coulomb / both.total
@@ -118,7 +120,7 @@ def rough(rubber: vf.Material, other: dict[str, Any], random: np.random.Generato
     found = vf.predict_rough_friction(rubber, tracks, **other, pressure=10.0 ** random.uniform(4.3, 5.7))
     speed, kelvin = found.speed, found.temperature
 
-    def some(law: Any, which: slice | Any) -> vf.RoughFriction:
+    def some(law: Any, which: slice | Any) -> vf.roughness.RoughFriction:
         arrays = {
             name: getattr(found, name)[..., which]
             for name in ("friction_coefficient", "friction_error", "contact_area_fraction", "corrected_area_fraction")
@@ -127,7 +129,9 @@ def rough(rubber: vf.Material, other: dict[str, Any], random: np.random.Generato
         area = arrays["corrected_area_fraction"]
         return replace(found, surfaces=names, **arrays, **friction_on_area(law, speed, kelvin, found.pressure, area))
 
-    def compared(law: vf.InterfaceLaw, stress: Callable[..., Any], random: np.random.Generator) -> tuple[Any, ...]:
+    def compared(
+        law: vf.friction.InterfaceLaw, stress: Callable[..., Any], random: np.random.Generator
+    ) -> tuple[Any, ...]:
         few = some(law, TRUE + random.choice(OTHERS, int(random.integers(3, 9)), replace=False))
         lower, upper = few.interval(of="total")
         area = found.corrected_area_fraction[0, :, :TRUE].mean(axis=-1)
@@ -165,7 +169,7 @@ def draw(measured: Measured, compared: Compared, random: np.random.Generator) ->
         slip=slip,
     )
     try:
-        fitted = vf.shear_stress(curves, measured.solved, level_error=level).law(kind)
+        fitted = vf.friction.shear_stress(curves, measured.solved, level_error=level).law(kind)
     except vf.InputError:
         return None
     total, half, truth, share = compared(fitted, stress, random)

@@ -38,7 +38,7 @@ COLUMNS = (
 )
 
 
-def draw(number: int, accuracy: tuple[float, float]) -> tuple[str, vf.Material, Any, vf.History, float]:
+def draw(number: int, accuracy: tuple[float, float]) -> tuple[str, vf.Material, Any, vf.motion.History, float]:
     """Return name, material, surface, history and accuracy of one of the random problems."""
     rng, kind = np.random.default_rng([6, number]), PERIODIC[number % len(PERIODIC)]
     material, rubber = stated_errors._material(rng)
@@ -55,7 +55,7 @@ def draw(number: int, accuracy: tuple[float, float]) -> tuple[str, vf.Material, 
         path, angles = "turning", start + rng.uniform(1.0, 6.0) * times / DURATION
     before = str(rng.choice(vf.motion.history.BEFORE))
     speeds = speed * np.stack([np.cos(angles), np.sin(angles)], 1)
-    history = vf.History(times, **{control: values}, speed=speeds, temperature=300.0, before=before)
+    history = vf.motion.History(times, **{control: values}, speed=speeds, temperature=300.0, before=before)
     asked = math.exp(rng.uniform(*map(math.log, accuracy)))
     return f"{number}: {kind}, {path}, {control}, {before}, {rubber}, {asked:.1e}", material, surface, history, asked
 

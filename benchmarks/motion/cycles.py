@@ -43,7 +43,7 @@ def cases() -> dict[str, Case]:
     solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
     slow = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="0.1 s")
     rubber, x = vf.synthetic_fluoroelastomer(), 2.0 * np.pi * np.arange(64) / 64
-    ridges = vf.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), 1e-3 / 64)
+    ridges = vf.contact.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), 1e-3 / 64)
     short, long, quick = 2.0 * np.pi * np.arange(25) / 2400, 2.0 * np.pi * np.arange(49) / 4800, np.arange(25) / 2400
     fine = 2.0 * np.pi * np.arange(97) / 9600
     warm, cold = {"temperature": "30 degC"}, {"temperature": "0 degC"}
@@ -72,7 +72,7 @@ def cases() -> dict[str, Case]:
     }  # fmt: skip
 
 
-def waited(case: Case, cycle: vf.CycleSolution) -> tuple[int | None, float]:
+def waited(case: Case, cycle: vf.motion.CycleSolution) -> tuple[int | None, float]:
     """Return the periods after which the periodic state is reached, and CPU seconds for all of them."""
     given, count = dict(case.given), case.most
     one = np.asarray(given.pop("time"))
@@ -81,8 +81,8 @@ def waited(case: Case, cycle: vf.CycleSolution) -> tuple[int | None, float]:
         whole = np.ndim(values) == 0
         repeated[name] = values if whole else np.append(np.tile(values[:-1], count), values[-1])
     begun = time.process_time()
-    history = vf.History(**repeated, before="at rest")
-    run = vf.solve_transient(
+    history = vf.motion.History(**repeated, before="at rest")
+    run = vf.motion.solve_transient(
         case.material, case.body, history, times=one[-1] * np.arange(count + 1), accuracy=case.accuracy
     )
     spent = time.process_time() - begun
@@ -105,8 +105,8 @@ def main(arguments: list[str] | None = None) -> None:
         if not name.startswith(tuple(options.cases)):
             continue
         begun = time.process_time()
-        cycle = vf.solve_cycle(
-            case.material, case.body, vf.History(**case.given, before="at rest"), accuracy=case.accuracy
+        cycle = vf.motion.solve_cycle(
+            case.material, case.body, vf.motion.History(**case.given, before="at rest"), accuracy=case.accuracy
         )
         spent = time.process_time() - begun
         count, whole = waited(case, cycle)

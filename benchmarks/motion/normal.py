@@ -31,14 +31,16 @@ def cases() -> dict[str, Callable[[], Any]]:
     rubber = vf.synthetic_fluoroelastomer()
     cold = {"temperature": "0 degC"}
     time_ = np.linspace(0.0, 0.06, 361)
-    sine = vf.History(time_, load=1.0 + 0.5 * np.sin(100.0 * np.pi * time_), before="at rest")
+    sine = vf.motion.History(time_, load=1.0 + 0.5 * np.sin(100.0 * np.pi * time_), before="at rest")
     triangle = {"time": [0.0, 0.02, 0.04, 0.1], "load": [0.0, 1.0, 0.0, 0.0]}
     return {
-        "impact, one mode": lambda: vf.solve_impact(solid, BALL, mass=0.033, speed=0.1).run,
-        "impact, 37 modes": lambda: vf.solve_impact(rubber, BALL, mass=0.033, speed=1.0, **cold).run,
-        "load triangle, one mode": lambda: vf.solve_transient(solid, BALL, vf.History(**triangle)),
-        "load triangle, 37 modes": lambda: vf.solve_transient(rubber, BALL, vf.History(**triangle, **cold)),
-        "three cycles of 120 points, one mode": lambda: vf.solve_transient(solid, BALL, sine),
+        "impact, one mode": lambda: vf.motion.solve_impact(solid, BALL, mass=0.033, speed=0.1).run,
+        "impact, 37 modes": lambda: vf.motion.solve_impact(rubber, BALL, mass=0.033, speed=1.0, **cold).run,
+        "load triangle, one mode": lambda: vf.motion.solve_transient(solid, BALL, vf.motion.History(**triangle)),
+        "load triangle, 37 modes": lambda: vf.motion.solve_transient(
+            rubber, BALL, vf.motion.History(**triangle, **cold)
+        ),
+        "three cycles of 120 points, one mode": lambda: vf.motion.solve_transient(solid, BALL, sine),
     }
 
 

@@ -69,9 +69,9 @@ def broad_rubber() -> vf.Material:
 class Run:
     """A surface that slides over some points, by steps of equal length."""
 
-    def __init__(self, material: vf.Material, surface: vf.PeriodicSurface, before: str, path: float) -> None:
+    def __init__(self, material: vf.Material, surface: vf.contact.PeriodicSurface, before: str, path: float) -> None:
         duration = path / maxwell.SPEED
-        history = vf.History(
+        history = vf.motion.History(
             [0.0, duration], pressure=problems.VISCOELASTIC_PRESSURE, speed=maxwell.SPEED, before=before
         )
         self.schedule = history.schedule(material, "periodic")

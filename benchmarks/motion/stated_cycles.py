@@ -38,7 +38,9 @@ def _give_up(*_: object) -> None:
     raise _TooLongError("given up after too much CPU time")
 
 
-def draw(number: int, accuracy: tuple[float, float], kinds: tuple[str, ...]) -> tuple[str, Any, Any, vf.History, float]:
+def draw(
+    number: int, accuracy: tuple[float, float], kinds: tuple[str, ...]
+) -> tuple[str, Any, Any, vf.motion.History, float]:
     """Return name, material, body, period and accuracy of one of the random problems."""
     rng, kind = np.random.default_rng([4, number]), kinds[number % len(kinds)]
     material, rubber = stated_errors._material(rng)
@@ -59,7 +61,7 @@ def draw(number: int, accuracy: tuple[float, float], kinds: tuple[str, ...]) -> 
     if path:
         path["speed"] -= np.trapezoid(path["speed"]) / points
     asked = math.exp(rng.uniform(*map(math.log, accuracy)))
-    history = vf.History(time_, **given, **path, temperature=300.0, before="at rest")
+    history = vf.motion.History(time_, **given, **path, temperature=300.0, before="at rest")
     name = f"{number}: {kind}, {control} by {relative:.2g}, {points} points, {rubber}, {asked:.1e}"
     return name, material, body, history, asked
 
@@ -85,9 +87,9 @@ def main(arguments: list[str] | None = None) -> None:
             if options.seconds > 0.0:
                 signal.setitimer(signal.ITIMER_VIRTUAL, options.seconds)
             begun = time.process_time()
-            found = vf.solve_cycle(material, body, history, accuracy=accuracy)
+            found = vf.motion.solve_cycle(material, body, history, accuracy=accuracy)
             spent += time.process_time() - begun
-            exact = vf.solve_cycle(material, body, history, accuracy=options.finer * accuracy)
+            exact = vf.motion.solve_cycle(material, body, history, accuracy=options.finer * accuracy)
         except (vf.ConvergenceError, _TooLongError) as failure:
             unsolved.append(f"{name}: {failure}")
             continue

@@ -88,7 +88,7 @@ class Case(NamedTuple):
     kind: str
     material: vf.Material
     body: Any
-    history: vf.History
+    history: vf.motion.History
     settings: dict[str, Any]
 
 
@@ -113,7 +113,7 @@ def _body(kind: str, rng: np.random.Generator) -> tuple[Any, float, float, dict[
             z = self_affine(24, hurst=rng.uniform(0.5, 1.0), points_per_shortest_wave=4.0, seed=int(rng.integers(1e6)))
         spacing = 1e-5
         z = z * (0.05 * spacing / float(np.std(np.diff(z, axis=0))))
-        surface = vf.PeriodicSurface(z, (spacing, spacing))
+        surface = vf.contact.PeriodicSurface(z, (spacing, spacing))
         return surface, 0.05 * PLANE_STRAIN * 10.0 ** rng.uniform(-1.5, -0.3), 20.0 * spacing, {}
     line = kind not in POINT_CONTACTS
     load = 10.0 if line else 0.1
@@ -131,7 +131,7 @@ def _body(kind: str, rng: np.random.Generator) -> tuple[Any, float, float, dict[
     return indenter, load, length, settings
 
 
-def _history(kind: str, load: float, length: float, rng: np.random.Generator) -> tuple[vf.History, str]:
+def _history(kind: str, load: float, length: float, rng: np.random.Generator) -> tuple[vf.motion.History, str]:
     still = kind in PRESSED
     shapes = ("steps", "ramps") if still else ("steps", "ramps", "start", "start from rest", "reversal", "stop")
     shape = str(rng.choice(shapes))
@@ -159,7 +159,9 @@ def _history(kind: str, load: float, length: float, rng: np.random.Generator) ->
         temperature, shape = np.interp(time, [0.0, DURATION], 300.0 + rng.uniform(-20.0, 30.0, 2)), f"{shape}, warming"
     moves = {} if still or not np.any(speeds) else {"speed": speed * speeds}
     given: dict[str, Any] = {control: load * values}
-    return vf.History(time, **given, **moves, temperature=temperature, before=before), f"{shape}, {control} given"
+    return vf.motion.History(
+        time, **given, **moves, temperature=temperature, before=before
+    ), f"{shape}, {control} given"
 
 
 def draw(number: int, accuracy: tuple[float, float] = (3e-3, 3e-2), kinds: tuple[str, ...] = KINDS) -> Case:
@@ -184,7 +186,9 @@ class _TooLongError(Exception):
     """A problem has taken more CPU time than allowed."""
 
 
-def solve_both(case: Case, seconds: float = math.inf) -> tuple[vf.TransientSolution, vf.TransientSolution]:
+def solve_both(
+    case: Case, seconds: float = math.inf
+) -> tuple[vf.motion.TransientSolution, vf.motion.TransientSolution]:
     """Solve a case as it stands, and much more finely at the same times."""
     begun = time.process_time()
 
@@ -192,16 +196,16 @@ def solve_both(case: Case, seconds: float = math.inf) -> tuple[vf.TransientSolut
         if time.process_time() - begun > seconds:
             raise _TooLongError
 
-    coarse = vf.solve_transient(case.material, case.body, case.history, **case.settings, progress=check)
+    coarse = vf.motion.solve_transient(case.material, case.body, case.history, **case.settings, progress=check)
     part = FINER_COSTLY if case.kind in COSTLY else FINER
     accuracy = part * case.settings["accuracy"]
     if case.kind in ON_SPRINGS:
         accuracy = min(accuracy, MOST_ON_SPRINGS)
     finer = dict(case.settings, accuracy=accuracy, times=coarse.time)
-    return coarse, vf.solve_transient(case.material, case.body, case.history, **finer, progress=check)
+    return coarse, vf.motion.solve_transient(case.material, case.body, case.history, **finer, progress=check)
 
 
-def compare(case: Case, coarse: vf.TransientSolution, fine: vf.TransientSolution) -> list[dict[str, Any]]:
+def compare(case: Case, coarse: vf.motion.TransientSolution, fine: vf.motion.TransientSolution) -> list[dict[str, Any]]:
     """Return, for each quantity, its errors as stated, as found, and as the finer solution states its own; (n,)."""
     rows = []
     for name, (value, error) in QUANTITIES.items():

@@ -93,7 +93,7 @@ def offset_problems() -> list[dict[str, Any]]:
 def offset_case(problem: dict[str, Any], seed: int) -> tuple[Planted, str]:
     """Return planted sweeps of such a problem, and the reference."""
     celsius, frequencies, reference = PROGRAMMES[problem["material"]]
-    shift = {"log10_b": vf.DensityShift(reference).log10} if problem.get("rising") else {}
+    shift = {"log10_b": vf.rheology.DensityShift(reference).log10} if problem.get("rising") else {}
     planted = planted_sweeps(
         seed,
         problem["noise"],

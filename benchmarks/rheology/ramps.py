@@ -27,7 +27,7 @@ CASES = {
 }
 #: Noise of a point, and correlation with that of its neighbour.
 NOISE = ((0.01, 0.0), (0.03, 0.0), (0.01, 0.7))
-LAW = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 2.0 * np.pi * 10.0, 333.15, "shear")
+LAW = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 2.0 * np.pi * 10.0, 333.15, "shear")
 
 
 def ramps(case: str, noise: float, alike: float, seeds: range) -> str:
@@ -55,10 +55,10 @@ def payne(seeds: range) -> str:
     scores = []
     for seed in seeds:
         scatter = 1.0 + 0.01 * np.random.default_rng(seed).standard_normal((2, len(strain)))
-        sweep = vf.AmplitudeSweep(
+        sweep = vf.readers.AmplitudeSweep(
             strain, scatter[0] * modulus.real, scatter[1] * modulus.imag, "10 Hz", 333.15, "shear"
         )
-        law = vf.fit_kraus(sweep).law
+        law = vf.rheology.fit_kraus(sweep).law
         scores.append((law.constants - LAW.constants) / np.array(law.standard_errors))
     shares = " | ".join(f"{one:.1%}" for one in np.mean(np.abs(scores) < 1.96, axis=0))
     return f"| {shares} |"

@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> None:
     contacts = asked.speeds * asked.seeds
     print(f"{contacts} contacts of {asked.points}² points: {cpu:.1f} s CPU ({cpu / contacts:.2f} s each), {wall:.1f} s")
     cpu = cpu_seconds()
-    theory = vf.persson_theory(rubber, vf.PowerSpectrum.self_affine(0.8, **waves), **where)
+    theory = vf.persson_theory(rubber, vf.roughness.PowerSpectrum.self_affine(0.8, **waves), **where)
     print(f"Persson's theory at {asked.speeds} speeds: {cpu_seconds() - cpu:.2f} s CPU")
     print("speed (m/s)   solved   theory  area solved   theory  stretch")
     for place, speed in enumerate(speeds):

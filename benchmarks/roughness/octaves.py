@@ -27,8 +27,8 @@ def compare(shortest: float, seeds: int) -> list[dict[str, Any]]:
     rubber = vf.catalogue_material("synthetic tread rubber")
     waves = {"rolloff": ROLLOFF, "shortest": shortest}
     all_waves = {"longest": PERIOD, "rolloff": ROLLOFF, "shortest": FINEST, "rms_slope": SLOPE}
-    slope = float(vf.PowerSpectrum.self_affine(0.8, **all_waves).rms_slope(shortest=shortest))
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=PERIOD, **waves, rms_slope=slope)
+    slope = float(vf.roughness.PowerSpectrum.self_affine(0.8, **all_waves).rms_slope(shortest=shortest))
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=PERIOD, **waves, rms_slope=slope)
     points = max(256, round(8 * PERIOD / shortest))
     grid = {"shape": (points, points), "spacing": PERIOD / points, "rms_slope": slope}
     tracks = [vf.self_affine(0.8, **grid, **waves, seed=seed) for seed in range(seeds)]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from docutils import nodes
 
-import viscofric
+from viscofric.lazy import full_names
 
 if TYPE_CHECKING:
     from sphinx.addnodes import pending_xref
@@ -21,7 +21,8 @@ _MARK = re.compile(r"(``.+?``|`[^`]+`_?)|([*|])")
 _INITIAL = re.compile(r"^(\s*)([A-Z]\. )")
 _EXAMPLE = re.compile(r"\s*(>>>|\.\.\. )")
 _NAME_AND_TYPE = re.compile(r"([\w, ]+) : (.+)")
-_PUBLIC = re.compile(r"\b(" + "|".join(sorted(viscofric.__all__, key=len, reverse=True)) + r")\b")
+_HOMES = full_names()
+_PUBLIC = re.compile(r"\b(" + "|".join(sorted(_HOMES, key=len, reverse=True)) + r")\b")
 
 
 def prepare(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
@@ -52,8 +53,9 @@ def plain_code(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: 
             pkgutil.resolve_name(target)
         except (ImportError, AttributeError):
             return None  # and Sphinx warns of it
-    elif target.split("(")[0] in viscofric.__all__:
-        return None  # it has a page, so that Sphinx should have found it
+    elif full := _HOMES.get(target.split("(")[0]):
+        document, domain = node["refdoc"], env.get_domain("py")
+        return domain.resolve_xref(env, document, app.builder, "obj", full, node, content)  # of another submodule
     return nodes.literal(target, content.astext())
 
 

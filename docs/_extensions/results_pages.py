@@ -15,7 +15,7 @@ import viscofric
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.study import StudyResults
+    from viscofric.study.results.results import StudyResults
 
 #: Groups that are alike for every number in their name.
 _NUMBERED = re.compile(r"^/(fields|materials)/\d+")

@@ -46,7 +46,9 @@ class AmplitudeSweep(Origin, Plotted):
     Examples
     --------
     >>> import viscofric as vf
-    >>> sweep = vf.AmplitudeSweep([1e-3, 1e-2, 1e-1], [5e6, 4e6, 2e6], [4e5, 6e5, 3e5], "10 Hz", "60 degC", "shear")
+    >>> sweep = vf.readers.AmplitudeSweep(
+    ...     [1e-3, 1e-2, 1e-1], [5e6, 4e6, 2e6], [4e5, 6e5, 3e5], "10 Hz", "60 degC", "shear"
+    ... )
     >>> sweep.in_tension(0.5).storage_modulus  # E = 2(1+ν)G
     array([15000000., 12000000.,  6000000.])
     """

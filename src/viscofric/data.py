@@ -360,7 +360,7 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
     --------
     >>> import numpy as np
     >>> import viscofric as vf
-    >>> curve = vf.MasterCurve(
+    >>> curve = vf.readers.MasterCurve(
     ...     np.array([0.1, 10.0]), np.array([3e6, 4e6]), np.array([3e5, 6e5]), np.full(2, 303.15), 303.15
     ... )
     """

@@ -40,7 +40,7 @@ class TemperatureRamp(Moduli, Plotted):
     Examples
     --------
     >>> import viscofric as vf
-    >>> ramp = vf.TemperatureRamp("1 Hz", [253.15, 263.15, 273.15], [9e8, 2e8, 2e7], [5e7, 9e7, 1e7])
+    >>> ramp = vf.readers.TemperatureRamp("1 Hz", [253.15, 263.15, 273.15], [9e8, 2e8, 2e7], [5e7, 9e7, 1e7])
     >>> len(ramp), ramp.loss_tangent.round(2)
     (3, array([0.06, 0.45, 0.5 ]))
     """
@@ -118,8 +118,10 @@ class TemperatureRamps(Origin, Plotted, Items[TemperatureRamp]):
     Examples
     --------
     >>> import viscofric as vf
-    >>> ramp = vf.TemperatureRamp("1 Hz", [253.15, 263.15, 273.15], [9e8, 2e8, 2e7], [5e7, 9e7, 1e7])
-    >>> vf.TemperatureRamps((ramp,), deformation="shear").in_tension(0.5).ramps[0].storage_modulus[0]  # E = 2(1+ν)G
+    >>> ramp = vf.readers.TemperatureRamp("1 Hz", [253.15, 263.15, 273.15], [9e8, 2e8, 2e7], [5e7, 9e7, 1e7])
+    >>> vf.readers.TemperatureRamps((ramp,), deformation="shear").in_tension(0.5).ramps[0].storage_modulus[
+    ...     0
+    ... ]  # E = 2(1+ν)G
     np.float64(2700000000.0)
     """
 

@@ -54,7 +54,7 @@ class StepTest(Shown):
     --------
     >>> import numpy as np
     >>> import viscofric as vf
-    >>> warm = vf.StepTest(298.15, np.array([0.1, 1.0, 10.0]), np.array([1.0e-7, 1.5e-7, 2.2e-7]))
+    >>> warm = vf.readers.StepTest(298.15, np.array([0.1, 1.0, 10.0]), np.array([1.0e-7, 1.5e-7, 2.2e-7]))
     """
 
     temperature: float
@@ -119,8 +119,8 @@ class StepTests(Origin, Plotted, Items[StepTest]):
     --------
     >>> import numpy as np
     >>> import viscofric as vf
-    >>> warm = vf.StepTest(298.15, np.array([0.1, 1.0, 10.0]), np.array([3.0e-7, 4.5e-7, 6.0e-7]))
-    >>> creep = vf.StepTests((warm,), kind="creep", deformation="shear")
+    >>> warm = vf.readers.StepTest(298.15, np.array([0.1, 1.0, 10.0]), np.array([3.0e-7, 4.5e-7, 6.0e-7]))
+    >>> creep = vf.readers.StepTests((warm,), kind="creep", deformation="shear")
     >>> creep.in_tension(0.5).tests[0].response  # D = J/(2(1+ν))
     array([1.0e-07, 1.5e-07, 2.0e-07])
     """
@@ -218,7 +218,9 @@ class StepMasterCurve(Plotted):
     --------
     >>> import numpy as np
     >>> import viscofric as vf
-    >>> curve = vf.StepMasterCurve(np.array([0.1, 10.0]), np.array([1e-7, 4e-7]), np.full(2, 303.15), 303.15, "creep")
+    >>> curve = vf.readers.StepMasterCurve(
+    ...     np.array([0.1, 10.0]), np.array([1e-7, 4e-7]), np.full(2, 303.15), 303.15, "creep"
+    ... )
     """
 
     time: Array

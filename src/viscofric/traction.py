@@ -145,7 +145,7 @@ class TractionRuns(Plotted):
     >>> import viscofric as vf
     >>> disc, ball = np.array([-0.1, -0.1, 0.1, 0.1]), np.array([-0.15, -0.05, 0.15, 0.05])
     >>> force = 0.3 + 1.1 * np.sign(disc - ball) + 0.4 * np.sign(disc)
-    >>> runs = vf.TractionRuns(
+    >>> runs = vf.readers.TractionRuns(
     ...     disc, ball, force, load=np.full(4, 25.0), temperature=np.full(4, 303.15), replicate=np.ones(4)
     ... )
     >>> vf.separate(runs).coulomb.round(3)  # 1.1 N of 25 N

@@ -18,10 +18,10 @@ from click.testing import CliRunner, Result
 
 from cli.refusals import refusal, refusal_of
 from marks import apart
+from viscofric import open_results
 from viscofric.cli import main
 from viscofric.cli.run import NOT_ACCURATE, print_outcome
 from viscofric.notes import Note, codes
-from viscofric.study import open_results
 from viscofric.study.results.file import save_results
 
 if TYPE_CHECKING:
@@ -160,7 +160,7 @@ def test_shuffled_and_repeated_rows_are_accepted_with_a_note(tmp_path: Path) -> 
     shuffled = "\n".join([*header, *rows[::-1], rows[0]])
     result = call("run", write(tmp_path, dma=shuffled))
     assert result.exit_code == 0, result.output
-    from viscofric.study import open_results
+    from viscofric import open_results
 
     assert {"sorted", "averaged"} <= codes(open_results(tmp_path / "study.results").notes)
 

@@ -26,7 +26,7 @@ def run(*arguments: str) -> str:
     return done.stdout
 
 
-def heated(**heating: object) -> vf.ContactSolution:
+def heated(**heating: object) -> vf.contact.ContactSolution:
     given = vf.Heating(rubber=FILLED_RUBBER, counterface=STEEL, coulomb=0.4, **heating)
     contact = {"speed": "0.1 m/s", "load": "500 N/m", "temperature": "30 degC", "accuracy": 0.1, "heating": given}
     return vf.solve_steady(vf.synthetic_fluoroelastomer(), vf.Cylinder("10 mm"), **contact)

@@ -108,7 +108,7 @@ def test_the_size_of_a_contact_is_an_anchor_too(option: str, text: str, name: st
     what = check_anchor(asked)
     assert what == option
     anchor = make_anchor(asked, what, "N")
-    assert isinstance(anchor, vf.ContactAnchor)
+    assert isinstance(anchor, vf.friction.ContactAnchor)
     assert getattr(anchor, name) == pytest.approx(value, rel=1e-12)
     assert (anchor.speed, anchor.load, anchor.temperature) == (1.0, 1.0, 300.0)
 

@@ -250,7 +250,7 @@ def test_ramp_prints_peaks_and_makes_a_material(tmp_path: Path) -> None:
 
 
 def test_amplitude_prints_the_linear_range_and_scales_a_material(tmp_path: Path) -> None:
-    law = vf.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 62.8, 333.15, "shear")
+    law = vf.rheology.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 62.8, 333.15, "shear")
     rows = ["temperature (degC),frequency (Hz),strain amplitude (%),G' (MPa),G'' (MPa)"]
     for strain in np.geomspace(1e-4, 0.5, 20):
         modulus = complex(law.complex_modulus(strain)) / 1e6

@@ -49,7 +49,9 @@ def lines(done: Result) -> dict[str, str]:
 
 def test_json_holds_what_python_gives() -> None:
     found = record("transient", *PRESS, "--times", "1 ms, 0.1 s")
-    run = vf.solve_transient(SOLID, vf.Ball("10 mm"), vf.History([0.0, 0.1], load=1.0), times=["1 ms", "0.1 s"])
+    run = vf.motion.solve_transient(
+        SOLID, vf.Ball("10 mm"), vf.motion.History([0.0, 0.1], load=1.0), times=["1 ms", "0.1 s"]
+    )
     results = found["results"]
     for name in ("time", "indentation", "contact_radius", "dissipated"):
         assert results[name] == getattr(run, name).tolist(), name
@@ -132,7 +134,9 @@ def test_strokes_go_forth_and_back(tmp_path: Path) -> None:
         "--speed", "0.1 m/s", "--strokes", 2, "--accuracy", 0.1, "--times", "20 ms, 30 ms, 40 ms",
     )  # fmt: skip
     found = record(*words)
-    history = vf.History([0, 0.02, 0.02, 0.03, 0.03, 0.04], load="200 N/m", speed=[0.0, 0.0, 0.1, 0.1, -0.1, -0.1])
+    history = vf.motion.History(
+        [0, 0.02, 0.02, 0.03, 0.03, 0.04], load="200 N/m", speed=[0.0, 0.0, 0.1, 0.1, -0.1, -0.1]
+    )
     inputs = found["inputs"]["history"]
     assert inputs["time"] == pytest.approx(history.time.tolist(), rel=1e-12)
     assert inputs["speed"] == history.speed.tolist()
@@ -153,8 +157,8 @@ def test_a_rough_surface_slides_under_a_pressure_and_goes_on_from_its_state(tmp_
         0.1,
     )  # fmt: skip
     begun = record(*words, "--slide", "10 um", "--save-state", tmp_path / "begun.npz")
-    history = vf.History([0.0, 1e-3, 1e-3, 2e-3], pressure="20 kPa", speed=[0.0, 0.0, 0.01, 0.01])
-    run = vf.solve_transient(SOLID, vf.PeriodicSurface(heights, "10 um"), history, accuracy=0.1)
+    history = vf.motion.History([0.0, 1e-3, 1e-3, 2e-3], pressure="20 kPa", speed=[0.0, 0.0, 0.01, 0.01])
+    run = vf.motion.solve_transient(SOLID, vf.contact.PeriodicSurface(heights, "10 um"), history, accuracy=0.1)
     assert begun["results"]["friction_coefficient"] == pytest.approx(run.friction_coefficient.tolist(), abs=1e-12)
     assert begun["inputs"]["indenter"]["points"] == [16, 4]
     again = record(*words, "--slide", "20 um", "--resume", tmp_path / "begun.npz")
@@ -175,8 +179,8 @@ def test_a_contact_on_cells_goes_on_from_its_state(tmp_path: Path) -> None:
     words = ("transient", *RUBBER, "--cylinder", "10 mm", "--load", "1 kN/m", "--speed", "50 mm/s", "--accuracy", 0.05)
     record(*words, "--slide", "0.5 mm", "--save-state", tmp_path / "begun.npz")
     again = record(*words, "--slide", "1 mm", "--times", "20 ms", "--resume", tmp_path / "begun.npz")["results"]
-    history = vf.History([0.0, 0.02], load=1e3, speed=0.05)
-    run = vf.solve_transient(SOLID, vf.Cylinder("10 mm"), history, times=[0.02], accuracy=0.05)
+    history = vf.motion.History([0.0, 0.02], load=1e3, speed=0.05)
+    run = vf.motion.solve_transient(SOLID, vf.Cylinder("10 mm"), history, times=[0.02], accuracy=0.05)
     assert (0.01, again["time"][-1]) == (pytest.approx(again["time"][-2]), 0.02)
     away = abs(again["friction_force"][-1] - run.friction_force[-1])
     assert away <= again["friction_force_error"][-1] + run.errors.friction_force[-1]
@@ -187,8 +191,8 @@ def test_a_repeated_history_has_its_periodic_state(tmp_path: Path) -> None:
     table = "".join(f"{t},{d}\n" for t, d in zip(phase / 100.0, 100.0 + 3.0 * np.sin(phase), strict=True))
     (tmp_path / "period.csv").write_text("t (s),depth (um)\n" + table, encoding="utf-8")
     words = ("transient", *RUBBER, *BALL, "--history", tmp_path / "period.csv", "--cycle", "--accuracy", 0.1)
-    history = vf.read_history(tmp_path / "period.csv")
-    cycle = vf.solve_cycle(SOLID, vf.Ball("10 mm"), history, accuracy=0.1)
+    history = vf.motion.read_history(tmp_path / "period.csv")
+    cycle = vf.motion.solve_cycle(SOLID, vf.Ball("10 mm"), history, accuracy=0.1)
     found = record(*words)["results"]
     assert (found["loss_stiffness"], found["periods"]) == (cycle.loss_stiffness, cycle.periods)
     said = lines(call(*words, "--picture", tmp_path / "cycle.svg"))
@@ -260,7 +264,9 @@ def test_mistakes_are_refused(
 def test_one_impact_is_reported_with_its_rebounds(tmp_path: Path) -> None:
     words = ("impact", *HIT, "--speed", "0.1 m/s", "--gravity", "9.81 m/s^2", "--rebounds", 2, "--accuracy", 1e-2)
     found = record(*words)
-    hit = vf.solve_impact(SOLID, vf.Ball("10 mm"), mass="33 g", speed=0.1, gravity=9.81, rebounds=2, accuracy=1e-2)
+    hit = vf.motion.solve_impact(
+        SOLID, vf.Ball("10 mm"), mass="33 g", speed=0.1, gravity=9.81, rebounds=2, accuracy=1e-2
+    )
     assert [one["restitution"] for one in found["contacts"]] == [one.restitution for one in hit.contacts]
     assert found["results"]["velocity"] == hit.velocity.tolist()
     done = call(*words, "--picture", tmp_path / "hit.svg", "--out", tmp_path / "hit.nc")
@@ -275,7 +281,7 @@ def test_several_impacts_are_a_curve(tmp_path: Path) -> None:
     words = ("impact", *HIT, "--speed", "0.1 m/s, 1 m/s")
     found = record(*words)
     assert found["results"]["speed"] == [0.1, 1.0]
-    hit = vf.solve_impact(SOLID, vf.Ball("10 mm"), mass="33 g", speed="0.1 m/s")
+    hit = vf.motion.solve_impact(SOLID, vf.Ball("10 mm"), mass="33 g", speed="0.1 m/s")
     assert found["results"]["restitution"][0] == hit.restitution
     done = call(*words, "--picture", tmp_path / "curve.svg", "--out", tmp_path / "curve.csv")
     assert (tmp_path / "curve.svg").stat().st_size > 0

@@ -9,11 +9,11 @@ import pytest
 from click.testing import CliRunner, Result
 
 from cli.refusals import refusal
+from viscofric import open_results
 from viscofric.cli import main
 from viscofric.cli.check import duration
 from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
 from viscofric.report.texts.checks import all_checks
-from viscofric.study import open_results
 
 if TYPE_CHECKING:
     from pathlib import Path

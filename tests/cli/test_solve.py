@@ -41,7 +41,7 @@ def record(*arguments: object) -> dict[str, Any]:
 
 
 @cache
-def expected(**arguments: Any) -> vf.ContactSolution:
+def expected(**arguments: Any) -> vf.contact.ContactSolution:
     rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
     return vf.solve_steady(rubber, vf.Ball("10 mm"), **{"speed": "1 m/s", "load": "1 N", **arguments})
 

@@ -44,23 +44,23 @@ def backend(request: pytest.FixtureRequest) -> Backend:
     return available(request.param)
 
 
-def ball(backend: Backend | str) -> vf.ContactSolution:
+def ball(backend: Backend | str) -> vf.contact.ContactSolution:
     rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
     return vf.solve_steady(
         rubber, vf.Ball(radius=0.01), speed=1.0, load=1.0, accuracy=0.02, tolerance=TOLERANCE, backend=backend
     )
 
 
-def roller(backend: Backend | str) -> vf.ContactSolution:
+def roller(backend: Backend | str) -> vf.contact.ContactSolution:
     rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
     return vf.solve_steady(
         rubber, vf.Cylinder(radius=0.01), speed=1.0, load=100.0, accuracy=0.02, tolerance=TOLERANCE, backend=backend
     )
 
 
-def rough(backend: Backend | str, *, speed: float, **given: float) -> vf.PeriodicSolution:
+def rough(backend: Backend | str, *, speed: float, **given: float) -> vf.contact.PeriodicSolution:
     modes = vf.RetardationSpectrum(1.0, 100.0, np.full(20, 0.99 / 20), np.logspace(-4, 1, 20))
-    surface = vf.PeriodicSurface(self_affine(64), 1.0 / 64)
+    surface = vf.contact.PeriodicSurface(self_affine(64), 1.0 / 64)
     return vf.solve_periodic(
         vf.Material(modes), surface, speed=speed, tolerance=TOLERANCE, backend=backend, **given or {"pressure": 0.1}
     )
@@ -77,7 +77,7 @@ CONTACTS = {
 
 
 @cache
-def by_scipy(name: str) -> vf.ContactSolution | vf.PeriodicSolution:
+def by_scipy(name: str) -> vf.contact.ContactSolution | vf.contact.PeriodicSolution:
     return CONTACTS[name]("scipy")
 
 

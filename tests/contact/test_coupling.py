@@ -30,7 +30,9 @@ def solved_change(solve: Any, **given: Any) -> float:
     return 0.5 * abs(both[0] - both[1])
 
 
-def free_contact(solution: vf.ContactSolution, one: vf.Material, layer: vf.Layer | None, line: bool) -> ShearedContact:
+def free_contact(
+    solution: vf.contact.ContactSolution, one: vf.Material, layer: vf.Layer | None, line: bool
+) -> ShearedContact:
     radius = 0.5 * solution.contact_area if line else math.sqrt(solution.contact_area / math.pi)
     modes, ratio = one.modes_at(), one.poisson_ratio
     return ShearedContact(
@@ -60,7 +62,7 @@ def test_the_change_of_a_free_contact_is_that_of_contacts_solved_with_shear(
     one = material(poisson_ratio)
     indenter, load = (vf.Cylinder("10 mm"), 100.0) if line else (vf.Ball("10 mm"), 0.5)
 
-    def solve(coulomb: float = 0.0) -> vf.ContactSolution:
+    def solve(coulomb: float = 0.0) -> vf.contact.ContactSolution:
         return vf.solve_steady(one, indenter, speed=speed, load=load, accuracy=1e-2, layer=layer, coulomb=coulomb)
 
     found, cancels = free_contact(solve(), one, layer, line).change, layer is not None and poisson_ratio < 0.5
@@ -90,11 +92,11 @@ def test_the_change_on_a_rough_surface_is_that_of_contacts_solved_with_shear(
         for pressure in pressures:
             given = {"speed": speed, "pressure": pressure, "temperature": "30 degC", "layer": layer}
 
-            def solve(coulomb: float = 0.0, given: dict[str, Any] = given) -> vf.PeriodicSolution:
+            def solve(coulomb: float = 0.0, given: dict[str, Any] = given) -> vf.contact.PeriodicSolution:
                 return vf.solve_periodic(rubber, surface.to_surface(), coulomb=coulomb, **given)
 
             plain = solve()
-            area = vf.contact_statistics(plain).corrected_area_fraction
+            area = vf.roughness.contact_statistics(plain).corrected_area_fraction
             found = coupled.contact(COULOMB, plain.friction_coefficient, area, pressure).change
             assert 1.0 / FACTOR < solved_change(solve) / found < FACTOR
 
@@ -143,7 +145,7 @@ def test_contacts_that_coulomb_friction_heats_have_the_note_of_their_shear() -> 
     """Steady, in a curve and over time, the same change: 0.477 μ_c β a/R of Hertz's ball, to the factor stated."""
     ball = vf.Ball("9.525 mm")
 
-    def steady(poisson_ratio: float) -> vf.ContactSolution:
+    def steady(poisson_ratio: float) -> vf.contact.ContactSolution:
         rubber = replace(vf.synthetic_fluoroelastomer(), poisson_ratio=poisson_ratio)
         return vf.solve_steady(rubber, ball, speed=0.1, load=5.0, temperature="60 degC", heating=HEATING, accuracy=1e-2)
 
@@ -152,8 +154,8 @@ def test_contacts_that_coulomb_friction_heats_have_the_note_of_their_shear() -> 
     curve = vf.predict_friction(
         rubber, ball, speeds=0.1, load=5.0, temperatures="60 degC", heating=HEATING, accuracy=1e-2
     )
-    history = vf.History(time=[0.0, 1e-3, 0.05], load=5.0, speed=0.1, temperature="60 degC")
-    run = vf.solve_transient(rubber, ball, history, heating=HEATING, accuracy=5e-2)
+    history = vf.motion.History(time=[0.0, 1e-3, 0.05], load=5.0, speed=0.1, temperature="60 degC")
+    run = vf.motion.solve_transient(rubber, ball, history, heating=HEATING, accuracy=5e-2)
     changes = [
         note.values["change"]
         for said in (one.warnings, curve.notes, run.warnings)
@@ -171,10 +173,10 @@ def test_rough_surfaces_have_the_note_whatever_makes_their_coulomb_friction() ->
     case: dict[str, Any] = {"speeds": 0.01, "pressure": "0.1 MPa", "temperatures": "60 degC"}
     heated = vf.predict_rough_friction(rubber, surface, heating=replace(HEATING, nominal_radius="5 mm"), **case)
     # The friction of this interface is the Coulomb friction above, on the area of the same contact.
-    law = vf.ConstantShearStress(0.3 * 1e5 / float(heated.corrected_area_fraction[0, 0, 0]))
+    law = vf.friction.ConstantShearStress(0.3 * 1e5 / float(heated.corrected_area_fraction[0, 0, 0]))
     rubbed = vf.predict_rough_friction(rubber, surface, interface=law, **case)
     sheared = vf.predict_rough_friction(rubber, surface, coulomb=0.3, interface=law, **case)
-    theory = vf.persson_theory(rubber, vf.power_spectrum(surface), heating=HEATING, **case)
+    theory = vf.persson_theory(rubber, vf.roughness.power_spectrum(surface), heating=HEATING, **case)
     found = [
         note.values["change"]
         for one in (heated, rubbed, theory)

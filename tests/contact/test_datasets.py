@@ -38,13 +38,13 @@ def test_derivatives_lie_along_the_modes(contact):
 def test_a_displacement_has_its_window(contact):
     modes = RUBBER.spectrum
     solid = {"E_inf": modes.E_inf, "C": modes.C, "tau": modes.tau, "poisson_ratio": 0.5}
-    surface = vf.surface_displacement(contact.x, contact.y, contact.pressure, speed=1.0, **solid)
+    surface = vf.contact.surface_displacement(contact.x, contact.y, contact.pressure, speed=1.0, **solid)
     np.testing.assert_array_equal(surface.to_dataset()["displacement"], surface.displacement)
 
 
 def test_stresses_are_labelled_with_given_coordinates(contact):
     depths = [1e-4, 3e-4]
-    stress = vf.line_stress(contact.x, contact.pressure, depths, 0.5)
+    stress = vf.contact.line_stress(contact.x, contact.pressure, depths, 0.5)
     found = stress.to_dataset(x=contact.x, depth=depths)
     assert found["von_mises"].dims == ("x", "depth")
     assert found["xx"].attrs == {"units": "Pa", "long_name": "stress xx"}
@@ -77,7 +77,7 @@ def test_a_contact_has_its_numbers_with_units_and_errors(contact):
 
 
 def test_a_rough_contact_has_its_numbers_with_units():
-    surface = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16)[:, None], spacing="10 um")
+    surface = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16)[:, None], spacing="10 um")
     solution = vf.solve_periodic(RUBBER, surface, speed=1.0, pressure="0.2 kPa")
     found = solution.to_dataset()
     assert float(found["mean_contact_pressure"]) == pytest.approx(200.0 / solution.contact_area_fraction)

@@ -106,7 +106,7 @@ def test_values_go_on_behind_the_moving_contact(toward: tuple[float, float], way
 @pytest.mark.parametrize("toward", [(1.0, 0.0), (0.6, 0.8), (-1.0, 0.2)])
 def test_contact_that_moves_any_way_is_the_same_by_the_array_standard(toward: tuple[float, float]) -> None:
     pytest.importorskip("array_api_strict")
-    rubber, surface = vf.Material(SPECTRUM, poisson_ratio=0.4), vf.PeriodicSurface(self_affine(32), 1.0 / 32)
+    rubber, surface = vf.Material(SPECTRUM, poisson_ratio=0.4), vf.contact.PeriodicSurface(self_affine(32), 1.0 / 32)
     one, other = (
         vf.solve_periodic(rubber, surface, speed=5.0, pressure=0.1, direction=toward, backend=backend)
         for backend in ("scipy", "array_api_strict")
@@ -140,7 +140,7 @@ def test_going_on_behind_spares_work_where_memories_are_some_cells_long(
     points = 256
     z = interpolated(self_affine(32), (points, points))
     z = z if angle != math.pi else np.roll(z[::-1], 1, axis=0)  # the same contact, mirrored
-    surface, rubber = vf.PeriodicSurface(z, 1.0 / points), vf.Material(SPECTRUM, poisson_ratio=0.4)
+    surface, rubber = vf.contact.PeriodicSurface(z, 1.0 / points), vf.Material(SPECTRUM, poisson_ratio=0.4)
 
     def ffts() -> int:
         direction = math.cos(angle), math.sin(angle)

@@ -16,7 +16,7 @@ A0 = HERTZ_RADIUS
 WIDE = (0.75 * A0, 1.5 * A0, 1.25 * A0)
 
 
-def solve(**settings: Any) -> vf.ContactSolution:
+def solve(**settings: Any) -> vf.contact.ContactSolution:
     return vf.solve_steady(PROBLEM.material, PROBLEM.ball, speed=PROBLEM.speed, load=PROBLEM.load, **settings)
 
 

@@ -27,12 +27,12 @@ STATE: dict[str, Any] = {"speed": 1.0, "load": 100.0, "temperature": 300.0, "acc
 
 
 @cache
-def line(**heating: Any) -> vf.ContactSolution:
+def line(**heating: Any) -> vf.contact.ContactSolution:
     given = {"rubber": RUBBER, "counterface": PTFE, "coulomb": 0.5, "slip": "0.5 m/s", "average": "contact", **heating}
     return vf.solve_steady(WARM, CYLINDER, **STATE, heating=vf.Heating(**given))
 
 
-def released(contact: vf.ContactSolution, tau: float, room: float) -> tuple[LayeredHeat, float]:
+def released(contact: vf.contact.ContactSolution, tau: float, room: float) -> tuple[LayeredHeat, float]:
     """Return the layers of loss below a contact repeated after so many half-widths, and their sum over μFv."""
     half, step = float(np.sqrt(contact.contact_area / np.pi)), float(contact.x[1] - contact.x[0])
     if contact.geometry == "line":
@@ -106,7 +106,7 @@ def test_the_cells_hold_their_part_of_a_long_memory(tau: float, near: float) -> 
     assert 1.0 - found.beyond == pytest.approx(near, abs=0.05)
 
 
-def released_below(contact: vf.ContactSolution, modes: Modes) -> float:
+def released_below(contact: vf.contact.ContactSolution, modes: Modes) -> float:
     """Return the loss in the whole half-space below a line contact, W/m, summed over waves without end."""
     step, pressure = float(contact.x[1] - contact.x[0]), contact.pressure[:, 0]
     wave = np.geomspace(1e-5 / (len(pressure) * step + contact.speed * modes.tau.max()), 40.0 / step, 2000)
@@ -129,7 +129,7 @@ def test_all_of_the_loss_is_released_over_the_whole_memory(seed: int) -> None:
         assert loss == pytest.approx(contact.friction_force * contact.speed, rel=1e-3)
 
 
-def released_below_ball(contact: vf.ContactSolution, modes: Modes) -> float:
+def released_below_ball(contact: vf.contact.ContactSolution, modes: Modes) -> float:
     """Return the same below a ball, W, of waves in all directions."""
     steps = np.array([contact.x[1] - contact.x[0], contact.y[1] - contact.y[0]])
     wave = np.geomspace(1e-4 / (len(contact.x) * steps[0] + contact.speed * modes.tau.max()), 40.0 / steps[0], 1200)
@@ -165,7 +165,7 @@ def test_a_ball_warms_like_a_disc_of_its_area() -> None:
     modes = Modes(np.array([9e-7]), np.array([1e-3]))
     found = thermal_resistances(contact, modes, 0.5, vf.Heating(rubber=RUBBER, counterface=PTFE, slip=0.015))
     radius = np.sqrt(contact.contact_area / np.pi)
-    rubber, other = (vf.MovingHeatSource(1.0, radius, v, body) for v, body in ((0.02, RUBBER), (0.005, PTFE)))
+    rubber, other = (vf.heat.MovingHeatSource(1.0, radius, v, body) for v, body in ((0.02, RUBBER), (0.005, PTFE)))
     assert found.surface == pytest.approx(rubber.mean_temperature, rel=0.01)
     assert found.counterface == pytest.approx(other.mean_temperature, rel=0.01)
     assert 0.0 < found.loss < found.loss_below < found.surface
@@ -267,14 +267,14 @@ def test_a_search_for_states_ends_where_the_law_of_the_interface_does() -> None:
     asked = {"speeds": [0.5, 1.0], "load": 100.0, "temperatures": 300.0, "accuracy": 0.1, "heating": heating}
 
     def friction(stress: str) -> vf.FrictionCurves:
-        law = vf.PowerShearStress(stress=stress, exponent=0.1, speed="0.5 m/s", shift=shift)
+        law = vf.friction.PowerShearStress(stress=stress, exponent=0.1, speed="0.5 m/s", shift=shift)
         return vf.predict_friction(WARM, CYLINDER, interface=law, **asked)
 
     mild, unbounded = friction("20 kPa"), shift.unbounded()
-    law = vf.PowerShearStress(stress="20 kPa", exponent=0.1, speed="0.5 m/s", shift=unbounded)
+    law = vf.friction.PowerShearStress(stress="20 kPa", exponent=0.1, speed="0.5 m/s", shift=unbounded)
     free = vf.predict_friction(WARM, CYLINDER, interface=law, **asked)
-    assert isinstance(mild, vf.HeatedFrictionCurves)
-    assert isinstance(free, vf.HeatedFrictionCurves)
+    assert isinstance(mild, vf.friction.HeatedFrictionCurves)
+    assert isinstance(free, vf.friction.HeatedFrictionCurves)
     np.testing.assert_allclose(mild.temperature_rise, free.temperature_rise, rtol=1e-2)
     assert "states-beyond" not in codes(mild.notes)
     with refused("beyond-interface"):

@@ -60,8 +60,8 @@ def test_resistances_between_knots_are_those_of_the_contacts(monkeypatch: pytest
     found = curve()
     monkeypatch.setattr(heated_curve, "knots_of", lambda contacts: list(range(len(contacts))))
     each = curve()
-    assert isinstance(found, vf.HeatedFrictionCurves)
-    assert isinstance(each, vf.HeatedFrictionCurves)
+    assert isinstance(found, vf.friction.HeatedFrictionCurves)
+    assert isinstance(each, vf.friction.HeatedFrictionCurves)
     assert each.temperature_rise.max() > 0.5
     assert found.temperature_rise == pytest.approx(each.temperature_rise, rel=1e-2)
     assert found.viscoelastic == pytest.approx(each.viscoelastic, rel=2e-3)
@@ -79,11 +79,11 @@ def test_resistances_between_knots_are_those_of_rough_contacts(
     road = vf.self_affine(0.8, shape=(64, 64), spacing=1.5e-5, shortest=1.2e-4, rms_slope=0.2, seed=1)
     speeds = np.concatenate([np.geomspace(0.02, 0.5, 15), [-0.1]])
 
-    def curve() -> vf.HeatedRoughFriction:
+    def curve() -> vf.roughness.HeatedRoughFriction:
         found = vf.predict_rough_friction(
             material, road, speeds=speeds, temperatures=303.15, pressure="0.2 MPa", heating=heating
         )
-        assert isinstance(found, vf.HeatedRoughFriction)
+        assert isinstance(found, vf.roughness.HeatedRoughFriction)
         return found
 
     found = curve()

@@ -29,13 +29,13 @@ ONE_MODE = Modes(np.array([9e-7]), np.array([1e-3]))
 WAVES = Waves((POINTS, 1), (PERIOD, 1.0))
 
 
-def road(points: int, shortest: float = 1.6e-4) -> vf.PeriodicSurface:
+def road(points: int, shortest: float = 1.6e-4) -> vf.contact.PeriodicSurface:
     made = vf.self_affine(0.8, shape=(points, points), spacing=1e-3 / points, shortest=shortest, rms_slope=0.2, seed=1)
     return made.to_surface()
 
 
 @cache
-def heated(**heating: Any) -> vf.PeriodicSolution:
+def heated(**heating: Any) -> vf.contact.PeriodicSolution:
     given = vf.Heating(**({"rubber": RUBBER, "counterface": STONE, "coulomb": 0.5, "average": "contact"} | heating))
     return vf.solve_periodic(WARM, road(16, 2.5e-4), speed=0.1, pressure="0.2 MPa", temperature=300.0, heating=given)
 
@@ -188,7 +188,7 @@ def test_the_nominal_contact_adds_the_rise_of_its_disc() -> None:
     spots = heated(average="loss").heating
     assert whole is not None
     assert spots is not None
-    disc = vf.MovingHeatSource(
+    disc = vf.heat.MovingHeatSource(
         whole.rubber_heat * np.pi * 0.005**2, "5 mm", speed=0.1, body=RUBBER, distribution="uniform"
     )
     added = whole.face_rise - spots.face_rise

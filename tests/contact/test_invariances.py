@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    Solution = vf.ContactSolution | vf.PeriodicSolution
+    Solution = vf.contact.ContactSolution | vf.contact.PeriodicSolution
 
 SHARES, TIMES = (0.2, 0.5, 0.3), (0.03, 0.5, 8.0)  # of 1/E0 − 1/E∞, and in units of a0/v
 MODULUS_RATIO, ACCURACY = 30.0, 0.02
@@ -53,7 +53,7 @@ def periodic(
     material: vf.Material, *, lengths: float = 1.0, speed: float = SPEED, force: float = 1.0, **more
 ) -> Solution:
     z = PERIOD * self_affine(POINTS, points_per_shortest_wave=6.0)
-    surface = vf.PeriodicSurface(lengths * z, lengths * PERIOD / POINTS)
+    surface = vf.contact.PeriodicSurface(lengths * z, lengths * PERIOD / POINTS)
     pressure = force * MEAN_PRESSURE
     return vf.solve_periodic(material, surface, speed=speed, pressure=pressure, direction=(2.0, 1.0), **more)
 

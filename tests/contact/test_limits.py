@@ -86,7 +86,7 @@ def test_a_free_contact_is_the_limit_of_wide_periods_and_a_far_one() -> None:
     cell, missing = 0.1, []
     for cells in (24, 48, 96, 192):
         x = (np.arange(cells) - cells // 2 + 0.5) * cell * HERTZ_RADIUS
-        surface = vf.PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * BALL_RADIUS), cell * HERTZ_RADIUS)
+        surface = vf.contact.PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * BALL_RADIUS), cell * HERTZ_RADIUS)
         mean = LOAD / (cells * cell * HERTZ_RADIUS) ** 2
         # The pressure is held against the parabola's own slope, which has kinks where the periods join.
         found = vf.solve_periodic(problem.material, surface, speed=SPEED, pressure=mean, tolerance=1e-6)
@@ -111,7 +111,7 @@ def thin_layer_error(known: ThinLayerContact, load: float, poisson_ratio: float,
     rubber = vf.Material.standard_linear_solid(1.0, 10.0, 1.0, poisson_ratio)
     solution = vf.solve_periodic(
         rubber,
-        vf.PeriodicSurface(z, period / points),
+        vf.contact.PeriodicSurface(z, period / points),
         speed=0.0,
         pressure=load / (period if plane else period**2),
         layer=vf.Layer(known.thickness, bonded),
@@ -167,7 +167,9 @@ def test_oblique_wave_in_full_contact_has_its_closed_form(speed: float, waves: t
     x, y = (np.arange(count)[:, None] / count for count in points)
     z = amplitude * np.cos(2.0 * np.pi * (waves[0] * x + waves[1] * y.T))
     spacing = (2.0 / points[0], 3.0 / points[1])  # a period of 2 by 3
-    found = vf.solve_periodic(rubber, vf.PeriodicSurface(z, spacing), speed=speed, pressure=1.0, direction=direction)
+    found = vf.solve_periodic(
+        rubber, vf.contact.PeriodicSurface(z, spacing), speed=speed, pressure=1.0, direction=direction
+    )
     q = 2.0 * np.pi * np.array([waves[0] / 2.0, waves[1] / 3.0])
     along = float(q @ direction)
     loss = complex(rubber.complex_modulus(np.array([along * speed]))[0]).imag
@@ -185,7 +187,7 @@ def test_elastic_indenter_on_a_layer_is_no_layer_itself(bonded: bool) -> None:
     z = amplitude * np.cos(2.0 * np.pi * np.arange(points) / points)
     rubber, layer = vf.Material.standard_linear_solid(1.0, 10.0, 1.0, ratio), vf.Layer(thickness, bonded)
     found = vf.solve_periodic(
-        rubber, vf.PeriodicSurface(z, 1.0 / points), speed=0.0, pressure=1.0, layer=layer,
+        rubber, vf.contact.PeriodicSurface(z, 1.0 / points), speed=0.0, pressure=1.0, layer=layer,
         indenter_modulus=modulus, indenter_poisson_ratio=0.2,
     )  # fmt: skip
     q = 2.0 * np.pi

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 BALL, CYLINDER = vf.Ball("10 mm"), vf.Cylinder("10 mm")
 BOWL = vf.HeightMap(np.square(np.linspace(-1e-4, 1e-4, 9))[:, None] + np.square(np.linspace(-1e-4, 1e-4, 9)), 25e-6)
-WAVE = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16), spacing=1e-4)
+WAVE = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16), spacing=1e-4)
 
 
 def solve(indenter: vf.Ball | vf.Cylinder | vf.FlatPunch | vf.HeightMap = BALL, **settings: object) -> None:
@@ -98,7 +98,7 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         "gap = '1 m': the surfaces do not touch; give a mean gap below that at the first touch, 1e-06 m.",
     ),
     (
-        lambda: vf.Backend("jax"),
+        lambda: vf.contact.Backend("jax"),
         "unknown-backend",
         "backend = 'jax': not known; give 'scipy'",
     ),

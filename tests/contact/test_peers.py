@@ -94,7 +94,7 @@ def test_hertz_contact_on_a_free_half_space_is_that_of_other_programs(tool: str)
 
 @pytest.mark.parametrize("tool", TOOLS)
 def test_rough_periodic_contact_is_that_of_other_programs(tool: str) -> None:
-    surface = vf.PeriodicSurface(self_affine(64, seed=3), 1.0 / 64)
+    surface = vf.contact.PeriodicSurface(self_affine(64, seed=3), 1.0 / 64)
     ours = vf.solve_periodic(ELASTIC, surface, speed=0.0, pressure=0.1, tolerance=TOLERANCE)
     given = {
         "boundary": "periodic",

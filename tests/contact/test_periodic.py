@@ -44,7 +44,7 @@ def table(frequencies: tuple[float, float] = (1e-3, 1e5)) -> vf.Material:
     omega = np.logspace(*np.log10(frequencies), 200)
     modulus = broad().complex_modulus(omega)
     return vf.Material(
-        vf.ModulusTable(omega, modulus.real, modulus.imag, extrapolate="plateau"), poisson_ratio=POISSON_RATIO
+        vf.rheology.ModulusTable(omega, modulus.real, modulus.imag, extrapolate="plateau"), poisson_ratio=POISSON_RATIO
     )
 
 
@@ -385,7 +385,7 @@ def test_table_is_asked_only_for_frequencies_that_there_are() -> None:
     """A profile has no wave at rest; a surface has those across the motion, which only a plateau can answer."""
     omega = np.logspace(-1, 3, 50)
     modulus = broad().complex_modulus(omega)
-    short = vf.Material(vf.ModulusTable(omega, modulus.real, modulus.imag), poisson_ratio=POISSON_RATIO)
+    short = vf.Material(vf.rheology.ModulusTable(omega, modulus.real, modulus.imag), poisson_ratio=POISSON_RATIO)
     surface = rough(32)
     profile = PeriodicSurface(surface.z[:, 3], 1.0 / 32)
     found = solve_periodic(short, profile, speed=1.0, pressure=0.05)

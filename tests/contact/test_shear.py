@@ -91,7 +91,7 @@ def test_a_sheared_ball_on_a_bonded_layer_agrees_with_fourier_series() -> None:
     """Transfer functions of waves against kernels in space; images of the contact are eight thicknesses away."""
     layer, period, points = vf.Layer("0.5 mm"), 8e-3, 128
     x = (np.arange(points) - 0.5 * points) * period / points
-    surface = vf.PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * RADIUS), spacing=period / points)
+    surface = vf.contact.PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * RADIUS), spacing=period / points)
     for coulomb, speed in ((0.8, 0.5), (-0.8, -0.5)):  # slip with and against the motion, and motion to and fro
         motion = {"speed": speed, "coulomb": coulomb, "layer": layer}
         free = vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), load=0.5, accuracy=5e-3, **motion)
@@ -103,7 +103,9 @@ def test_a_sheared_ball_on_a_bonded_layer_agrees_with_fourier_series() -> None:
 def test_full_contact_under_shear_has_the_friction_of_each_wave() -> None:
     """A wave of amplitude h needs the pressure h/T: F = q Im T |p̂|²/2 with T of the half-space under shear."""
     points, amplitude, coulomb, pressure = 32, 1e-6, 0.7, 1e6
-    wave = vf.PeriodicSurface(amplitude * np.cos(2.0 * np.pi * np.arange(points) / points), spacing=1e-3 / points)
+    wave = vf.contact.PeriodicSurface(
+        amplitude * np.cos(2.0 * np.pi * np.arange(points) / points), spacing=1e-3 / points
+    )
     found = vf.solve_periodic(rubber(0.3), wave, speed=0.0, pressure=pressure, coulomb=coulomb)
     q = 2.0 * np.pi / 1e-3
     transfer = 2.0 * (1.0 - 0.3**2) / (MODULUS * q) * (1.0 - 1j * coulomb * half_space_coupling(0.3))
@@ -129,7 +131,7 @@ def test_a_sheared_ball_on_a_sliding_layer_agrees_with_fourier_series() -> None:
     """
     layer, period, points = vf.Layer("0.5 mm", bonded=False), 8e-3, 64
     x = (np.arange(points) - 0.5 * points) * period / points
-    surface = vf.PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * RADIUS), spacing=period / points)
+    surface = vf.contact.PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * RADIUS), spacing=period / points)
     sheared = {"speed": 0.0, "coulomb": 0.8, "layer": layer}
     free = vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), load=0.5, accuracy=5e-3, **sheared)
     periodic = vf.solve_periodic(rubber(0.3), surface, pressure=0.5 / period**2, **sheared)

@@ -68,7 +68,7 @@ def test_any_first_guess_leads_to_the_one_solution(kind: str, control: str) -> N
 # --- estimates cover ------------------------------------------------------------------------------
 
 
-def sound(coarse: vf.ContactSolution, fine: vf.ContactSolution) -> None:
+def sound(coarse: vf.contact.ContactSolution, fine: vf.contact.ContactSolution) -> None:
     """Check a solution against a much finer one, within the errors that both state."""
     stated, true = coarse.diagnostics, fine.diagnostics
     for found, known, error in (

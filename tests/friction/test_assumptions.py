@@ -31,7 +31,7 @@ def solved_curves() -> vf.FrictionCurves:
     return friction_curves(SPEED, KELVIN, np.array([0.00781, 0.00493, 0.02516, 0.01585]))
 
 
-def checks(*arguments, **settings) -> dict[str, vf.AssumptionCheck]:
+def checks(*arguments, **settings) -> dict[str, vf.friction.AssumptionCheck]:
     return {check.name: check for check in vf.check_assumptions(*arguments, **settings)}
 
 
@@ -225,7 +225,7 @@ def test_curves_predicted_with_heating_hold_their_coulomb_friction_and_its_effec
     heating = vf.Heating(rubber=body, counterface=PTFE, coulomb=0.5, slip="0.4 m/s", average="contact")
     asked = {"speeds": 0.2, "temperatures": 333.15, "load": 25.0, "accuracy": 1e-2}
     cold, hot = (vf.predict_friction(RUBBER, BALL, heating=one, **asked) for one in (None, heating))
-    assert isinstance(hot, vf.HeatedFrictionCurves)
+    assert isinstance(hot, vf.friction.HeatedFrictionCurves)
     assert (hot.coulomb.tolist(), hot.slip.tolist(), hot.coulomb_error) == ([0.5], [0.4], None)
     np.testing.assert_array_equal(hot.total, hot.viscoelastic + 0.5)
     assert cold.coulomb is None

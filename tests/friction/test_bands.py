@@ -116,8 +116,8 @@ def test_a_vertical_shift_moves_friction_by_the_load_rule() -> None:
     """Moduli b times larger at a temperature are a load b times smaller: Δμ = −F ∂μ/∂F Δln b."""
     rubber = vf.synthetic_fluoroelastomer()
     kelvin = np.array([303.15, 333.15])
-    raised = [vf.VerticalShiftFactors(kelvin, np.array([0.0, one]), 303.15) for one in (0.02, 0.03)]
-    material = replace(rubber, vertical_shift=vf.VerticalShiftFactors(kelvin, np.array([0.0, 0.025]), 303.15))
+    raised = [vf.rheology.VerticalShiftFactors(kelvin, np.array([0.0, one]), 303.15) for one in (0.02, 0.03)]
+    material = replace(rubber, vertical_shift=vf.rheology.VerticalShiftFactors(kelvin, np.array([0.0, 0.025]), 303.15))
     curves = predicted(material, drawn_from(*(replace(rubber, vertical_shift=one) for one in raised)), 333.15, 0.05)
     expected = [solved(rubber, 333.15, 0.05, LOAD / 10.0**one) for one in (0.03, 0.02)]
     # A factor of 1.012 either way: second order ½ · 1/3 · (1.2 %)², 2.4e-5, beside 1e-5 of either solution.
@@ -198,7 +198,7 @@ def test_samples_that_do_not_fit_are_refused(measured) -> None:
         predicted(material, drawn_from(replace(material, shift=None)), 333.15, 0.1)
     omega = np.geomspace(1e-3, 1e6, 40)
     modulus = material.complex_modulus(omega)
-    table = vf.ModulusTable(omega, modulus.real, modulus.imag)
+    table = vf.rheology.ModulusTable(omega, modulus.real, modulus.imag)
     with refused("no-modes"):
         predicted(replace(material, spectrum=table), samples, 333.15, 0.1)
 

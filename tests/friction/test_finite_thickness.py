@@ -65,7 +65,7 @@ MANY = [
 ]
 
 
-def half_and_layer(case: Case, accuracy: float = ACCURACY) -> tuple[vf.ContactSolution, ContactOnLayers, Layer]:
+def half_and_layer(case: Case, accuracy: float = ACCURACY) -> tuple[vf.contact.ContactSolution, ContactOnLayers, Layer]:
     deep = vf.solve_steady(case.rubber, case.indenter, speed=case.speed, load=case.load, accuracy=accuracy)
     reach = 0.5 * (deep.front + deep.rear)
     line = case.indenter.geometry.load_unit == "N/m"

@@ -22,15 +22,15 @@ HEATING = vf.Heating(rubber=RUBBER, counterface=PTFE, coulomb=0.3, slip="0.5 m/s
 
 
 @pytest.fixture(scope="module")
-def curves() -> vf.HeatedFrictionCurves:
+def curves() -> vf.friction.HeatedFrictionCurves:
     found = vf.predict_friction(
         WARM, CYLINDER, speeds=SPEEDS, temperatures=300.0, load=100.0, accuracy=1e-2, heating=HEATING
     )
-    assert isinstance(found, vf.HeatedFrictionCurves)
+    assert isinstance(found, vf.friction.HeatedFrictionCurves)
     return found
 
 
-def test_a_curve_has_the_states_of_its_contacts(curves: vf.HeatedFrictionCurves) -> None:
+def test_a_curve_has_the_states_of_its_contacts(curves: vf.friction.HeatedFrictionCurves) -> None:
     """The isothermal contact at the temperature reached is the same one, to all digits."""
     assert curves.temperature_rise is not None
     rise = float(curves.temperature_rise[1])
@@ -45,11 +45,11 @@ def test_a_curve_has_the_states_of_its_contacts(curves: vf.HeatedFrictionCurves)
     assert curves.coulomb_rise + curves.loss_rise == pytest.approx(curves.temperature_rise, rel=1e-2)
 
 
-def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.HeatedFrictionCurves) -> None:
+def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.friction.HeatedFrictionCurves) -> None:
     assert np.array_equal(curves.cold_viscoelastic, curves.hot_viscoelastic)
     assert np.array_equal(curves.cold_viscoelastic, curves.viscoelastic)
     second = curves.select([1])
-    assert isinstance(second, vf.HeatedFrictionCurves)
+    assert isinstance(second, vf.friction.HeatedFrictionCurves)
     assert second.face_rise == curves.face_rise[1]
     data = curves.to_dataset()
     assert data.hot_rise.attrs["units"] == "K"
@@ -59,11 +59,13 @@ def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.HeatedFrictio
 @pytest.mark.parametrize("average", ["contact", "loss"])
 def test_the_heat_of_an_interface_is_its_stress_on_the_contact(average: Literal["contact", "loss"]) -> None:
     """The same contact under a constant coefficient τ A/F, at the temperature of the face, is as warm."""
-    law = vf.PowerShearStress(stress="30 kPa", exponent=0.1, speed="0.5 m/s", shift=vf.Arrhenius("80 kJ/mol", 300.0))
+    law = vf.friction.PowerShearStress(
+        stress="30 kPa", exponent=0.1, speed="0.5 m/s", shift=vf.Arrhenius("80 kJ/mol", 300.0)
+    )
     warming = vf.Heating(rubber=RUBBER, counterface=PTFE, slip="0.5 m/s", average=average)
     one = {"speeds": 2.0, "temperatures": 300.0, "load": 100.0, "accuracy": 1e-2}
     found = vf.predict_friction(WARM, CYLINDER, **one, heating=warming, interface=law)
-    assert isinstance(found, vf.HeatedFrictionCurves)
+    assert isinstance(found, vf.friction.HeatedFrictionCurves)
     warm = 300.0 + found.face_rise
     assert found.face_rise[0] > 0.2
     assert (found.temperature_rise[0] > 0.2) == (average == "contact")
@@ -90,8 +92,8 @@ def test_many_speeds_are_interpolated_as_accurately_as_asked(average: Literal["c
     found, each = (
         vf.predict_friction(WARM, CYLINDER, **asked, heating=heating, exact=exact) for exact in (False, True)
     )
-    assert isinstance(found, vf.HeatedFrictionCurves)
-    assert isinstance(each, vf.HeatedFrictionCurves)
+    assert isinstance(found, vf.friction.HeatedFrictionCurves)
+    assert isinstance(each, vf.friction.HeatedFrictionCurves)
     assert each.face_rise.max() > 1.0
     assert not np.array_equal(found.viscoelastic, each.viscoelastic)
     assert np.all(np.abs(found.viscoelastic - each.viscoelastic) <= found.viscoelastic_error + each.viscoelastic_error)
@@ -109,7 +111,7 @@ def test_an_interface_that_shears_harder_when_warm_has_a_hot_branch() -> None:
     ends = vf.Arrhenius("120 kJ/mol", 300.0, covariance=[[1e6]], fitted_range=(298.0, 302.0))
     found = {}
     for shift in (vf.Arrhenius("120 kJ/mol", 300.0), ends):
-        law = vf.GaussianShearStress("3 MPa", "1 mm/s", 0.7, shift=shift)
+        law = vf.friction.GaussianShearStress("3 MPa", "1 mm/s", 0.7, shift=shift)
         for branch in ("cold", "hot"):
             heating = vf.Heating(rubber=RUBBER, counterface=PTFE, slip="0.5 m/s", branch=branch)
             if shift is ends and branch == "hot":
@@ -117,7 +119,7 @@ def test_an_interface_that_shears_harder_when_warm_has_a_hot_branch() -> None:
                     vf.predict_friction(WARM, CYLINDER, **asked, interface=law, heating=heating)
                 continue
             one = vf.predict_friction(WARM, CYLINDER, **asked, interface=law, heating=heating)
-            assert isinstance(one, vf.HeatedFrictionCurves)
+            assert isinstance(one, vf.friction.HeatedFrictionCurves)
             assert one.coulomb == pytest.approx(law(0.5, 300.0 + one.face_rise) / one.mean_pressure)
             found[shift is ends, branch] = one
     cold, hot, held = found.values()
@@ -128,7 +130,7 @@ def test_an_interface_that_shears_harder_when_warm_has_a_hot_branch() -> None:
     assert "states-beyond" in codes(held.notes)
 
 
-def test_heating_is_refused_with_samples_and_columns_are_checked(curves: vf.HeatedFrictionCurves) -> None:
+def test_heating_is_refused_with_samples_and_columns_are_checked(curves: vf.friction.HeatedFrictionCurves) -> None:
     with refused("not-with-heating"):
         vf.predict_friction(WARM, CYLINDER, speeds=1.0, temperatures=300.0, load=1.0, samples=object(), heating=HEATING)
     for column in (curves.hot_rise[:1], np.array([1.0, np.nan])):
@@ -146,7 +148,7 @@ def test_a_ramp_of_speed_shows_hysteresis() -> None:
         material, vf.Ball("10 mm"), speeds=[0.5, 4.0, 16.0], temperatures="-5 degC", load="5 N", accuracy=2e-2,
         heating=heating,
     )  # fmt: skip
-    assert isinstance(found, vf.HeatedFrictionCurves)
+    assert isinstance(found, vf.friction.HeatedFrictionCurves)
     hotter = found.hot_rise > found.cold_rise + 1.0
     assert hotter.tolist() == [False, True, True]
     assert np.all(found.hot_viscoelastic[1:] > 100.0 * found.cold_viscoelastic[1:])

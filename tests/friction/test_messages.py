@@ -401,7 +401,7 @@ def test_files_of_curves(old: str, new: str, sentence: str, tmp_path: Path, monk
 
 def test_indentation_says() -> None:
     depth = [1e-4, 1.1e-4, -1.0, -1.0, -1.0, -1.0]
-    record = vf.IndentationRecord(np.arange(6.0), np.ones(6), depth, 300.0, control="load", error=1e-6)
+    record = vf.friction.IndentationRecord(np.arange(6.0), np.ones(6), depth, 300.0, control="load", error=1e-6)
     with pytest.raises(InputError) as caught:
         vf.identify_from_indentation(record, vf.Ball("10 mm"))
     assert str(caught.value) == (

@@ -13,7 +13,7 @@ CYLINDER = vf.Cylinder("10 mm")
 
 def test_several_loads_are_those_of_single_predictions() -> None:
     steps: list[tuple[int, int]] = []
-    law = vf.ConstantShearStress("10 kPa")
+    law = vf.friction.ConstantShearStress("10 kPa")
     two = {"temperatures": ["30 degC", "60 degC"], "interface": law, "layer": "5 mm"}
     found = vf.predict_friction(
         RUBBER, CYLINDER, **CASE, **two, loads=["500 N/m", "1 N/mm"], progress=lambda *now: steps.append(now)

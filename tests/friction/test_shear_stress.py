@@ -12,7 +12,7 @@ from viscofric.contact.coupling import sheared_compliance
 from viscofric.friction.interface.prediction import with_interface
 
 RUBBER = vf.synthetic_fluoroelastomer()
-TRUE = vf.GaussianShearStress("0.4 MPa", "4 mm/s", 1.2, shift=vf.Arrhenius("70 kJ/mol", "60 degC"))
+TRUE = vf.friction.GaussianShearStress("0.4 MPa", "4 mm/s", 1.2, shift=vf.Arrhenius("70 kJ/mol", "60 degC"))
 SPEED = np.geomspace(0.01, 0.3, 9)
 KELVIN = np.array([323.15, 333.15, 343.15])
 N = SPEED.size * KELVIN.size
@@ -39,7 +39,7 @@ def measured(noise=0.02, seed=0, slip=0.1):
 
 @pytest.fixture(scope="module")
 def stress():
-    return vf.shear_stress(measured(), CONTACTS, reference="60 degC")
+    return vf.friction.shear_stress(measured(), CONTACTS, reference="60 degC")
 
 
 def test_stress_is_friction_times_the_mean_pressure_of_the_solved_contact(stress):
@@ -74,13 +74,13 @@ def test_the_planted_law_comes_back(stress):
 
 def test_shared_errors_widen_the_law_by_their_size(stress):
     """An error of all areas is one of the peak alone; that of each temperature is one of the energy."""
-    areas = vf.shear_stress(measured(), CONTACTS, shift=TRUE.shift, area_error=0.1).law("gaussian")
-    bare = vf.shear_stress(measured(), CONTACTS, shift=TRUE.shift).law("gaussian")
+    areas = vf.friction.shear_stress(measured(), CONTACTS, shift=TRUE.shift, area_error=0.1).law("gaussian")
+    bare = vf.friction.shear_stress(measured(), CONTACTS, shift=TRUE.shift).law("gaussian")
     assert areas.standard_errors[0] / areas.peak == pytest.approx(
         np.hypot(0.1, bare.standard_errors[0] / bare.peak), rel=1e-3
     )
     assert areas.standard_errors[2] == pytest.approx(bare.standard_errors[2], rel=1e-3)
-    levels = vf.shear_stress(measured(), CONTACTS, reference="60 degC", level_error=0.1).law("gaussian")
+    levels = vf.friction.shear_stress(measured(), CONTACTS, reference="60 degC", level_error=0.1).law("gaussian")
     assert levels.standard_errors[-1] > 1.1 * stress.law("gaussian").standard_errors[-1]
 
 
@@ -88,14 +88,14 @@ def test_points_near_zero_and_missing_slip_are_noted():
     weak = measured()
     error = weak.coulomb_error.copy()
     error[:3] = weak.coulomb[:3]
-    found = vf.shear_stress(replace(weak, coulomb_error=error, slip=None), CONTACTS, shift=TRUE.shift)
+    found = vf.friction.shear_stress(replace(weak, coulomb_error=error, slip=None), CONTACTS, shift=TRUE.shift)
     assert len(found) == N - 3
     assert {note.code for note in found.notes} == {"left-out", "slip-assumed"}
 
 
 def test_stress_of_one_level_has_no_shift_factors_and_is_constant():
     level = 3e5 / CONTACTS.mean_pressure * (1.0 + 0.02 * np.random.default_rng(1).standard_normal(N))
-    flat = vf.shear_stress(replace(measured(), coulomb=level, coulomb_error=0.02 * level), CONTACTS)
+    flat = vf.friction.shear_stress(replace(measured(), coulomb=level, coulomb_error=0.02 * level), CONTACTS)
     assert flat.shift is None
     assert [note.code for note in flat.notes] == ["no-shift-factors"]
     assert flat.compare_laws().chosen.kind == "constant"
@@ -111,14 +111,14 @@ def test_stress_of_one_level_has_no_shift_factors_and_is_constant():
 )
 def test_what_is_missing_is_named(given, code):
     with pytest.raises(vf.InputError) as refused:
-        vf.shear_stress(*given)
+        vf.friction.shear_stress(*given)
     assert refused.value.code == code
 
 
 def test_predicted_friction_has_hysteresis_and_interface():
     """μ = τ_s A/F with the area of the contact; the hysteresis is that of the contact alone."""
     case = {"load": "200 N/m", "accuracy": 0.1}
-    law = vf.ConstantShearStress(2e5, covariance=[[1e8]])
+    law = vf.friction.ConstantShearStress(2e5, covariance=[[1e8]])
     both = vf.predict_friction(RUBBER, vf.Cylinder("10 mm"), speeds=0.1, temperatures=333.15, **case, interface=law)
     alone = vf.solve_steady(RUBBER, vf.Cylinder("10 mm"), speed=0.1, temperature=333.15, **case)
     assert both.viscoelastic[0] == alone.friction_coefficient
@@ -131,7 +131,7 @@ def test_predicted_friction_has_hysteresis_and_interface():
 
 
 def test_the_interface_slips_at_its_own_speed_and_says_where_it_is_extrapolated():
-    power = vf.PowerShearStress(2e5, 0.5, 0.02, fitted_speeds=(1e-3, 1e-2), fitted_pressures=(1e3, 2e3))
+    power = vf.friction.PowerShearStress(2e5, 0.5, 0.02, fitted_speeds=(1e-3, 1e-2), fitted_pressures=(1e3, 2e3))
     sliding, rolling = with_interface(CONTACTS, power), with_interface(CONTACTS, power, "20 mm/s")
     np.testing.assert_allclose(rolling.coulomb, 2e5 / CONTACTS.mean_pressure)
     np.testing.assert_allclose(sliding.coulomb / rolling.coulomb, (CONTACTS.speed / 0.02) ** 0.5)
@@ -153,7 +153,7 @@ def test_shear_that_changes_friction_is_noted_with_its_size(poisson_ratio, layer
     """The estimate of `viscofric.contact.coupling` at the state of each contact."""
     rubber = replace(RUBBER, poisson_ratio=poisson_ratio)
     case = {"speeds": 0.1, "temperatures": 333.15, "load": 5.0, "accuracy": 2e-2, "layer": layer}
-    found = vf.predict_friction(rubber, vf.Ball("10 mm"), interface=vf.ConstantShearStress(2e5), **case)
+    found = vf.predict_friction(rubber, vf.Ball("10 mm"), interface=vf.friction.ConstantShearStress(2e5), **case)
     notes = [note for note in found.notes if note.code == "tangential-coupling"]
     assert len(notes) == noted
     if noted:

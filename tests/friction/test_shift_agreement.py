@@ -11,9 +11,9 @@ import pytest
 
 from friction.synthetic_curves import planted_law, synthetic_curves
 from refusals import refused
+from viscofric import read_dma
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import ShiftAgreement, compare_shift_factors
-from viscofric.readers import read_dma
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors

@@ -54,7 +54,7 @@ def _shift(curves: Any = _CURVES, **settings: Any) -> object:
 
 
 def _compare_factors(found: Any = _FACTORS, other: Any = _LAW) -> object:
-    return vf.compare_shift_factors(found, other)
+    return vf.friction.compare_shift_factors(found, other)
 
 
 def _compare(measured: Any = _CURVES, predicted: Any = _CURVES) -> object:
@@ -62,7 +62,9 @@ def _compare(measured: Any = _CURVES, predicted: Any = _CURVES) -> object:
 
 
 def _anchor(**given: Any) -> object:
-    return vf.ModulusAnchor(**{"modulus": "3 MPa", "angular_frequency": "60 rad/s", "temperature": 300.0} | given)
+    return vf.friction.ModulusAnchor(
+        **{"modulus": "3 MPa", "angular_frequency": "60 rad/s", "temperature": 300.0} | given
+    )
 
 
 def _identify(curves: Any = _CURVES, indenter: Any = _BALL, **settings: Any) -> object:

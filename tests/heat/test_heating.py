@@ -87,7 +87,7 @@ def test_no_contact_is_solved_beyond_the_bounds() -> None:
 
 def test_resistance_of_a_track_is_that_of_its_passes() -> None:
     heating = vf.Heating(rubber=RUBBER, counterface=STEEL, track_radius="23 mm", passes=100)
-    expected = vf.track_temperature(1.0, RUBBER, radius=1e-3, track_radius=0.023, speed=0.1, passes=[100])
+    expected = vf.heat.track_temperature(1.0, RUBBER, radius=1e-3, track_radius=0.023, speed=0.1, passes=[100])
     assert heating.track_resistance(1e-3, 0.1) == expected[0]
     assert vf.Heating(rubber=RUBBER, counterface=STEEL).track_resistance(1e-3, 0.1) == 0.0
 

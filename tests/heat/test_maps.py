@@ -16,7 +16,7 @@ EVEN = np.ones((64, 64))
 
 
 def rise(heat: np.ndarray, **settings: Any) -> np.ndarray:
-    return vf.surface_temperature(heat, settings.pop("spacing", 1.0), UNIT, **{"speed": 0.0, **settings})
+    return vf.heat.surface_temperature(heat, settings.pop("spacing", 1.0), UNIT, **{"speed": 0.0, **settings})
 
 
 def disc(cells: int, hertz: bool) -> tuple[np.ndarray, np.ndarray]:

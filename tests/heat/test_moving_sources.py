@@ -17,13 +17,13 @@ from viscofric.heat.points import disc_points, strip_points
 UNIT = vf.ThermalProperties(1.0, 1.0, 1.0, "unit")
 
 
-def disc(peclet: float, distribution: str = "uniform") -> vf.MovingHeatSource:
+def disc(peclet: float, distribution: str = "uniform") -> vf.heat.MovingHeatSource:
     """Return a disc of radius 1 and mean flux 1 on a body of conductivity and diffusivity 1."""
-    return vf.MovingHeatSource(np.pi, 1.0, 2.0 * peclet, UNIT, "disc", distribution)
+    return vf.heat.MovingHeatSource(np.pi, 1.0, 2.0 * peclet, UNIT, "disc", distribution)
 
 
-def strip(peclet: float, distribution: str = "uniform") -> vf.MovingHeatSource:
-    return vf.MovingHeatSource(2.0, 1.0, 2.0 * peclet, UNIT, "strip", distribution)
+def strip(peclet: float, distribution: str = "uniform") -> vf.heat.MovingHeatSource:
+    return vf.heat.MovingHeatSource(2.0, 1.0, 2.0 * peclet, UNIT, "strip", distribution)
 
 
 @pytest.mark.parametrize(
@@ -125,7 +125,7 @@ def test_the_heat_is_found_again_in_the_wake() -> None:
 
 def test_units_do_not_matter() -> None:
     steel = vf.ThermalProperties("46 W/m/K", "7.81 g/cm**3", "475 J/kg/K", "steel")
-    found = vf.MovingHeatSource("300 mW", "0.2 mm", "50 mm/s", steel)
+    found = vf.heat.MovingHeatSource("300 mW", "0.2 mm", "50 mm/s", steel)
     same = disc(found.peclet_number, "hertz")
     unit = 0.3 / (np.pi * 0.2e-3) / 46.0
     assert found.peclet_number == pytest.approx(0.05 * 0.2e-3 / (2.0 * 46.0 / (7810.0 * 475.0)))

@@ -36,7 +36,7 @@ def test_the_rise_ends_at_that_of_a_steady_source(shape: str, peclet: float, rad
     heating = vf.Heating(rubber=RUBBER, counterface=AIR)
     found = path_rise(path, durations, 0.0 * durations, heating)
     speed = 2.0 * peclet * RUBBER.diffusivity / SIZE
-    steady = vf.MovingHeatSource(1.0, size=SIZE, speed=speed, body=RUBBER, shape=shape).mean_temperature  # type: ignore[arg-type]
+    steady = vf.heat.MovingHeatSource(1.0, size=SIZE, speed=speed, body=RUBBER, shape=shape).mean_temperature  # type: ignore[arg-type]
     assert found.face[-1] == pytest.approx(steady, rel=1e-3)  # of the start, 5e-4 is left at the lowest speed
 
 
@@ -113,7 +113,7 @@ def test_the_rises_at_the_end_of_a_slide_are_near_those_of_the_steady_contact(li
             assert 0.9 < released.below[-1] / exact.loss_below < 2.5
 
 
-def _steady(lasting: list[float], line: bool, speed: float) -> tuple[vf.ContactSolution, float, Modes]:
+def _steady(lasting: list[float], line: bool, speed: float) -> tuple[vf.contact.ContactSolution, float, Modes]:
     """Solve a contact whose modes last so many times as long as it takes to pass; return its size and modes too."""
     size = 1e-3
     indenter, load = (vf.Cylinder("5 mm"), 300.0) if line else (vf.Ball("5 mm"), 1.0)

@@ -19,7 +19,7 @@ PERIOD = 2.0 * np.pi * RING / SPEED
 
 def rise(passes: Any, **settings: Any) -> np.ndarray:
     given = {"radius": 1e-3, "track_radius": RING, "speed": SPEED, **settings}
-    return vf.track_temperature(0.1, RUBBER, passes=passes, **given)
+    return vf.heat.track_temperature(0.1, RUBBER, passes=passes, **given)
 
 
 def test_passes_equal_a_point_that_runs_along_the_circle() -> None:

@@ -54,8 +54,8 @@ def test_rough_surfaces() -> None:
     solution = vf.solve_periodic(RUBBER, made.to_surface(), speed="1 m/s", pressure="50 kPa")
     surface = {PAPER.key, "lions1979", "anderson1965", "eisenstat1983"}
     assert keys(solution) == surface
-    assert keys(vf.contact_statistics(solution)) == {"yastrebov2017"}
-    spectrum = vf.power_spectrum(made)
+    assert keys(vf.roughness.contact_statistics(solution)) == {"yastrebov2017"}
+    spectrum = vf.roughness.power_spectrum(made)
     assert keys(spectrum) == {"persson2005", "jacobs2017"}
     asked = {"speeds": 1.0, "pressure": "50 kPa"}
     theory = {"persson2001", "lorenz2015"}
@@ -76,7 +76,7 @@ def test_rubber_rests_on_its_law_and_on_those_who_measured_it() -> None:
     assert published.citation in str(vf.citations(published).entries[-1].reference)
     omega = np.geomspace(1.0, 1e6, 30)
     modulus = RUBBER.complex_modulus(omega)
-    assert keys(vf.ModulusTable(omega, modulus.real, modulus.imag)) == {"fritsch1984"}
+    assert keys(vf.rheology.ModulusTable(omega, modulus.real, modulus.imag)) == {"fritsch1984"}
     assert keys(RUBBER.spectrum.to_relaxation()) == {"park1999"}
     assert keys(vf.Layer("1 mm")) == {"carbone2008", "putignano2015", "johnson1985"}
 

@@ -33,7 +33,7 @@ def test_small_oscillation_has_the_stiffness_of_the_complex_modulus() -> None:
     # lowers the loss by an eighth of the relative amplitude, 2.5e-3.
     omega, depth = 100.0, 1e-4
     phase, values = sine(24, depth, 0.02 * depth)
-    cycle = vf.solve_cycle(SLS, BALL, vf.History(phase / omega, indentation=values), accuracy=1e-4)
+    cycle = vf.motion.solve_cycle(SLS, BALL, vf.motion.History(phase / omega, indentation=values), accuracy=1e-4)
     modulus = complex(SLS.spectrum.complex_modulus(omega))
     radius = np.sqrt(1e-2 * depth)
     stiffness = 2.0 * radius * modulus / 0.75
@@ -48,7 +48,7 @@ def test_small_oscillation_has_the_stiffness_of_the_complex_modulus() -> None:
 def test_contact_that_is_lost_in_every_period() -> None:
     # Independent solution: MDR, three refinements, extrapolated; 3e-6.  The rest is the sampling of the sine.
     phase, values = sine(128, 1.0, 1.5)
-    cycle = vf.solve_cycle(SLS, BALL, vf.History(phase / 100.0, load=np.maximum(values, 0.0)))
+    cycle = vf.motion.solve_cycle(SLS, BALL, vf.motion.History(phase / 100.0, load=np.maximum(values, 0.0)))
     assert cycle.energy_per_cycle == pytest.approx(0.0005514448777747074, rel=1e-3)
     assert cycle.run.indentation.max() == pytest.approx(0.0005149900095594225, rel=5e-3)
     assert cycle.run.load[-1] == pytest.approx(cycle.run.load[0])
@@ -60,8 +60,8 @@ def test_contact_that_is_lost_in_every_period() -> None:
 def test_modes_a_million_times_slower_than_the_period_do_not_wait() -> None:
     # The slow mode ends as if the mean of the load had acted for ever: waiting would take a million periods.
     slow = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [4e-7, 5e-7], [1e-2, 1e4]))
-    history = vf.History([0.0, 0.01], indentation=[1e-4, 1e-4], before="untouched")
-    cycle = vf.solve_cycle(slow, BALL, history)
+    history = vf.motion.History([0.0, 0.01], indentation=[1e-4, 1e-4], before="untouched")
+    cycle = vf.motion.solve_cycle(slow, BALL, history)
     force = 4.0 / 3.0 * 1e6 / 0.75 * 0.1 * 1e-4**1.5  # at rest for ever: Hertz with E0
     assert cycle.run.load == pytest.approx(force, rel=1e-3)
     assert cycle.energy_per_cycle == pytest.approx(0.0, abs=1e-4 * force * 1e-4)
@@ -69,16 +69,16 @@ def test_modes_a_million_times_slower_than_the_period_do_not_wait() -> None:
     assert cycle.periods <= 8
 
 
-def wave(points: int = 24) -> vf.PeriodicSurface:
+def wave(points: int = 24) -> vf.contact.PeriodicSurface:
     x = 2.0 * np.pi * np.arange(points) / points
-    return vf.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), 1e-3 / points)
+    return vf.contact.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), 1e-3 / points)
 
 
 @pytest.mark.slow
 def test_constant_sliding_is_the_steady_state() -> None:
     speed = 0.05
-    history = vf.History([0.0, 4e-3], pressure=1e3, speed=speed)
-    cycle = vf.solve_cycle(SLS, wave(25), history, accuracy=1e-2)
+    history = vf.motion.History([0.0, 4e-3], pressure=1e3, speed=speed)
+    cycle = vf.motion.solve_cycle(SLS, wave(25), history, accuracy=1e-2)
     steady = vf.solve_periodic(SLS, wave(25), speed=speed, pressure=1e3)
     assert cycle.mean_friction_coefficient == pytest.approx(steady.friction_coefficient, rel=3e-3)
     assert cycle.energy_per_cycle == pytest.approx(steady.friction_coefficient * 1e3 * speed * 4e-3, rel=1e-2)
@@ -89,11 +89,11 @@ def test_reciprocation_is_reached_by_waiting_too() -> None:
     # In full contact, where few steps are enough.
     there, back, pressure = 2e-4, 2e-3, 2e5  # m, s, Pa
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
-    one = vf.History([0.0, back, 2.0 * back], pressure=pressure, position=[0.0, there, 0.0])
-    cycle = vf.solve_cycle(rubber, wave(), one)
+    one = vf.motion.History([0.0, back, 2.0 * back], pressure=pressure, position=[0.0, there, 0.0])
+    cycle = vf.motion.solve_cycle(rubber, wave(), one)
     path = there * (np.arange(7) % 2)
-    longer = vf.History(back * np.arange(7), pressure=pressure, position=path)
-    waited = vf.solve_transient(rubber, wave(), longer, times=longer.time[-3:])
+    longer = vf.motion.History(back * np.arange(7), pressure=pressure, position=path)
+    waited = vf.motion.solve_transient(rubber, wave(), longer, times=longer.time[-3:])
     assert cycle.run.contact_area.min() == 1.0
     assert cycle.energy_per_cycle == pytest.approx(waited.dissipated[-1] - waited.dissipated[0], rel=3e-3)
     assert cycle.run.friction_force[[0, -1]] == pytest.approx(
@@ -108,11 +108,11 @@ def test_reciprocation_is_reached_by_waiting_too() -> None:
 @pytest.mark.slow
 def test_a_note_has_the_change_of_friction_by_shear_that_is_left_out() -> None:
     """Of constant sliding, that between steady contacts with slip both ways, to the factor of two that is stated."""
-    history, coulomb = vf.History([0.0, 4e-3], pressure=1e3, speed=0.05), 0.3
+    history, coulomb = vf.motion.History([0.0, 4e-3], pressure=1e3, speed=0.05), 0.3
 
     def notes(poisson_ratio: float) -> list[Note]:
         rubber = replace(SLS, poisson_ratio=poisson_ratio)
-        cycle = vf.solve_cycle(rubber, wave(25), history, times=[0.0, 4e-3], accuracy=1e-2, coulomb=coulomb)
+        cycle = vf.motion.solve_cycle(rubber, wave(25), history, times=[0.0, 4e-3], accuracy=1e-2, coulomb=coulomb)
         assert cycle.warnings == cycle.run.warnings
         return [note_of(one) for one in cycle.warnings]
 
@@ -127,7 +127,7 @@ def test_a_note_has_the_change_of_friction_by_shear_that_is_left_out() -> None:
     assert said.code == "tangential-coupling"
     assert 0.5 < said.values["change"] / (0.5 * (against - along)) < 2.0
     with refused("out-of-range", naming="coulomb"):
-        vf.solve_cycle(SLS, wave(25), history, coulomb=20.0)
+        vf.motion.solve_cycle(SLS, wave(25), history, coulomb=20.0)
 
 
 @pytest.mark.apart
@@ -144,8 +144,8 @@ def test_reciprocation_of_a_cylinder(amplitude, omega, accuracy, energy, force) 
     phase = np.linspace(0.0, 2.0 * np.pi, 513)
     path = amplitude * 0.0021850968611841584 * np.sin(phase)
     path[-1] = path[0]
-    history = vf.History(phase / omega, load=500.0, position=path, before="at rest")
-    cycle = vf.solve_cycle(SLS, vf.Cylinder("10 mm"), history, accuracy=accuracy)
+    history = vf.motion.History(phase / omega, load=500.0, position=path, before="at rest")
+    cycle = vf.motion.solve_cycle(SLS, vf.Cylinder("10 mm"), history, accuracy=accuracy)
     # The polygon of the path is shorter by 2e-5; the energy counts a third of the accuracy.
     assert cycle.energy_per_cycle == pytest.approx(energy, rel=accuracy / 3.0)
     eighths = np.arange(1, 9) / 8.0
@@ -175,16 +175,16 @@ def test_reciprocation_on_cells_is_reached_by_waiting_too(indenter, load, warm) 
     material, time, kelvin = warming(0.06)
     path = 1.8e-3 * np.sin(2.0 * np.pi * time / time[-1])
     path[-1] = path[0]
-    one = vf.History(time, load=load, position=path, temperature=kelvin if warm else "30 degC", before="at rest")
-    cycle = vf.solve_cycle(material, indenter, one, accuracy=2e-2)
+    one = vf.motion.History(time, load=load, position=path, temperature=kelvin if warm else "30 degC", before="at rest")
+    cycle = vf.motion.solve_cycle(material, indenter, one, accuracy=2e-2)
     rounds = 4
-    longer = vf.History(
+    longer = vf.motion.History(
         np.append(np.add.outer(time[-1] * np.arange(rounds), time[:-1]).ravel(), rounds * time[-1]),
         load=load, position=np.append(np.tile(path[:-1], rounds), path[-1]),
         temperature=np.append(np.tile(kelvin[:-1], rounds), kelvin[-1]) if warm else "30 degC", before="at rest",
     )  # fmt: skip
     times = (rounds - 1.0 + np.arange(0.0, 1.01, 0.125)) * time[-1]
-    waited = vf.solve_transient(material, indenter, longer, times=times, accuracy=2e-2)
+    waited = vf.motion.solve_transient(material, indenter, longer, times=times, accuracy=2e-2)
     assert cycle.run.method == "grid"
     # Memory of the start that is left after three periods: e^(−18) at the mean temperature.
     assert cycle.energy_per_cycle == pytest.approx(waited.dissipated[-1] - waited.dissipated[0], rel=1e-2)
@@ -196,15 +196,15 @@ def test_reciprocation_on_cells_is_reached_by_waiting_too(indenter, load, warm) 
 def test_a_period_of_given_depth_begins_as_it_ends() -> None:
     # Of a broad spectrum, whose fast modes answer a memory that does not fit by many times the load.
     phase = np.linspace(0.0, 2.0 * np.pi, 13)
-    period = vf.History(phase / 100.0, indentation=1e-4 + 5e-6 * np.sin(phase), temperature="30 degC")
+    period = vf.motion.History(phase / 100.0, indentation=1e-4 + 5e-6 * np.sin(phase), temperature="30 degC")
     rubber = vf.synthetic_fluoroelastomer()
-    cycle = vf.solve_cycle(rubber, BALL, period, accuracy=0.1)
+    cycle = vf.motion.solve_cycle(rubber, BALL, period, accuracy=0.1)
     assert cycle.run.load[0] == pytest.approx(cycle.run.load[-1], rel=1e-2)
     # The storage stiffness of a small oscillation, 2 a E*, is that of the modulus within the amplitude.
     radius = float(np.mean(cycle.run.contact_radius))
     modulus = complex(rubber.complex_modulus(2.0 * np.pi * 100.0, temperature="30 degC")).real
     assert cycle.storage_stiffness == pytest.approx(2.0 * radius * modulus / 0.75, rel=0.1)
-    few = vf.solve_cycle(rubber, BALL, period, times=[0.0, 2.5e-3, 0.01], accuracy=0.1)
+    few = vf.motion.solve_cycle(rubber, BALL, period, times=[0.0, 2.5e-3, 0.01], accuracy=0.1)
     assert few.run.time.tolist() == [0.0, 2.5e-3, 0.01]
     assert few.run.pressure_at(2.5e-3).max() > 0.0
     assert few.loss_stiffness == cycle.loss_stiffness  # of every step
@@ -212,9 +212,9 @@ def test_a_period_of_given_depth_begins_as_it_ends() -> None:
 
 def test_what_does_not_repeat_itself_is_refused() -> None:
     with refused("not-a-period"):
-        vf.solve_cycle(SLS, BALL, vf.History([0.0, 1.0], load=[1.0, 2.0]))
+        vf.motion.solve_cycle(SLS, BALL, vf.motion.History([0.0, 1.0], load=[1.0, 2.0]))
     with refused("not-repeating", ConvergenceError):
-        vf.solve_cycle(SLS, BALL, vf.History([0.0, 1e-3], load=1.0), most_periods=1)
+        vf.motion.solve_cycle(SLS, BALL, vf.motion.History([0.0, 1e-3], load=1.0), most_periods=1)
 
 
 @pytest.mark.parametrize("control", [*slow("load"), *apart("indentation")])
@@ -229,8 +229,8 @@ def test_stated_errors_cover_those_of_random_oscillations(control: str) -> None:
             )
         )
         phase, values = sine(16, 1.0, amplitude)
-        period = vf.History(phase / 100.0, **{control: (0.1 if control == "load" else 1e-4) * values})
-        rough, fine = (vf.solve_cycle(rubber, BALL, period, accuracy=one) for one in (1e-2, 1e-3))
+        period = vf.motion.History(phase / 100.0, **{control: (0.1 if control == "load" else 1e-4) * values})
+        rough, fine = (vf.motion.solve_cycle(rubber, BALL, period, accuracy=one) for one in (1e-2, 1e-3))
         for name in ("energy_per_cycle", "storage_stiffness", "loss_stiffness", "loss_tangent"):
             error = getattr(rough, f"{name}_error") + getattr(fine, f"{name}_error")
             assert abs(getattr(rough, name) - getattr(fine, name)) <= error, name
@@ -245,8 +245,8 @@ def test_stated_errors_cover_those_of_random_oscillations(control: str) -> None:
 def test_broad_spectra_repeat_themselves_after_a_few_periods(control, mean, amplitude, warmth) -> None:
     """The edge is lost in every period; retardation times are from nanoseconds to years."""
     phase, values = sine(24, mean, amplitude)
-    period = vf.History(phase / 628.0, **{control: values}, temperature=warmth, before="at rest")
-    cycle = vf.solve_cycle(vf.synthetic_fluoroelastomer(), BALL, period, accuracy=1e-2)
+    period = vf.motion.History(phase / 628.0, **{control: values}, temperature=warmth, before="at rest")
+    cycle = vf.motion.solve_cycle(vf.synthetic_fluoroelastomer(), BALL, period, accuracy=1e-2)
     assert cycle.periods <= 6
     assert cycle.run.energy_imbalance < 1e-3
     # The work over a period is that of the first harmonics: of a given depth ∮F dδ = π K'' |δ₁|².
@@ -282,5 +282,7 @@ def test_finer_cells_begin_with_the_memory_of_coarser_ones() -> None:
     time = 2.0 * np.pi * np.arange(97) / 9600.0
     path = 1.8e-3 * np.sin(100.0 * time)
     path[-1] = path[0]
-    cycle = vf.solve_cycle(SLS, BALL, vf.History(time, load=1.0, position=path, before="at rest"), accuracy=0.1)
+    cycle = vf.motion.solve_cycle(
+        SLS, BALL, vf.motion.History(time, load=1.0, position=path, before="at rest"), accuracy=0.1
+    )
     assert cycle.periods == 5

@@ -97,8 +97,8 @@ def test_ball_on_a_circle_that_closes():
     times = np.linspace(0.0, 1.5 * period, 3 * steps // 2 + 1)
     exact = dense(square_cells(side, count, count), side**2, False, times, lambda time: load, place)
     given = np.linspace(0.0, 1.5 * period, 193)
-    history = vf.History(given, load=load, position=np.array([place(time) for time in given]))
-    run = vf.solve_transient(RUBBER, vf.Ball(R), history, times=times[steps // 8 :: steps // 8], accuracy=1e-2)
+    history = vf.motion.History(given, load=load, position=np.array([place(time) for time in given]))
+    run = vf.motion.solve_transient(RUBBER, vf.Ball(R), history, times=times[steps // 8 :: steps // 8], accuracy=1e-2)
     force = np.column_stack([run.friction_force, run.lateral_force])
     assert force == pytest.approx(exact[steps // 8 :: steps // 8], abs=8e-3 * np.abs(force).max())
 
@@ -115,8 +115,8 @@ def test_cylinder_that_is_lifted_and_returns_to_its_track():
         lambda now: (np.interp(now, time, path) - 1.25e-3, 0.0),
     )[:, 0]  # fmt: skip
     asked = 2 * np.array([80, 160, 200, 250, 280, 440, 500, 600])
-    history = vf.History(time, load=load, position=path)
-    run = vf.solve_transient(RUBBER, vf.Cylinder(R), history, times=times[asked], accuracy=1e-2)
+    history = vf.motion.History(time, load=load, position=path)
+    run = vf.motion.solve_transient(RUBBER, vf.Cylinder(R), history, times=times[asked], accuracy=1e-2)
     assert run.friction_force == pytest.approx(exact[asked], abs=1e-3 * np.abs(exact).max())
 
 
@@ -178,7 +178,9 @@ def test_oscillation_whose_edge_is_lost_in_every_period(swing):
     loads = waited_for(spectrum, depths, times, 4, 60)
     turned = np.exp(-1j * omega * times)
     exact = np.trapezoid(loads * turned) / np.trapezoid(depths * turned)
-    cycle = vf.solve_cycle(vf.Material(spectrum), vf.Ball(R), vf.History(phase / omega, indentation=given))
+    cycle = vf.motion.solve_cycle(
+        vf.Material(spectrum), vf.Ball(R), vf.motion.History(phase / omega, indentation=given)
+    )
     assert cycle.storage_stiffness == pytest.approx(exact.real, rel=5e-3)
     assert cycle.loss_stiffness == pytest.approx(exact.imag, rel=6e-3)
     assert cycle.energy_per_cycle == pytest.approx(-np.trapezoid(depths, loads), rel=1e-3)

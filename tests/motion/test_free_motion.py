@@ -31,8 +31,8 @@ def test_start_of_a_cylinder_from_rest():
     distance = np.array([0.00021850968611841586, 0.0004370193722368317, 0.0010925484305920792])
     friction = [0.08928029210771837, 0.10622544260925137, 0.10871058652204141]
     depth = [-5.649253141661069e-06, -1.414746272290456e-05, -3.56436128432175e-05]
-    history = vf.History([0.0, distance[-1] / SPEED], load=LOAD, speed=SPEED, before="at rest")
-    run = vf.solve_transient(RUBBER, CYLINDER, history, times=distance / SPEED)
+    history = vf.motion.History([0.0, distance[-1] / SPEED], load=LOAD, speed=SPEED, before="at rest")
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, times=distance / SPEED)
     assert run.friction_coefficient == pytest.approx(friction, rel=1e-3)
     assert run.indentation == pytest.approx(depth, rel=5e-3)
     assert np.all(np.abs(run.friction_coefficient - friction) < run.errors.friction_force / LOAD)
@@ -43,8 +43,8 @@ def test_start_of_a_cylinder_from_rest():
 def test_a_line_load_put_on_at_once_is_glassy_then_relaxed_and_what_is_not_stored_is_dissipated():
     """δ = (2F/πE*)(ln(2L/a) + ½) from points at the distance L, W = (F²/πE*)(ln(2L/a) + ¼); a mode of 1 ns."""
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=1e-9)
-    history = vf.History([0.0, 0.1], load=LOAD)
-    run = vf.solve_transient(rubber, CYLINDER, history, times=[0.0, 0.1], accuracy=1e-2)
+    history = vf.motion.History([0.0, 0.1], load=LOAD)
+    run = vf.motion.solve_transient(rubber, CYLINDER, history, times=[0.0, 0.1], accuracy=1e-2)
     stiffness, a = np.array([1e7, 1e6]) / 0.75, A0 * np.sqrt([0.1, 1.0])
     depth = 2.0 * LOAD / (np.pi * stiffness) * (np.log(40.0 * A0 / a) + 0.5)
     stored = LOAD**2 / (np.pi * stiffness) * (np.log(40.0 * A0 / a) + 0.25)
@@ -60,16 +60,18 @@ def test_start_after_a_dwell_on_untouched_rubber_rises_from_below():
     distance = np.array([0.00021850968611841586, 0.0004370193722368317, 0.0010925484305920792])
     friction = [0.036355503352866435, 0.052652598860860766, 0.07204745350189617]
     dwell = 0.003
-    history = vf.History([0.0, dwell, dwell, dwell + distance[-1] / SPEED], load=LOAD, speed=[0.0, 0.0, SPEED, SPEED])
-    run = vf.solve_transient(RUBBER, CYLINDER, history, times=dwell + distance / SPEED)
+    history = vf.motion.History(
+        [0.0, dwell, dwell, dwell + distance[-1] / SPEED], load=LOAD, speed=[0.0, 0.0, SPEED, SPEED]
+    )
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, times=dwell + distance / SPEED)
     assert run.friction_coefficient == pytest.approx(friction, rel=1e-3, abs=1e-3 * friction[-1])
 
 
 def test_friction_fades_after_a_stop_of_steady_sliding():
     """From the steady answer, which another code finds, to zero; the energy put in is stored or dissipated."""
     steady = vf.solve_steady(RUBBER, CYLINDER, speed=SPEED, load=LOAD).friction_coefficient
-    history = vf.History([0.0, 0.002, 0.002, 0.05], load=LOAD, speed=[SPEED, SPEED, 0.0, 0.0], before="sliding")
-    run = vf.solve_transient(RUBBER, CYLINDER, history, times=[0.0, 0.001, 0.002, 0.05], accuracy=2e-3)
+    history = vf.motion.History([0.0, 0.002, 0.002, 0.05], load=LOAD, speed=[SPEED, SPEED, 0.0, 0.0], before="sliding")
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, times=[0.0, 0.001, 0.002, 0.05], accuracy=2e-3)
     assert run.friction_coefficient[:3] == pytest.approx(steady, rel=2e-3)
     assert abs(run.friction_coefficient[3]) < 2e-3 * steady
     assert run.energy_imbalance < 2e-3
@@ -80,8 +82,10 @@ def test_friction_of_a_stiff_cylinder_fades_smoothly_after_a_stop():
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="3 ms")
     steady = vf.solve_steady(rubber, CYLINDER, speed=SPEED, load=LOAD).friction_coefficient
     stop = 2e-4
-    history = vf.History([0.0, stop, stop, 50 * stop], load=LOAD, speed=[SPEED, SPEED, 0.0, 0.0], before="sliding")
-    run = vf.solve_transient(rubber, CYLINDER, history, accuracy=1e-2)
+    history = vf.motion.History(
+        [0.0, stop, stop, 50 * stop], load=LOAD, speed=[SPEED, SPEED, 0.0, 0.0], before="sliding"
+    )
+    run = vf.motion.solve_transient(rubber, CYLINDER, history, accuracy=1e-2)
     friction = run.friction_coefficient / steady
     assert friction[run.time <= stop] == pytest.approx(1.0, abs=1e-2)
     fading = friction[run.time >= stop]
@@ -93,8 +97,8 @@ def test_friction_of_a_stiff_cylinder_fades_smoothly_after_a_stop():
 def test_the_load_after_a_glassy_start_is_as_accurate_as_asked():
     """A depth is put on at once: 800 times the later load for a moment, of which no part is left as an error."""
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="800 MPa", tau="0.2 s")
-    history = vf.History([0.0, 0.5, 0.5, 1.0], indentation=7e-5, speed=[0.0, 0.0, 5e-4, 5e-4])
-    run = vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=[0.4, 1.0], accuracy=2e-2)
+    history = vf.motion.History([0.0, 0.5, 0.5, 1.0], indentation=7e-5, speed=[0.0, 0.0, 5e-4, 5e-4])
+    run = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=[0.4, 1.0], accuracy=2e-2)
     relaxed = 4.0 / 3.0 * 1e6 / 0.75 * np.sqrt(0.01 * 7e-5**3)
     assert run.load[0] == pytest.approx(relaxed, rel=2e-2)
     assert run.errors.load.max() < 2e-2 * run.load.max()
@@ -105,8 +109,8 @@ def test_the_load_after_a_glassy_start_is_as_accurate_as_asked():
 def test_friction_overshoots_after_a_start_from_rest(ratio, peak, place):
     """Peak over the steady friction and its place in a0, of an independent solution, to the digits given."""
     speed = ratio * SPEED
-    history = vf.History([0.0, 0.4 * A0 / speed], load=LOAD, speed=speed, before="at rest")
-    run = vf.solve_transient(RUBBER, CYLINDER, history, times=np.linspace(0.2, 0.4, 21) * A0 / speed)
+    history = vf.motion.History([0.0, 0.4 * A0 / speed], load=LOAD, speed=speed, before="at rest")
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, times=np.linspace(0.2, 0.4, 21) * A0 / speed)
     steady = vf.solve_steady(RUBBER, CYLINDER, speed=speed, load=LOAD).friction_coefficient
     top = int(np.argmax(run.friction_coefficient))
     assert run.friction_coefficient[top] / steady == pytest.approx(peak, rel=0.0125)
@@ -117,8 +121,8 @@ def test_friction_overshoots_after_a_start_from_rest(ratio, peak, place):
 def test_a_slow_start_from_rest_does_not_overshoot():
     """A tenth of the retardation time from edge to centre: the friction is soon the steady one, and never above it."""
     times = np.linspace(0.1, 1.5, 15) * A0 / (0.1 * SPEED)
-    history = vf.History([0.0, times[-1]], load=LOAD, speed=0.1 * SPEED, before="at rest")
-    run = vf.solve_transient(RUBBER, CYLINDER, history, times=times, accuracy=5e-3)
+    history = vf.motion.History([0.0, times[-1]], load=LOAD, speed=0.1 * SPEED, before="at rest")
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, times=times, accuracy=5e-3)
     steady = vf.solve_steady(RUBBER, CYLINDER, speed=0.1 * SPEED, load=LOAD).friction_coefficient
     assert run.friction_coefficient == pytest.approx(np.full(15, steady), rel=5e-3)  # the accuracy
     assert np.all(run.friction_coefficient < steady + run.errors.friction_force / LOAD)
@@ -129,8 +133,8 @@ def test_long_sliding_of_a_ball_ends_steadily():
     """Three contact diameters at half a radius in a retardation time; to the accuracy, edges to half a cell of 55."""
     speed, load, accuracy = 0.1, 2.0, 1e-2
     steady = vf.solve_steady(RUBBER, vf.Ball("10 mm"), speed=speed, load=load)
-    history = vf.History([0.0, 0.06], load=load, speed=speed, before="at rest")
-    run = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.06], accuracy=accuracy)
+    history = vf.motion.History([0.0, 0.06], load=load, speed=speed, before="at rest")
+    run = vf.motion.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.06], accuracy=accuracy)
     assert run.friction_coefficient[0] == pytest.approx(steady.friction_coefficient, rel=accuracy)
     assert run.indentation[0] == pytest.approx(steady.indentation, rel=accuracy)
     assert [run.front[0], run.rear[0]] == pytest.approx([steady.front, steady.rear], rel=2e-2)
@@ -142,8 +146,8 @@ def test_start_of_a_ball_from_rest():
     speed, distance = 0.2240702373278583, np.array([0.0005601755933196458, 0.0011203511866392916, 0.002240702373278583])
     friction = [0.09988562408006342, 0.0979104567077052, 0.09283006012147565]
     depth = [-1.7849129799324092e-05, -3.384156981548709e-05, -5.22251741910392e-05]
-    history = vf.History([0.0, distance[-1] / speed], load=2.0, speed=speed, before="at rest")
-    run = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.0, *(distance / speed)])
+    history = vf.motion.History([0.0, distance[-1] / speed], load=2.0, speed=speed, before="at rest")
+    run = vf.motion.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.0, *(distance / speed)])
     assert run.friction_coefficient[1:] == pytest.approx(friction, rel=1.3e-3)
     assert np.diff(run.indentation, prepend=run.indentation[0])[1:].cumsum() == pytest.approx(depth, rel=5e-3)
     assert run.energy_imbalance < 1e-4
@@ -155,7 +159,9 @@ def test_a_start_with_a_broad_spectrum_is_as_accurate_as_asked_but_just_after_it
     """Friction jumps within slides of no length where retardation times are short: no grid has enough cells there."""
     tau, C = np.geomspace(1e-8, 1e4, 40), np.full(40, (1.0 / 2e6 - 1.0 / 2e8) / 40)
     rubber = vf.Material(vf.RetardationSpectrum(2e6, 2e8, C, tau))
-    run = vf.solve_transient(rubber, vf.Ball("5 mm"), vf.History([0.0, 0.02], load=1.0, speed=0.1, before="at rest"))
+    run = vf.motion.solve_transient(
+        rubber, vf.Ball("5 mm"), vf.motion.History([0.0, 0.02], load=1.0, speed=0.1, before="at rest")
+    )
     (note,) = (one for one in run.warnings if one.code == "coarse-start")
     relative = run.errors.friction_force / np.abs(run.friction_force).max()
     assert 0 < note.values["steps"] == np.count_nonzero(relative > 1e-3)
@@ -167,7 +173,9 @@ def test_a_stiff_cylinder_that_starts_ends_steadily():
     """After the start, friction settles within a slide of a few a E0/E∞, of which the note tells."""
     stiff = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="300 MPa", tau="10 ms")
     speed = 0.1 * A0 / 0.01
-    run = vf.solve_transient(stiff, CYLINDER, vf.History([0.0, 0.8], load=LOAD, speed=speed, before="at rest"))
+    run = vf.motion.solve_transient(
+        stiff, CYLINDER, vf.motion.History([0.0, 0.8], load=LOAD, speed=speed, before="at rest")
+    )
     steady = vf.solve_steady(stiff, CYLINDER, speed=speed, load=LOAD)
     largest = np.abs(run.friction_force).max()
     assert run.friction_force[-1] / LOAD == pytest.approx(steady.friction_coefficient, abs=1e-3 * largest / LOAD)
@@ -184,9 +192,9 @@ def test_reciprocation_of_a_cylinder():
     force = [0.09031212282076975, 0.019921053125879357, -0.07847207228524211, -0.10382697185998199]
     period = 2.0 * np.pi / omega
     time = np.linspace(0.0, 2.5 * period, 1001)
-    history = vf.History(time, load=LOAD, position=amplitude * np.sin(omega * time), before="at rest")
+    history = vf.motion.History(time, load=LOAD, position=amplitude * np.sin(omega * time), before="at rest")
     eighths = (2.0 + np.array([-0.5, 0.0, 0.125, 0.25, 0.375, 0.5])) * period
-    run = vf.solve_transient(RUBBER, CYLINDER, history, times=eighths, accuracy=2e-3)
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, times=eighths, accuracy=2e-3)
     # The polygon of the path is shorter than the sine by 2e-5.
     assert run.friction_coefficient[2:] == pytest.approx(force, abs=1e-3 * max(np.abs(force)))
     assert run.dissipated[-1] - run.dissipated[0] == pytest.approx(energy, rel=1e-3)
@@ -202,8 +210,8 @@ def test_reciprocation_of_a_cylinder():
 def test_long_motion_on_a_layer_ends_steadily(indenter, load, modulus):
     body = {"layer": vf.Layer("2 mm"), "indenter_modulus": modulus}
     steady = vf.solve_steady(RUBBER, indenter, speed=0.2, load=load, **body)
-    history = vf.History([0.0, 0.08], load=load, speed=0.2, before="at rest")
-    run = vf.solve_transient(RUBBER, indenter, history, times=[0.08], accuracy=5e-3, **body)
+    history = vf.motion.History([0.0, 0.08], load=load, speed=0.2, before="at rest")
+    run = vf.motion.solve_transient(RUBBER, indenter, history, times=[0.08], accuracy=5e-3, **body)
     assert run.friction_coefficient[0] == pytest.approx(steady.friction_coefficient, rel=5e-3)
     assert run.front[0] == pytest.approx(steady.front, rel=2e-2)  # half a cell of the 36 along the contact, and a part
 
@@ -211,10 +219,10 @@ def test_long_motion_on_a_layer_ends_steadily(indenter, load, modulus):
 @pytest.mark.apart
 def test_pressing_and_releasing_an_indenter_that_is_nearly_a_ball():
     """Loss of contact and its return, against springs, which are exact for the ball: radii differ by 1e-5."""
-    history = vf.History([0.0, 0.01, 0.02, 0.04, 0.06], load=[0.0, 1.0, 0.0, 0.0, 1.0])
+    history = vf.motion.History([0.0, 0.01, 0.02, 0.04, 0.06], load=[0.0, 1.0, 0.0, 0.0, 1.0])
     times = [0.005, 0.01, 0.015, 0.04, 0.06]
-    springs = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=times)
-    cells = vf.solve_transient(RUBBER, vf.Ellipsoid("10 mm", "10.0001 mm"), history, times=times, accuracy=1e-2)
+    springs = vf.motion.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=times)
+    cells = vf.motion.solve_transient(RUBBER, vf.Ellipsoid("10 mm", "10.0001 mm"), history, times=times, accuracy=1e-2)
     assert cells.method == "grid"
     loaded = springs.load > 0.0
     assert cells.load == pytest.approx(springs.load, rel=1e-9, abs=1e-9)
@@ -230,8 +238,8 @@ def test_a_curved_path_turns_with_the_plane_and_friction_follows_it():
     time = 0.01 * angle
 
     def force(path):
-        history = vf.History(time, load=1.0, position=path, before="at rest")
-        run = vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.002, 0.01], accuracy=2e-2)
+        history = vf.motion.History(time, load=1.0, position=path, before="at rest")
+        run = vf.motion.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=[0.002, 0.01], accuracy=2e-2)
         return np.column_stack([run.friction_force, run.lateral_force])
 
     straight = force(1e-3 * np.column_stack([angle, 0.0 * angle]))
@@ -247,33 +255,33 @@ def test_fast_modes_dissipate_after_a_jump_of_the_load():
     """Against springs, whose steps are short enough for every mode; the ball hardly moves along."""
     rubber = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [4.5e-7, 4.5e-7], [1e-6, 1e-2]))
     ball, times = vf.Ball("10 mm"), [0.0, 0.01]
-    springs = vf.solve_transient(rubber, ball, vf.History(times, load=1.0), times=times)
-    moved = vf.History(times, load=1.0, position=[0.0, 2e-5])
-    cells = vf.solve_transient(rubber, ball, moved, times=times, accuracy=0.1)
+    springs = vf.motion.solve_transient(rubber, ball, vf.motion.History(times, load=1.0), times=times)
+    moved = vf.motion.History(times, load=1.0, position=[0.0, 2e-5])
+    cells = vf.motion.solve_transient(rubber, ball, moved, times=times, accuracy=0.1)
     assert cells.method == "grid"
     assert cells.dissipated == pytest.approx(springs.dissipated, rel=5e-3)  # of the sliding: 2e-3
 
 
 def test_speed_that_turns_within_an_interval_is_motion():
-    history = vf.History([0.0, 0.02], load=1.0, speed=[0.1, -0.1], before="at rest")
+    history = vf.motion.History([0.0, 0.02], load=1.0, speed=[0.1, -0.1], before="at rest")
     time = np.linspace(0.0, 0.02, 41)
-    places = vf.History(time, load=1.0, position=0.1 * (time - time**2 / 0.02), before="at rest")
+    places = vf.motion.History(time, load=1.0, position=0.1 * (time - time**2 / 0.02), before="at rest")
     one, two = (
-        vf.solve_transient(RUBBER, vf.Ball("10 mm"), each, times=[0.005, 0.02], accuracy=2e-2)
+        vf.motion.solve_transient(RUBBER, vf.Ball("10 mm"), each, times=[0.005, 0.02], accuracy=2e-2)
         for each in (history, places)
     )
     assert one.method == "grid"
     assert one.friction_force == pytest.approx(two.friction_force, rel=2e-2)
     with refused("sharp-edge"):
-        vf.solve_transient(RUBBER, vf.FlatPunch("1 mm"), history)
+        vf.motion.solve_transient(RUBBER, vf.FlatPunch("1 mm"), history)
 
 
 def test_a_short_history_after_steady_sliding_begins_with_the_steady_friction():
     """Modes that are slow for the history are not slow for the motion before it."""
     rubber = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", np.full(9, 1e-7), 1e-4 * 10.0 ** np.arange(9)))
     steady = vf.solve_steady(rubber, CYLINDER, speed=0.1, load=LOAD, accuracy=1e-4).friction_coefficient
-    history = vf.History([0.0, 1e-4], load=LOAD, speed=0.1, before="sliding")
-    run = vf.solve_transient(rubber, CYLINDER, history, times=[0.0, 1e-4], accuracy=5e-3)
+    history = vf.motion.History([0.0, 1e-4], load=LOAD, speed=0.1, before="sliding")
+    run = vf.motion.solve_transient(rubber, CYLINDER, history, times=[0.0, 1e-4], accuracy=5e-3)
     assert run.friction_coefficient == pytest.approx(steady, rel=1e-3)  # a wake cut off would miss 3e-3 of it
 
 
@@ -319,11 +327,11 @@ def test_far_memory_acts_as_on_its_cells(line):
 @pytest.mark.slow
 def test_a_contact_returns_to_memory_that_was_far(monkeypatch):
     monkeypatch.setattr(solve, "_LINE_CELLS", 24)
-    history = vf.History([0.0, 0.02, 0.04], load=20.0, position=[0.0, 3e-3, 0.0], before="at rest")
+    history = vf.motion.History([0.0, 0.02, 0.04], load=20.0, position=[0.0, 3e-3, 0.0], before="at rest")
     runs = []
     for far in (past._FAR, 1e9):
         monkeypatch.setattr(past, "_FAR", far)
-        runs.append(vf.solve_transient(RUBBER, CYLINDER, history, times=[0.01, 0.02, 0.03, 0.04], accuracy=0.1))
+        runs.append(vf.motion.solve_transient(RUBBER, CYLINDER, history, times=[0.01, 0.02, 0.03, 0.04], accuracy=0.1))
     pieces, cells = runs
     assert pieces.friction_force == pytest.approx(cells.friction_force, rel=1e-6)
     assert pieces.dissipated == pytest.approx(cells.dissipated, rel=1e-7)
@@ -331,9 +339,9 @@ def test_a_contact_returns_to_memory_that_was_far(monkeypatch):
 
 def test_a_path_too_long_for_the_memory_is_refused_before_it_is_full(monkeypatch):
     monkeypatch.setattr(mover, "MOST_BYTES", 8 * 350)
-    history = vf.History([0.0, 3.0 * A0 / SPEED], load=LOAD, speed=SPEED, before="at rest")
+    history = vf.motion.History([0.0, 3.0 * A0 / SPEED], load=LOAD, speed=SPEED, before="at rest")
     with refused("too-long-path", vf.ConvergenceError):
-        vf.solve_transient(RUBBER, CYLINDER, history, accuracy=2e-2)
+        vf.motion.solve_transient(RUBBER, CYLINDER, history, accuracy=2e-2)
 
 
 @pytest.mark.slow
@@ -345,35 +353,39 @@ def test_progress_is_one_of_all_grids_and_an_interruption_states_errors_of_cells
         if told[-1] > 0.6:
             raise KeyboardInterrupt
 
-    history = vf.History([0.0, 0.3 * A0 / SPEED], load=LOAD, speed=SPEED, before="at rest")
+    history = vf.motion.History([0.0, 0.3 * A0 / SPEED], load=LOAD, speed=SPEED, before="at rest")
     whole: list[float] = []
-    run = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=lambda now, end: whole.append(now / end))
+    run = vf.motion.solve_transient(
+        RUBBER, CYLINDER, history, accuracy=0.1, progress=lambda now, end: whole.append(now / end)
+    )
     assert np.all(np.diff(whole) >= 0.0)
     assert whole[-1] == 1.0
-    part = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=stop)
+    part = vf.motion.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=stop)
     assert part.interrupted
     assert part.time[-1] < run.time[-1]
     assert part.friction_force == pytest.approx(run.friction_force[: len(part.time)], rel=1e-12)
     assert np.all(part.errors.friction_force[1:] > 0.2 * run.errors.friction_force[1 : len(part.time)])
     assert not part.warnings
-    nothing = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, times=[history.time[-1]], progress=stop)
+    nothing = vf.motion.solve_transient(
+        RUBBER, CYLINDER, history, accuracy=0.1, times=[history.time[-1]], progress=stop
+    )
     assert nothing.interrupted
     assert len(nothing.time) == 1
     assert codes(nothing.warnings) == {"one-grid"}
-    early = vf.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=lambda now, end: stop(0.7, 1.0))
+    early = vf.motion.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1, progress=lambda now, end: stop(0.7, 1.0))
     assert [note.code for note in early.warnings] == ["one-grid"]
 
 
 def test_line_contacts_refuse_a_depth_and_a_path_across():
     with refused("no-level"):
-        vf.solve_transient(RUBBER, CYLINDER, vf.History([0.0, 1.0], indentation="1 mm", speed=1.0))
+        vf.motion.solve_transient(RUBBER, CYLINDER, vf.motion.History([0.0, 1.0], indentation="1 mm", speed=1.0))
     with refused("line-direction"):
-        path = vf.History([0.0, 1.0], load=LOAD, position=[[0.0, 0.0], [0.0, 1e-3]])
-        vf.solve_transient(RUBBER, CYLINDER, path)
+        path = vf.motion.History([0.0, 1.0], load=LOAD, position=[[0.0, 0.0], [0.0, 1e-3]])
+        vf.motion.solve_transient(RUBBER, CYLINDER, path)
     with refused("no-contact"):
-        vf.solve_transient(RUBBER, CYLINDER, vf.History([0.0, 1.0], load=0.0, speed=1.0))
+        vf.motion.solve_transient(RUBBER, CYLINDER, vf.motion.History([0.0, 1.0], load=0.0, speed=1.0))
     with refused("sharp-edge"):
-        vf.solve_transient(RUBBER, vf.FlatPunch("1 mm"), vf.History([0.0, 1.0], load=1.0, speed=1.0))
+        vf.motion.solve_transient(RUBBER, vf.FlatPunch("1 mm"), vf.motion.History([0.0, 1.0], load=1.0, speed=1.0))
 
 
 def test_integrals_of_the_relaxation_over_a_step():
@@ -415,8 +427,8 @@ def test_boxes_carry_values():
 def test_friction_is_right_where_the_pressure_rises_within_a_cell() -> None:
     """Memory of 0.09 half-widths at E∞/E0 = 100: at the end of a slide, the steady contact of the other solver."""
     solid = vf.Material.standard_linear_solid("2 MPa", "200 MPa", "1 ms")
-    slide = vf.History([0.0, 0.02], load=1.0, speed=[0.1, 0.1], before="at rest")
-    run = vf.solve_transient(solid, vf.Ball("5 mm"), slide, times=[0.015, 0.02], accuracy=3e-3)
+    slide = vf.motion.History([0.0, 0.02], load=1.0, speed=[0.1, 0.1], before="at rest")
+    run = vf.motion.solve_transient(solid, vf.Ball("5 mm"), slide, times=[0.015, 0.02], accuracy=3e-3)
     steady = vf.solve_steady(solid, vf.Ball("5 mm"), load=1.0, speed=0.1, accuracy=1e-3)
     assert run.friction_coefficient == pytest.approx(steady.friction_coefficient, rel=2e-3)
     off = np.abs(run.friction_force - steady.friction_force)

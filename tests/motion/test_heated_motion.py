@@ -23,8 +23,8 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     spectrum = vf.Material.standard_linear_solid("2 MPa", "20 MPa", "2 ms").spectrum
     material = vf.Material(spectrum, shift=vf.Arrhenius("60 kJ/mol", reference="20 degC"))
     cylinder, asked, time = vf.Cylinder("5 mm"), [0.03, 0.045, 0.06], [0.0, 0.03, 0.06]
-    history = vf.History(time, load=2000.0, speed=[0.3, 0.3, 0.3], temperature="20 degC", before="at rest")
-    run = vf.solve_transient(material, cylinder, history, times=asked, accuracy=3e-2, heating=OF_THE_FACE)
+    history = vf.motion.History(time, load=2000.0, speed=[0.3, 0.3, 0.3], temperature="20 degC", before="at rest")
+    run = vf.motion.solve_transient(material, cylinder, history, times=asked, accuracy=3e-2, heating=OF_THE_FACE)
     heat = run.heating
     assert heat is not None
     assert heat.temperature_rise.min() > 0.9
@@ -34,10 +34,10 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     assert heat.rubber_heat + heat.counterface_heat == pytest.approx(heat.coulomb_heat + heat.loss_heat)
     assert heat.coulomb_heat == pytest.approx(0.5 * 2000.0 * 0.3 * np.array(asked))
     # The same contact at a given temperature, that of the end: after many contact lengths nothing older counts.
-    warm = vf.History(
+    warm = vf.motion.History(
         time, load=2000.0, speed=[0.3, 0.3, 0.3], temperature=float(run.temperature[-1]), before="at rest"
     )
-    given = vf.solve_transient(material, cylinder, warm, times=asked, accuracy=3e-2)
+    given = vf.motion.solve_transient(material, cylinder, warm, times=asked, accuracy=3e-2)
     errors = given.errors.friction_force[-1] + run.errors.friction_force[-1]
     assert run.friction_force[-1] == pytest.approx(given.friction_force[-1], abs=errors)
     assert heat.isothermal_friction_force[-1] > run.friction_force[-1] + 5.0 * errors
@@ -46,8 +46,8 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
 
 def test_a_heated_contact_has_no_state_to_go_on_from_and_one_progress_of_all_its_runs() -> None:
     told: list[float] = []
-    history = vf.History([0.1, 0.3, 0.3, 1.0], load=[1.0, 1.0, 5.0, 5.0], temperature="20 degC")
-    run = vf.solve_transient(
+    history = vf.motion.History([0.1, 0.3, 0.3, 1.0], load=[1.0, 1.0, 5.0, 5.0], temperature="20 degC")
+    run = vf.motion.solve_transient(
         vf.synthetic_fluoroelastomer(), BALL, history, times=[0.5, 1.0], accuracy=5e-2, heating=HEATING,
         progress=lambda reached, end: told.append(reached),
     )  # fmt: skip
@@ -61,10 +61,10 @@ def test_a_heated_contact_has_no_state_to_go_on_from_and_one_progress_of_all_its
 
 def test_what_cannot_be_heated_over_time_is_refused() -> None:
     material = vf.synthetic_fluoroelastomer()
-    pressed = vf.History([0.0, 1.0], load=1.0, temperature="20 degC")
+    pressed = vf.motion.History([0.0, 1.0], load=1.0, temperature="20 degC")
     with refused("not-with-heating"):
-        vf.solve_transient(material, BALL, pressed, heating=HEATING, layer=vf.Layer("1 mm"))
+        vf.motion.solve_transient(material, BALL, pressed, heating=HEATING, layer=vf.Layer("1 mm"))
     with refused("not-with-heating"):
-        vf.solve_transient(material, BALL, vf.History([0.0, 1.0], load=1.0), heating=HEATING)
+        vf.motion.solve_transient(material, BALL, vf.motion.History([0.0, 1.0], load=1.0), heating=HEATING)
     with refused("heating"):
-        vf.solve_transient(material, BALL, pressed, heating="steel")  # type: ignore[arg-type]
+        vf.motion.solve_transient(material, BALL, pressed, heating="steel")  # type: ignore[arg-type]

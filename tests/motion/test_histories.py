@@ -42,25 +42,25 @@ TIME = [0.0, 0.1, 0.3]
 )  # fmt: skip
 def test_what_contradicts_itself_is_refused(code, given):
     with refused(code):
-        vf.History(**given)
+        vf.motion.History(**given)
 
 
 def test_what_the_material_or_the_contact_cannot_have_is_refused():
     with refused("no-shift"):
-        vf.History(TIME, load=1.0, temperature=300.0).schedule(RUBBER, "point")
+        vf.motion.History(TIME, load=1.0, temperature=300.0).schedule(RUBBER, "point")
     with refused("temperature"):  # below the pole of the law
-        vf.History(TIME, load=1.0, temperature=[300.0, 300.0, 180.0]).schedule(WARM, "point")
+        vf.motion.History(TIME, load=1.0, temperature=[300.0, 300.0, 180.0]).schedule(WARM, "point")
     with refused("wrong-control"):
-        vf.History(TIME, pressure=1.0).schedule(RUBBER, "point")
+        vf.motion.History(TIME, pressure=1.0).schedule(RUBBER, "point")
     with refused("wrong-unit"):
-        vf.History(TIME, load="1 kN/m").schedule(RUBBER, "point")
-    shifted = vf.Material(RUBBER.spectrum, shift=LAW, vertical_shift=vf.DensityShift("30 degC"))
+        vf.motion.History(TIME, load="1 kN/m").schedule(RUBBER, "point")
+    shifted = vf.Material(RUBBER.spectrum, shift=LAW, vertical_shift=vf.rheology.DensityShift("30 degC"))
     with refused("vertical-shift"):
-        vf.History(TIME, load=1.0, temperature=[300.0, 300.0, 310.0]).schedule(shifted, "point")
+        vf.motion.History(TIME, load=1.0, temperature=[300.0, 300.0, 310.0]).schedule(shifted, "point")
 
 
 def test_values_are_linear_between_times_and_jump_where_one_is_repeated():
-    history = vf.History(
+    history = vf.motion.History(
         ["0 s", "100 ms", "100 ms", "300 ms"], load=["0 N", "2 N", "5 N", "1 N"], position=[0, 0, 0, 0.02]
     )
     schedule = history.schedule(RUBBER, "point")
@@ -75,26 +75,26 @@ def test_values_are_linear_between_times_and_jump_where_one_is_repeated():
 
 
 def test_jumps_at_both_ends_keep_both_values():
-    schedule = vf.History([0.0, 0.0, 1.0, 1.0], indentation=[-1e-4, 0.0, 1e-4, 2e-4]).schedule(RUBBER, "point")
+    schedule = vf.motion.History([0.0, 0.0, 1.0, 1.0], indentation=[-1e-4, 0.0, 1e-4, 2e-4]).schedule(RUBBER, "point")
     ends = [schedule.at(time, after=after).depth for time in (0.0, 1.0) for after in (False, True)]
     assert ends == [-1e-4, 0.0, 1e-4, 2e-4]
 
 
 def test_a_time_that_misses_an_end_by_rounding_is_that_end():
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
-    history = vf.History([0.1, 0.3], load=1.0)
+    history = vf.motion.History([0.1, 0.3], load=1.0)
     asked = [0.3 - 0.1 - 0.1, 0.1 + 0.2]
     assert asked[0] < 0.1
     assert asked[1] > 0.3
-    run = vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=asked, accuracy=0.1)
+    run = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=asked, accuracy=0.1)
     assert run.time.tolist() == [0.1, 0.3]
     for beyond in (0.3 * (1.0 + 3e-12), 0.1 - 1e-12):
         with refused("out-of-range"):
-            vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=[beyond], accuracy=0.1)
+            vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=[beyond], accuracy=0.1)
 
 
 def test_times_are_dense_after_each_kink():
-    history = vf.History([0.0, 1.0, 1.0, 3.0], load=1.0, speed=[0.0, 0.0, 0.1, 0.1])
+    history = vf.motion.History([0.0, 1.0, 1.0, 3.0], load=1.0, speed=[0.0, 0.0, 0.1, 0.1])
     times = np.array(dense_times(history, 45))
     assert len(times) == 45
     assert np.flatnonzero(times == 1.0).tolist() == [22, 23]  # before and after the jump
@@ -108,7 +108,7 @@ def test_times_are_dense_after_each_kink():
 
 
 def test_a_linear_speed_integrates_to_a_parabola():
-    schedule = vf.History([0.0, 1.0, 2.0], load=1.0, speed=[0.0, 1.0, 1.0], direction=(0.0, 2.0)).schedule(
+    schedule = vf.motion.History([0.0, 1.0, 2.0], load=1.0, speed=[0.0, 1.0, 1.0], direction=(0.0, 2.0)).schedule(
         RUBBER, "point"
     )
     assert schedule.at(0.5).position == pytest.approx([0.0, 0.125])
@@ -117,7 +117,7 @@ def test_a_linear_speed_integrates_to_a_parabola():
 
 
 def test_at_a_constant_temperature_the_modes_are_shifted_and_the_clock_is_time():
-    schedule = vf.History(TIME, load=1.0, temperature="60 degC").schedule(WARM, "point")
+    schedule = vf.motion.History(TIME, load=1.0, temperature="60 degC").schedule(WARM, "point")
     assert schedule.spectrum.tau == pytest.approx(WARM.at("60 degC").tau)
     assert schedule.at(0.3).clock == pytest.approx(0.3, rel=1e-15)
 
@@ -127,7 +127,7 @@ def test_the_clock_is_the_integral_of_the_inverse_shift_factor(law):
     """dξ = α(T₁)/α(T) dt with α(T₀)τ the times at T; to 1e-10, also across the kink of a joined law."""
     rubber = vf.Material(RUBBER.spectrum, shift=law)
     time, kelvin = np.array([0.0, 2.0, 5.0]), np.array([290.0, 330.0, 320.0])
-    schedule = vf.History(time, load=1.0, temperature=kelvin).schedule(rubber, "point")
+    schedule = vf.motion.History(time, load=1.0, temperature=kelvin).schedule(rubber, "point")
     kinks = [2.0] if not isinstance(law, vf.WLFArrhenius) else [0.5, 2.0]
     for end in (0.3, 2.0, 4.2):
         wanted, _ = quad(

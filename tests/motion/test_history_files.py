@@ -31,7 +31,7 @@ def written(folder: Path, text: str) -> Path:
 
 
 def test_columns_are_read_with_their_units(tmp_path: Path) -> None:
-    history = vf.read_history(written(tmp_path, WIPER), before="at rest", direction=(0.0, 1.0))
+    history = vf.motion.read_history(written(tmp_path, WIPER), before="at rest", direction=(0.0, 1.0))
     assert (history.control, history.load_unit, history.before) == ("load", "N/m", "at rest")
     # rounding of the conversion
     np.testing.assert_allclose(history.time, [0.0, 0.1, 0.1, 0.3], rtol=1e-14)
@@ -42,16 +42,16 @@ def test_columns_are_read_with_their_units(tmp_path: Path) -> None:
 
 def test_depths_speeds_and_constants(tmp_path: Path) -> None:
     path = written(tmp_path, "t (s),depth (um),vx (mm/s),vy (mm/s)\n0,0,1,0\n1,5,1,2\n")
-    history = vf.read_history(path, temperature="30 degC")
+    history = vf.motion.read_history(path, temperature="30 degC")
     assert history.control == "indentation"
     np.testing.assert_allclose(history.indentation, [0.0, 5e-6], rtol=1e-14)
     np.testing.assert_allclose(history.position[-1], [1e-3, 1e-3], rtol=1e-14)
     assert history.temperature.tolist() == [303.15, 303.15]
     path = written(tmp_path, "t (s),x (mm)\n0,0\n1,5\n")
-    history = vf.read_history(path, load="2 N")
+    history = vf.motion.read_history(path, load="2 N")
     assert (history.load.tolist(), history.position.tolist()) == ([2.0, 2.0], [[0.0, 0.0], [0.005, 0.0]])
     with refused("give-one"):
-        vf.read_history(path, load="2 N", indentation="1 mm")
+        vf.motion.read_history(path, load="2 N", indentation="1 mm")
 
 
 def test_headings_and_sheets_are_named(tmp_path: Path) -> None:
@@ -60,12 +60,12 @@ def test_headings_and_sheets_are_named(tmp_path: Path) -> None:
     workbook.write(path, {"about": [["Rig 3"]], "run 1": rows, "run 2": rows})
     named = {"time": "clock / s", "load": "Fz (N)", "position": "#3 (mm)"}
     with refused("several-tables", DataFileError) as caught:
-        vf.read_history(path, columns=named)
+        vf.motion.read_history(path, columns=named)
     assert "--history-sheet 'run 1'" in caught.value.words("shell")
-    history = vf.read_history(path, columns=named, sheet="run 2")
+    history = vf.motion.read_history(path, columns=named, sheet="run 2")
     assert (history.load.tolist(), history.position[:, 0].tolist()) == ([3.0, 4.0], [0.0, 0.005])
     with refused("missing-columns", DataFileError) as caught:
-        vf.read_history(path)
+        vf.motion.read_history(path)
     assert caught.value.field == "history.columns"
     assert "--history-column" in caught.value.words("shell")
 
@@ -95,13 +95,13 @@ def test_headings_and_sheets_are_named(tmp_path: Path) -> None:
 def test_errors_name_the_file_and_the_line(tmp_path: Path, code: str, line: int | None, text: str) -> None:
     path = written(tmp_path, text)
     with refused(code, DataFileError, naming=str(path)) as caught:
-        vf.read_history(path)
+        vf.motion.read_history(path)
     assert caught.value.row == line
 
 
 def test_a_value_for_a_column_that_is_there_is_refused(tmp_path: Path) -> None:
     with refused("give-one", naming="load"):
-        vf.read_history(written(tmp_path, WIPER), load="3 N/m")
+        vf.motion.read_history(written(tmp_path, WIPER), load="3 N/m")
     for code, given in (
         ("wrong-choice", {"before": "asleep"}),
         ("wrong-count", {"direction": (0.0, 0.0)}),
@@ -109,5 +109,5 @@ def test_a_value_for_a_column_that_is_there_is_refused(tmp_path: Path) -> None:
         ("wrong-unit", {"temperature": "1 N"}),
     ):
         with refused(code) as caught:
-            vf.read_history(written(tmp_path, WIPER), **given)
+            vf.motion.read_history(written(tmp_path, WIPER), **given)
         assert not isinstance(caught.value, DataFileError)

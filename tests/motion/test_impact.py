@@ -44,7 +44,7 @@ TING = {
 
 @pytest.mark.parametrize("tau", TING)
 def test_an_impact_is_that_of_tings_solution(tau):
-    hit = vf.solve_impact(rubber(tau), BALL, mass=MASS, speed=SPEED)
+    hit = vf.motion.solve_impact(rubber(tau), BALL, mass=MASS, speed=SPEED)
     restitution, duration, deepest, peak, separation, when = TING[tau]
     assert hit.restitution == pytest.approx(restitution, abs=3e-5)  # a third of the accuracy asked for
     assert hit.restitution_error < 1e-4
@@ -63,13 +63,13 @@ def test_small_losses_of_long_contacts_are_those_of_ramirez():
     depth = (5.0 * MASS * SPEED**2 / (4.0 * kappa * E0)) ** 0.4
     beta = math.gamma(0.6) * math.gamma(1.5) / math.gamma(2.1)
     loss = 3.0 * kappa * E0 * (E0 * 9e-7 * tau) * SPEED * depth**1.5 * 0.4 * beta / (MASS * SPEED**2)
-    hit = vf.solve_impact(rubber(tau), BALL, mass=MASS, speed=SPEED, accuracy=3e-6)
+    hit = vf.motion.solve_impact(rubber(tau), BALL, mass=MASS, speed=SPEED, accuracy=3e-6)
     assert 1.0 - hit.restitution == pytest.approx(loss, rel=5e-3)
 
 
 def test_an_elastic_impact_is_that_of_hertz():
     """T = 2.94328 δ/v, with δ by the energy."""
-    hit = vf.solve_impact(rubber(1e9), BALL, mass=MASS, speed=SPEED, accuracy=1e-5)
+    hit = vf.motion.solve_impact(rubber(1e9), BALL, mass=MASS, speed=SPEED, accuracy=1e-5)
     depth = (15.0 * 0.75 * MASS * SPEED**2 / (16.0 * 1e7 * 0.1)) ** 0.4
     assert hit.restitution == pytest.approx(1.0, abs=1e-5)
     assert hit.largest_indentation == pytest.approx(depth, rel=1e-5)
@@ -130,19 +130,19 @@ def broad(count):
 @pytest.mark.slow
 def test_forty_modes_agree_with_tings_solution():
     spectrum = broad(40)
-    hit = vf.solve_impact(vf.Material(spectrum), BALL, mass=MASS, speed=SPEED)
+    hit = vf.motion.solve_impact(vf.Material(spectrum), BALL, mass=MASS, speed=SPEED)
     assert hit.restitution == pytest.approx(ting(spectrum, 0.01, MASS, SPEED), abs=1e-4)
     assert hit.run.energy_imbalance < 1e-4
 
 
 def test_scales_do_not_matter():
     """Times alike; moduli by 1e6, lengths by 1e-3 and times by 1e9: the same restitution."""
-    hit = vf.solve_impact(rubber(1e-3), BALL, mass=MASS, speed=SPEED)
-    slow = vf.solve_impact(rubber(1.0), BALL, mass=1e6 * MASS, speed=1e-3 * SPEED)
+    hit = vf.motion.solve_impact(rubber(1e-3), BALL, mass=MASS, speed=SPEED)
+    slow = vf.motion.solve_impact(rubber(1.0), BALL, mass=1e6 * MASS, speed=1e-3 * SPEED)
     assert slow.restitution == pytest.approx(hit.restitution, abs=1e-9)
     assert slow.contact_time == pytest.approx(1e3 * hit.contact_time, rel=1e-9)
     E, L, T = 1e6, 1e-3, 1e9
-    other = vf.solve_impact(
+    other = vf.motion.solve_impact(
         rubber(1e-3 * T, 1e6 * E, 1e7 * E), vf.Ball(0.01 * L), mass=MASS * E * L * T**2, speed=SPEED * L / T
     )
     assert other.restitution == pytest.approx(hit.restitution, abs=1e-9)
@@ -152,7 +152,7 @@ def test_scales_do_not_matter():
 def test_a_cone_of_an_elastic_body_bounces_back_as_fast():
     """F = (2 E*/π tan θ) δ², so that m v²/2 = (2 E*/3π tan θ) δ³."""
     angle, stiffness = 0.1, 1e7 / 0.75
-    hit = vf.solve_impact(rubber(1e9), vf.Cone(angle), mass=MASS, speed=SPEED)
+    hit = vf.motion.solve_impact(rubber(1e9), vf.Cone(angle), mass=MASS, speed=SPEED)
     depth = (0.75 * math.pi * math.tan(angle) * MASS * SPEED**2 / stiffness) ** (1.0 / 3.0)
     assert hit.restitution == pytest.approx(1.0, abs=1e-4)
     assert hit.largest_indentation == pytest.approx(depth, rel=1e-4)
@@ -160,7 +160,7 @@ def test_a_cone_of_an_elastic_body_bounces_back_as_fast():
 
 def test_a_punch_bounces_as_a_mass_on_a_spring():
     """F = 2 a E* δ: half a period is π √(m/2aE*)."""
-    hit = vf.solve_impact(rubber(1e9), vf.FlatPunch("1 mm"), mass=MASS, speed=SPEED)
+    hit = vf.motion.solve_impact(rubber(1e9), vf.FlatPunch("1 mm"), mass=MASS, speed=SPEED)
     stiffness = 2.0 * 1e-3 * 1e7 / 0.75
     assert hit.restitution == pytest.approx(1.0, abs=1e-4)
     assert hit.contact_time == pytest.approx(math.pi * math.sqrt(MASS / stiffness), rel=1e-4)
@@ -169,7 +169,7 @@ def test_a_punch_bounces_as_a_mass_on_a_spring():
 
 def test_an_elastic_ball_adds_its_compliance():
     """With E_i* = E∞*, depths are those of half the modulus."""
-    hit = vf.solve_impact(
+    hit = vf.motion.solve_impact(
         rubber(1e9), BALL, mass=MASS, speed=SPEED, indenter_modulus=1e7, indenter_poisson_ratio=0.5, accuracy=1e-5
     )
     depth = (15.0 * 0.75 * MASS * SPEED**2 / (16.0 * 0.5e7 * 0.1)) ** 0.4
@@ -178,7 +178,7 @@ def test_an_elastic_ball_adds_its_compliance():
 
 @pytest.mark.slow
 def test_rebounds_under_gravity_go_on_until_the_ball_rests():
-    hit = vf.solve_impact(rubber(1e-3), BALL, mass=0.03, speed=1.0, gravity=9.81, rebounds=8)
+    hit = vf.motion.solve_impact(rubber(1e-3), BALL, mass=0.03, speed=1.0, gravity=9.81, rebounds=8)
     each = hit.contacts
     assert len(each) == 5
     assert each[-1].restitution == 0.0
@@ -202,7 +202,7 @@ def test_rebounds_under_gravity_go_on_until_the_ball_rests():
 
 @pytest.mark.slow
 def test_a_slow_ball_sinks_in_and_stays():
-    hit = vf.solve_impact(rubber(1e-2), BALL, mass=0.03, speed=1e-3, gravity=9.81)
+    hit = vf.motion.solve_impact(rubber(1e-2), BALL, mass=0.03, speed=1e-3, gravity=9.81)
     assert hit.restitution == 0.0
     still = (0.75 * 0.75 * 0.03 * 9.81 / (1e6 * 0.1)) ** (2.0 / 3.0)
     assert 0.9 * still < hit.largest_indentation < 2.0 * still  # it oscillates about it
@@ -212,10 +212,10 @@ def test_a_slow_ball_sinks_in_and_stays():
 def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
     warm = vf.Material(broad(12), shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))
     kelvin = [260.0, 300.0, 400.0]
-    curve = vf.restitution_curve(warm, BALL, speeds=[0.05, 0.1], temperatures=kelvin, mass="30 g")
+    curve = vf.motion.restitution_curve(warm, BALL, speeds=[0.05, 0.1], temperatures=kelvin, mass="30 g")
     assert curve.restitution.shape == (3, 2)
     assert np.argmin(curve.restitution[:, 0]) == 1
-    one = vf.solve_impact(warm, BALL, speed=0.1, temperature=300.0, mass="30 g")
+    one = vf.motion.solve_impact(warm, BALL, speed=0.1, temperature=300.0, mass="30 g")
     assert curve.restitution[1, 1] == one.restitution
     data = curve.to_dataset()
     assert data.restitution.dims == ("temperature", "speed")
@@ -225,13 +225,13 @@ def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
 
 def test_what_cannot_fall_is_refused():
     with refused("not-available"):
-        vf.solve_impact(rubber(1e-3), vf.Ellipsoid("1 mm", "2 mm"), mass=1.0, speed=1.0)
+        vf.motion.solve_impact(rubber(1e-3), vf.Ellipsoid("1 mm", "2 mm"), mass=1.0, speed=1.0)
     with refused("negative"):
-        vf.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, gravity=-9.81)
+        vf.motion.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, gravity=-9.81)
     with refused("beyond-indenter"):
-        vf.solve_impact(rubber(1e-3), BALL, mass=100.0, speed=10.0)
+        vf.motion.solve_impact(rubber(1e-3), BALL, mass=100.0, speed=10.0)
     with refused("out-of-range"):
-        vf.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, accuracy=0.5)
+        vf.motion.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, accuracy=0.5)
 
 
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-4])
@@ -242,7 +242,7 @@ def test_the_error_of_restitution_includes_merged_modes_and_springs(accuracy: fl
     stiff = vf.RetardationSpectrum(1e6, 1.0 / (1e-6 - 0.999e-6), [0.999e-6], [2e-3])
     for spectrum in (nearly_elastic, stiff):
         hit, finer = (
-            vf.solve_impact(vf.Material(spectrum), vf.Ball("20 mm"), mass="50 g", speed="0.1 m/s", accuracy=one)
+            vf.motion.solve_impact(vf.Material(spectrum), vf.Ball("20 mm"), mass="50 g", speed="0.1 m/s", accuracy=one)
             for one in (accuracy, 1e-6)
         )
         assert abs(hit.restitution - finer.restitution) <= hit.restitution_error <= accuracy
@@ -255,7 +255,7 @@ def test_the_error_of_the_largest_force_includes_springs_that_are_touched_one_by
     tau = [5.18e-4, 2.107e-3, 2.485e-3, 5.905e-3, 2.2625e-2, 0.56956]
     spectrum = vf.RetardationSpectrum(85e6, 4.8e12, share / share.sum() * (1.0 / 85e6 - 1.0 / 4.8e12), tau)
     hit, finer = (
-        vf.solve_impact(vf.Material(spectrum), vf.Ball("3.564 mm"), mass=0.2256, speed=0.0111, accuracy=one)
+        vf.motion.solve_impact(vf.Material(spectrum), vf.Ball("3.564 mm"), mass=0.2256, speed=0.0111, accuracy=one)
         for one in (1e-3, 3e-5)
     )
     assert abs(hit.peak_force - finer.peak_force) <= hit.run.errors.load[0] < 0.05 * hit.peak_force

@@ -56,7 +56,7 @@ class Unsteady:
         return self.marked
 
 
-SCHEDULE = vf.History([0.0, 1.0], load=1.0).schedule(RUBBER, "point")
+SCHEDULE = vf.motion.History([0.0, 1.0], load=1.0).schedule(RUBBER, "point")
 
 
 @pytest.mark.parametrize("error", [6e-5, 2e-4])

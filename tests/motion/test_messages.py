@@ -13,46 +13,46 @@ if TYPE_CHECKING:
 
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 BALL = vf.Ball("10 mm")
-PRESSED = vf.History([0.0, 1.0], load=1.0)
+PRESSED = vf.motion.History([0.0, 1.0], load=1.0)
 
 SENTENCES: list[tuple[Callable[[], object], str, str]] = [
     (
-        lambda: vf.History([0.0, 2.0, 1.0], load=1.0),
+        lambda: vf.motion.History([0.0, 2.0, 1.0], load=1.0),
         "time-goes-back",
         "time: goes back from 2 s to 1 s; sort the history by time.",
     ),
     (
-        lambda: vf.History([0.0, 1.0]),
+        lambda: vf.motion.History([0.0, 1.0]),
         "give-one",
         "load, indentation, pressure, gap: none of them given; give exactly one of them.",
     ),
     (
-        lambda: vf.History([0.0, 1.0], load=[1.0, -1.0]),
+        lambda: vf.motion.History([0.0, 1.0], load=[1.0, -1.0]),
         "negative-load",
         "load = -1 N at time 1 s: must not be below zero; adhesion is not part of the model.",
     ),
     (
-        lambda: vf.History([0.0, 1.0, 2.0], load=[1.0, 2.0]),
+        lambda: vf.motion.History([0.0, 1.0, 2.0], load=[1.0, 2.0]),
         "wrong-length",
         "load: has the shape (2,), but there are 3 times; give one value, or one for each time.",
     ),
     (
-        lambda: vf.History([0.0, 1.0, 1.0], load=1.0, position=[0.0, 1.0, 2.0]),
+        lambda: vf.motion.History([0.0, 1.0, 1.0], load=1.0, position=[0.0, 1.0, 2.0]),
         "position-jump",
         "position: jumps at time 1 s; only loads, depths, speeds and temperatures may jump.",
     ),
     (
-        lambda: vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], pressure=1.0)),
+        lambda: vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], pressure=1.0)),
         "wrong-control",
         "history: a point contact has no prescribed pressure; give load or indentation.",
     ),
     (
-        lambda: vf.solve_transient(RUBBER, BALL, PRESSED, times=[2.0]),
+        lambda: vf.motion.solve_transient(RUBBER, BALL, PRESSED, times=[2.0]),
         "out-of-range",
         "times: 2 s lies outside the history, 0 to 1 s.",
     ),
     (
-        lambda: vf.solve_impact(RUBBER, vf.Ellipsoid("1 mm", "2 mm"), mass=1.0, speed=1.0),
+        lambda: vf.motion.solve_impact(RUBBER, vf.Ellipsoid("1 mm", "2 mm"), mass=1.0, speed=1.0),
         "not-available",
         (
             "indenter: the ellipsoid is no body of revolution; available: a ball, a cone or another body of revolution "

@@ -32,7 +32,7 @@ def broad(count=40):
 
 def test_creep_under_a_load_step_is_that_of_lee_and_radok():
     """a³ = (3/4)(1−ν²) R F J(t) at all times; errors of the edge within a spacing of springs."""
-    run = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], load=1.0), times=TIMES)
+    run = vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], load=1.0), times=TIMES)
     radius = np.cbrt(0.75 * 0.75 * 0.01 * RUBBER.spectrum.creep_compliance(TIMES))
     # Independent solution, exact to 1e-12.
     assert radius[[0, 3, 7]] == pytest.approx([0.0008279496348089715, 0.001233020044283825, 0.0017784466522450314])
@@ -43,7 +43,9 @@ def test_creep_under_a_load_step_is_that_of_lee_and_radok():
 
 
 def test_relaxation_after_a_depth_step_is_that_of_lee_and_radok():
-    run = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], indentation=2e-4), times=TIMES, accuracy=2e-4)
+    run = vf.motion.solve_transient(
+        RUBBER, BALL, vf.motion.History([0.0, 1.0], indentation=2e-4), times=TIMES, accuracy=2e-4
+    )
     force = 4.0 / 3.0 * math.sqrt(0.01) / 0.75 * 2e-4**1.5 * RUBBER.spectrum.relaxation_modulus(TIMES)
     assert force[[0, 3, 7]] == pytest.approx([4.983285576246332, 0.7281420402569823, 0.5028314888437672])
     assert run.load == pytest.approx(force, rel=1e-3)
@@ -59,13 +61,13 @@ def test_depth_triangle_is_that_of_ting_until_the_contact_is_lost():
               0.0007465521108715424, 0.0005248310384172931]  # fmt: skip
     dents = [8.143264820833617e-05, 3.310804407383914e-05, 4.480686522143278e-06]
     later = [0.032000300540280385, 0.041000300540280386, 0.06100030054028038]
-    history = vf.History([0.0, 0.02, 0.04, 0.1], indentation=[0.0, 2e-4, 0.0, -1e-4])
-    run = vf.solve_transient(RUBBER, BALL, history, times=times + later)
+    history = vf.motion.History([0.0, 0.02, 0.04, 0.1], indentation=[0.0, 2e-4, 0.0, -1e-4])
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=times + later)
     assert run.load[:7] == pytest.approx(force, rel=1e-3)
     assert run.contact_radius[:7] == pytest.approx(radius, rel=1e-3)
     assert run.dent[7:] == pytest.approx(dents, rel=1e-3)
     assert run.load[7:].tolist() == run.contact_radius[7:].tolist() == [0.0, 0.0, 0.0]
-    every = vf.solve_transient(RUBBER, BALL, history)
+    every = vf.motion.solve_transient(RUBBER, BALL, history)
     lost = every.time[np.argmax((every.load == 0.0) & (every.time > 0.02))]
     assert lost == pytest.approx(0.031000300540280388, rel=0.05)  # within a step
     assert every.energy_imbalance < 1e-4
@@ -77,8 +79,8 @@ def test_load_triangle_is_that_of_ting_and_the_contact_grows_after_the_peak():
               0.001462258179823218, 0.001013882258240686]  # fmt: skip
     depth = [5.521462484770873e-05, 0.00011370372179212933, 0.0002277170369035185, 0.0002472438692487943,
              0.00023977694780093003, 0.0001873009576915757, 0.0001385952660548365]  # fmt: skip
-    history = vf.History([0.0, 0.02, 0.04, 0.1], load=[0.0, 1.0, 0.0, 0.0])
-    run = vf.solve_transient(RUBBER, BALL, history, times=[*times, 0.05, 0.07])
+    history = vf.motion.History([0.0, 0.02, 0.04, 0.1], load=[0.0, 1.0, 0.0, 0.0])
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=[*times, 0.05, 0.07])
     assert run.contact_radius[:6] == pytest.approx(radius, rel=1e-3)
     assert run.indentation == pytest.approx([*depth, 5.0986349024894214e-05, 6.900251986484846e-06], rel=1e-3)
     assert run.contact_radius[3] > run.contact_radius[2]
@@ -100,8 +102,8 @@ def test_an_oscillation_dissipates_what_the_independent_solution_does(
     omega, points = 100.0, 144
     time = np.linspace(0.0, 6.0 * np.pi / omega, 3 * points + 1)
     values = mean + amplitude * np.sin(omega * time)
-    history = vf.History(time, **{control: np.maximum(values, 0.0)}, before="at rest")
-    run = vf.solve_transient(RUBBER, BALL, history, times=time)
+    history = vf.motion.History(time, **{control: np.maximum(values, 0.0)}, before="at rest")
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=time)
     assert run.work[-1] - run.work[-1 - points] == pytest.approx(energy, rel=1e-3)
     assert run.load[-points:].max() == pytest.approx(largest, rel=1e-3)
     assert run.indentation[-points:].max() == pytest.approx(deepest, rel=1e-3)
@@ -110,10 +112,12 @@ def test_an_oscillation_dissipates_what_the_independent_solution_does(
 def test_forty_modes_creep_and_relax_as_they_should():
     """Lee–Radok with all modes: a load step, and a ramp of depth, F = (8/3) √R/(1−ν²) ∫E(t−t') d(δ^1.5)."""
     rubber, times = broad(), [1e-4, 1e-2, 1.0]
-    run = vf.solve_transient(rubber, BALL, vf.History([0.0, 1.0], load=1.0), times=times)
+    run = vf.motion.solve_transient(rubber, BALL, vf.motion.History([0.0, 1.0], load=1.0), times=times)
     radius = np.cbrt(0.75 * 0.75 * 0.01 * rubber.spectrum.creep_compliance(times))
     assert run.contact_radius == pytest.approx(radius, rel=5e-4)
-    run = vf.solve_transient(rubber, BALL, vf.History([0.0, 1.0], indentation=[0.0, 2e-4]), times=times[1:])
+    run = vf.motion.solve_transient(
+        rubber, BALL, vf.motion.History([0.0, 1.0], indentation=[0.0, 2e-4]), times=times[1:]
+    )
     for time, load in zip(times[1:], run.load, strict=True):
         # d(δ^1.5) = 1.5 c^1.5 √t' dt', with t' = t(1 − x³) against the peak of E at t' = t
         x, w = np.polynomial.legendre.leggauss(400)
@@ -126,7 +130,7 @@ def test_forty_modes_creep_and_relax_as_they_should():
 def test_cone_under_a_load_step():
     """F = (π/2) E* a² tan θ (I. N. Sneddon, 1965) with 1/E* → (1−ν²) J(t)."""
     angle = 0.1
-    run = vf.solve_transient(RUBBER, vf.Cone(angle), vf.History([0.0, 1.0], load=1.0), times=TIMES)
+    run = vf.motion.solve_transient(RUBBER, vf.Cone(angle), vf.motion.History([0.0, 1.0], load=1.0), times=TIMES)
     radius = np.sqrt(2.0 * 0.75 * RUBBER.spectrum.creep_compliance(TIMES) / (math.pi * math.tan(angle)))
     assert run.contact_radius == pytest.approx(radius, rel=5e-4)
     assert run.indentation == pytest.approx(0.5 * math.pi * math.tan(angle) * radius, rel=1e-4)
@@ -134,7 +138,7 @@ def test_cone_under_a_load_step():
 
 def test_punch_creeps_with_a_constant_radius():
     """F = 2 a E* δ (J. Boussinesq)."""
-    run = vf.solve_transient(RUBBER, vf.FlatPunch("1 mm"), vf.History([0.0, 1.0], load=1.0), times=TIMES)
+    run = vf.motion.solve_transient(RUBBER, vf.FlatPunch("1 mm"), vf.motion.History([0.0, 1.0], load=1.0), times=TIMES)
     assert run.contact_radius.tolist() == [1e-3] * len(TIMES)
     depth = 0.75 * RUBBER.spectrum.creep_compliance(TIMES) / (2.0 * 1e-3)
     assert run.indentation == pytest.approx(depth, rel=1e-4)
@@ -142,15 +146,22 @@ def test_punch_creeps_with_a_constant_radius():
 
 def test_an_elastic_ball_adds_its_compliance_without_memory():
     """Lee–Radok with (1−ν²) J + (1−ν_i²)/E_i."""
-    run = vf.solve_transient(
-        RUBBER, BALL, vf.History([0.0, 1.0], load=1.0), times=TIMES, indenter_modulus=2e6, indenter_poisson_ratio=0.3
+    run = vf.motion.solve_transient(
+        RUBBER,
+        BALL,
+        vf.motion.History([0.0, 1.0], load=1.0),
+        times=TIMES,
+        indenter_modulus=2e6,
+        indenter_poisson_ratio=0.3,
     )
     compliance = 0.75 * RUBBER.spectrum.creep_compliance(TIMES) + 0.91 / 2e6
     assert run.contact_radius == pytest.approx(np.cbrt(0.75 * 0.01 * compliance), rel=3e-4)
 
 
 def test_at_rest_nothing_changes_and_the_pressure_is_that_of_hertz():
-    run = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], load=1.0, before="at rest"), times=[0.0, 0.5, 1.0])
+    run = vf.motion.solve_transient(
+        RUBBER, BALL, vf.motion.History([0.0, 1.0], load=1.0, before="at rest"), times=[0.0, 0.5, 1.0]
+    )
     hertz = hertz_ball(1.0, 0.01, E0, 0.5)
     assert run.indentation == pytest.approx(hertz.indentation, rel=1e-5)
     assert np.ptp(run.indentation) < 1e-12 * hertz.indentation
@@ -166,21 +177,23 @@ def test_at_rest_nothing_changes_and_the_pressure_is_that_of_hertz():
 @pytest.mark.slow
 def test_contact_returns_on_the_dent_that_is_left():
     """After the separation one mode fades as e^{−t/τ}; the second touch is where the indenter meets the dent."""
-    history = vf.History([0.0, 0.02, 0.04, 0.06], indentation=[0.0, 2e-4, -1e-5, 2e-4])
+    history = vf.motion.History([0.0, 0.02, 0.04, 0.06], indentation=[0.0, 2e-4, -1e-5, 2e-4])
     times = np.linspace(0.035, 0.06, 501)
-    run = vf.solve_transient(RUBBER, BALL, history, times=times)
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=times)
     free = run.load == 0.0
     first, last = np.flatnonzero(free)[[0, -1]]
     assert run.dent[last] == pytest.approx(run.dent[first] * math.exp(-(times[last] - times[first]) / TAU), rel=1e-6)
     assert run.indentation[last] <= run.dent[last]
     assert run.indentation[last + 1] == pytest.approx(run.dent[last], abs=1.1e-6)  # within 50 µs at 10.5 mm/s
-    fresh = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02], indentation=[-1e-5, 2e-4]), times=[0.02])
+    fresh = vf.motion.solve_transient(
+        RUBBER, BALL, vf.motion.History([0.0, 0.02], indentation=[-1e-5, 2e-4]), times=[0.02]
+    )
     assert run.load[-1] < fresh.load[-1]
 
 
 def test_jumps_are_elastic_and_their_work_is_stored():
-    history = vf.History([0.0, 0.1, 0.1, 0.2], load=[1.0, 1.0, 0.5, 0.5])
-    run = vf.solve_transient(RUBBER, BALL, history, times=[0.0, 0.1, 0.1, 0.2])
+    history = vf.motion.History([0.0, 0.1, 0.1, 0.2], load=[1.0, 1.0, 0.5, 0.5])
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=[0.0, 0.1, 0.1, 0.2])
     hertz = hertz_ball(1.0, 0.01, E_INF, 0.5)
     assert run.indentation[0] == pytest.approx(hertz.indentation, rel=1e-5)
     assert run.work[0] == pytest.approx(0.4 * 1.0 * hertz.indentation, rel=1e-4)
@@ -193,7 +206,7 @@ def test_jumps_are_elastic_and_their_work_is_stored():
 def test_a_mode_too_quick_for_any_step_dissipates_after_a_jump():
     """Work 0.4 F δ₀ of the glassy jump and F (δ₁ − δ₀) after it; 0.4 F δ₁ remains stored."""
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=1e-15)
-    run = vf.solve_transient(rubber, BALL, vf.History([0.0, 1.0], load=1.0), times=[0.0, 1.0])
+    run = vf.motion.solve_transient(rubber, BALL, vf.motion.History([0.0, 1.0], load=1.0), times=[0.0, 1.0])
     first, last = run.indentation
     assert last == pytest.approx(hertz_ball(1.0, 0.01, E0, 0.5).indentation, rel=1e-4)
     assert run.dissipated == pytest.approx([0.0, 0.6 * (last - first)], rel=1e-4)
@@ -204,9 +217,9 @@ def test_temperature_runs_the_clock():
     """At another temperature a creep test is the same by the material's clock; a ramp too."""
     law = vf.WLF(C1=8.0, C2=100.0, reference=300.0)
     rubber = vf.Material(RUBBER.spectrum, shift=law)
-    history = vf.History([0.0, 0.2], load=1.0, temperature=[300.0, 320.0])
+    history = vf.motion.History([0.0, 0.2], load=1.0, temperature=[300.0, 320.0])
     times = [0.01, 0.05, 0.1]
-    run = vf.solve_transient(rubber, BALL, history, times=times)
+    run = vf.motion.solve_transient(rubber, BALL, history, times=times)
     clock = [history.schedule(rubber, "point").at(time).clock for time in times]
     radius = np.cbrt(0.75 * 0.75 * 0.01 * RUBBER.spectrum.creep_compliance(clock))
     assert run.contact_radius == pytest.approx(radius, rel=5e-4)
@@ -216,10 +229,12 @@ def test_temperature_runs_the_clock():
 def test_scales_do_not_matter():
     """Moduli by 1e6, lengths by 1e-3, times by 1e9."""
     E, L, T = 1e6, 1e-3, 1e9
-    one = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.0]), times=[0.01, 0.03])
+    one = vf.motion.solve_transient(
+        RUBBER, BALL, vf.motion.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.0]), times=[0.01, 0.03]
+    )
     scaled = vf.Material.standard_linear_solid(E0=E * E0, E_inf=E * E_INF, tau=T * TAU)
-    history = vf.History([0.0, 0.02 * T, 0.04 * T], load=[0.0, E * L**2, 0.0])
-    other = vf.solve_transient(scaled, vf.Ball(0.01 * L), history, times=[0.01 * T, 0.03 * T])
+    history = vf.motion.History([0.0, 0.02 * T, 0.04 * T], load=[0.0, E * L**2, 0.0])
+    other = vf.motion.solve_transient(scaled, vf.Ball(0.01 * L), history, times=[0.01 * T, 0.03 * T])
     assert other.indentation == pytest.approx(L * one.indentation, rel=1e-9)
     assert other.dissipated == pytest.approx(E * L**3 * one.dissipated, rel=1e-9)
 
@@ -227,10 +242,10 @@ def test_scales_do_not_matter():
 @pytest.mark.slow
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-3])
 def test_estimated_errors_bound_the_true_ones(accuracy):
-    history = vf.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.0])
+    history = vf.motion.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.0])
     times = np.linspace(0.002, 0.04, 20)
-    rough = vf.solve_transient(RUBBER, BALL, history, times=times, accuracy=accuracy)
-    exact = vf.solve_transient(RUBBER, BALL, history, times=times, accuracy=5e-5)
+    rough = vf.motion.solve_transient(RUBBER, BALL, history, times=times, accuracy=accuracy)
+    exact = vf.motion.solve_transient(RUBBER, BALL, history, times=times, accuracy=5e-5)
     assert np.all(rough.errors.indentation <= accuracy * exact.indentation.max())
     assert np.all(np.abs(rough.indentation - exact.indentation) <= 2.0 * rough.errors.indentation)
     assert np.all(np.abs(rough.dissipated - exact.dissipated) <= 2.0 * rough.errors.energy)
@@ -254,9 +269,9 @@ def test_stated_errors_cover_those_of_random_histories(control, indenter):
         )
         time = np.concatenate([[0.0], np.cumsum(10 ** chance.uniform(-3, -1, 3))])
         values = chance.random(4) * (1.0 if control == "load" else 2e-4)
-        history, times = vf.History(time, **{control: values}), np.sort(chance.uniform(0.0, time[-1], 8))
-        rough = vf.solve_transient(vf.Material(spectrum), indenter, history, times=times)
-        exact = vf.solve_transient(vf.Material(spectrum), indenter, history, times=times, accuracy=1e-4)
+        history, times = vf.motion.History(time, **{control: values}), np.sort(chance.uniform(0.0, time[-1], 8))
+        rough = vf.motion.solve_transient(vf.Material(spectrum), indenter, history, times=times)
+        exact = vf.motion.solve_transient(vf.Material(spectrum), indenter, history, times=times, accuracy=1e-4)
         for name, error in (("load", "load"), ("indentation", "indentation"), ("dissipated", "energy")):
             off = np.abs(getattr(rough, name) - getattr(exact, name))
             rounding = 1e-12 * float(getattr(exact, name).max())
@@ -266,9 +281,9 @@ def test_stated_errors_cover_those_of_random_histories(control, indenter):
 def test_the_error_of_a_small_loss_after_a_long_rest_is_not_in_proportion_to_the_loss():
     """A contact at rest stores a thousand times what a short change of its load dissipates, at its edge only."""
     stiff = vf.Material.standard_linear_solid(E0=1e6, E_inf=43e6, tau=1.236e-3)
-    history = vf.History([0.0, 3.51e-5, 3.72e-5], load=[0.44, 0.48, 0.74], before="at rest")
+    history = vf.motion.History([0.0, 3.51e-5, 3.72e-5], load=[0.44, 0.48, 0.74], before="at rest")
     times = np.linspace(0.0, 3.72e-5, 40)
-    rough, exact = (vf.solve_transient(stiff, BALL, history, times=times, accuracy=one) for one in (1e-2, 1e-4))
+    rough, exact = (vf.motion.solve_transient(stiff, BALL, history, times=times, accuracy=one) for one in (1e-2, 1e-4))
     assert np.all(np.abs(rough.dissipated - exact.dissipated) <= rough.errors.energy)
     assert rough.errors.energy[-1] < 0.05 * exact.dissipated[-1]
 
@@ -295,8 +310,8 @@ class Rippled(Indenter):
 
 def test_a_contact_that_is_no_disc_is_solved_on_cells():
     """At a constant depth a contact of any shape stays as it is: the load relaxes with the modulus."""
-    run = vf.solve_transient(
-        RUBBER, Rippled(), vf.History([0.0, 0.05], indentation=3e-5), times=[0.0, 0.001, 0.05], accuracy=0.05
+    run = vf.motion.solve_transient(
+        RUBBER, Rippled(), vf.motion.History([0.0, 0.05], indentation=3e-5), times=[0.0, 0.001, 0.05], accuracy=0.05
     )
     assert "not-one-disc" in codes(run.warnings)
     assert run.method == "grid"
@@ -305,10 +320,10 @@ def test_a_contact_that_is_no_disc_is_solved_on_cells():
 
 def test_a_vertical_shift_at_one_temperature_scales_the_load():
     """F of a given depth is b(T) times that without the shift; the times are the same."""
-    law, shift = vf.WLF(C1=8.0, C2=100.0, reference=300.0), vf.DensityShift(300.0)
-    history = vf.History([0.0, 0.1], indentation=2e-4, temperature=330.0)
+    law, shift = vf.WLF(C1=8.0, C2=100.0, reference=300.0), vf.rheology.DensityShift(300.0)
+    history = vf.motion.History([0.0, 0.1], indentation=2e-4, temperature=330.0)
     loads = [
-        vf.solve_transient(
+        vf.motion.solve_transient(
             vf.Material(RUBBER.spectrum, shift=law, vertical_shift=one), BALL, history, times=[0.0, 0.01]
         ).load
         for one in (None, shift)
@@ -320,13 +335,13 @@ def test_a_vertical_shift_at_one_temperature_scales_the_load():
 
 def test_a_march_continues_from_a_stored_state():
     """In two parts with one mover, as in one; steps differ, within the accuracy."""
-    whole = vf.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.2])
+    whole = vf.motion.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.2])
     problem = checked_problem(RUBBER, BALL, whole, 1e-3, None, None, 0.3)
     mover, _ = mover_of(problem, whole)
-    first = march(mover, vf.History([0.0, 0.02], load=[0.0, 1.0]).schedule(RUBBER, "point"), accuracy=1e-3)
-    second = vf.History([0.02, 0.04], load=[1.0, 0.2]).schedule(RUBBER, "point")
+    first = march(mover, vf.motion.History([0.0, 0.02], load=[0.0, 1.0]).schedule(RUBBER, "point"), accuracy=1e-3)
+    second = vf.motion.History([0.02, 0.04], load=[1.0, 0.2]).schedule(RUBBER, "point")
     found = march(mover, second, accuracy=1e-3, begin=first.reached).moments[-1]
-    run = vf.solve_transient(RUBBER, BALL, whole, times=[0.04])
+    run = vf.motion.solve_transient(RUBBER, BALL, whole, times=[0.04])
     assert found.seen.depth == pytest.approx(run.indentation[-1], rel=1e-3)
     assert found.work == pytest.approx(run.work[-1], rel=1e-3)
 
@@ -337,20 +352,20 @@ def test_interruption_keeps_what_was_found():
         if reached > 0.02:
             raise KeyboardInterrupt
 
-    history = vf.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.0])
-    run = vf.solve_transient(RUBBER, BALL, history, progress=stop)
+    history = vf.motion.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.0])
+    run = vf.motion.solve_transient(RUBBER, BALL, history, progress=stop)
     assert run.interrupted
     assert 0.02 <= run.time[-1] < 0.04
 
 
 def test_what_cannot_be_solved_is_refused():
     with refused("beyond-indenter"):
-        vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], load=5e3))
+        vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], load=5e3))
     with refused("not-sorted"):
-        vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], load=1.0), times=[1.0, 0.0])
+        vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], load=1.0), times=[1.0, 0.0])
     with refused("out-of-range"):
-        vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], load=1.0), times=[2.0])
-    run = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 1.0], load=1.0), times=[0.5])
+        vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], load=1.0), times=[2.0])
+    run = vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], load=1.0), times=[0.5])
     with refused("unknown-time"):
         run.pressure_at(0.25)
     assert run.to_dataset().indentation.units == "m"
@@ -361,7 +376,7 @@ def test_the_contact_is_one_disc_in_any_history():
     """Forces of springs rise outwards only by the errors of single steps: 4 % of the largest, and not at all."""
     rubber, time = broad(3), np.linspace(0.0, 1.0, 2561)
     values = 1e-4 * np.interp(time, np.linspace(0.0, 1.0, 14), np.random.default_rng(11).uniform(-0.5, 1.0, 14))
-    history = vf.History(time, indentation=values)
+    history = vf.motion.History(time, indentation=values)
     mover, _ = mover_of(checked_problem(rubber, BALL, history, 1e-2, None, None, 0.3), history)
     schedule, rises = history.schedule(rubber, "point"), []
     for stride in (16, 1):

@@ -25,18 +25,20 @@ SLS = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 TWO_MODES = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [4e-7, 5e-7], [1e-3, 4e-3]))
 
 
-def profile(points: int) -> vf.PeriodicSurface:
+def profile(points: int) -> vf.contact.PeriodicSurface:
     x = 2.0 * np.pi * np.arange(points) / points
-    return vf.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(3.0 * x + 1.0)), LENGTH / points)
+    return vf.contact.PeriodicSurface(1e-6 * (np.cos(x) + 0.3 * np.cos(3.0 * x + 1.0)), LENGTH / points)
 
 
-def crossed(points: int = 16) -> vf.PeriodicSurface:
+def crossed(points: int = 16) -> vf.contact.PeriodicSurface:
     x = 2.0 * np.pi * np.arange(points) / points
     z = np.cos(x)[:, None] + 0.7 * np.cos(x + 0.4) + 0.3 * np.cos(x[:, None] + 2.0 * x)
-    return vf.PeriodicSurface(1e-6 * z, LENGTH / points)
+    return vf.contact.PeriodicSurface(1e-6 * z, LENGTH / points)
 
 
-def mover(material: vf.Material, surface: vf.PeriodicSurface, history: vf.History, **more: Any) -> PeriodicMover:
+def mover(
+    material: vf.Material, surface: vf.contact.PeriodicSurface, history: vf.motion.History, **more: Any
+) -> PeriodicMover:
     layer = more.pop("layer", None)
     problem = Problem(material, surface, history.schedule(material, "periodic"), 1e-4, layer, 0.0)
     return PeriodicMover(problem, **more)
@@ -84,10 +86,10 @@ def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float, shape: tupl
 def test_steady_sliding_is_met_exactly_by_coarse_steps(cells: int) -> None:
     # One wave, vτ = λ/8: 12 λ later the start is forgotten to e⁻⁹⁶; the tolerance is that of the contact solver.
     points = 128
-    wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(points) / points), LENGTH / points)
+    wave = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(points) / points), LENGTH / points)
     speed, pressure = LENGTH / 8.0 / 1e-3, 1e3
     steady = vf.solve_periodic(SLS, wave, speed=speed, pressure=pressure, tolerance=1e-10)
-    one = mover(SLS, wave, vf.History([0.0, 12.0 * LENGTH / speed], pressure=pressure, speed=speed))
+    one = mover(SLS, wave, vf.motion.History([0.0, 12.0 * LENGTH / speed], pressure=pressure, speed=speed))
     times = np.linspace(0.0, 12.0 * LENGTH / speed, 1 + 12 * points // cells // 4 * 4)
     seen = stepped(one, times[:: 4 if cells == 1 else 1].tolist())[-1]
     assert seen.friction_force[0] / pressure == pytest.approx(steady.friction_coefficient, rel=3e-6)
@@ -100,7 +102,7 @@ def test_end_of_a_turn_is_steady_sliding_in_the_new_direction(control: dict[str,
     material, speed = vf.Material(TWO_MODES.spectrum, poisson_ratio=0.45), 0.1
     first = [0.005 * speed, 0.0]
     path = [[0.0, 0.0], first, [first[0] + 0.6 * 0.2 * speed, 0.8 * 0.2 * speed]]
-    history = vf.History([0.0, 0.005, 0.205], position=path, **control)
+    history = vf.motion.History([0.0, 0.005, 0.205], position=path, **control)
     seen = stepped(
         mover(material, crossed(17), history, layer=layer),
         [*np.linspace(0.0, 0.005, 6), *np.linspace(0.005, 0.205, 16)[1:]],
@@ -122,7 +124,7 @@ def test_end_of_a_turn_is_steady_sliding_in_the_new_direction(control: dict[str,
 @pytest.mark.parametrize("before", ["at rest", "sliding"])
 def test_what_was_there_before_goes_on(before: str) -> None:
     speed = 0.1 if before == "sliding" else 0.0
-    one = mover(TWO_MODES, crossed(), vf.History([0.0, 1.0], pressure=2e3, speed=speed, before=before))
+    one = mover(TWO_MODES, crossed(), vf.motion.History([0.0, 1.0], pressure=2e3, speed=speed, before=before))
     first, *others = stepped(one, [0.0, 1e-5, 2e-3, 1.0])
     for later in others:
         # Without friction, to 1e-5 of pressure times slope.
@@ -137,11 +139,11 @@ def test_what_was_there_before_goes_on(before: str) -> None:
 @pytest.mark.parametrize("before", ["at rest", "sliding"])
 def test_first_step_from_a_steady_state_bears_the_pressure_at_its_end(before: str) -> None:
     # The steady pressure meets the contact conditions of that step too, under the old load.
-    history = vf.History([0.0, 1e-3], pressure=[1e3, 2e3], speed=1.0, before=before)
+    history = vf.motion.History([0.0, 1e-3], pressure=[1e3, 2e3], speed=1.0, before=before)
     seen = stepped(mover(TWO_MODES, profile(32), history), [0.0, 5e-4, 1e-3])
     np.testing.assert_allclose([one.load for one in seen], [1e3, 1.5e3, 2e3], rtol=1e-12)  # rounding
     start = [0.0, 0.0, 1e-3]
-    rest = mover(TWO_MODES, profile(32), vf.History(start, pressure=[1e3, 2e3, 2e3], before=before, speed=1.0))
+    rest = mover(TWO_MODES, profile(32), vf.motion.History(start, pressure=[1e3, 2e3, 2e3], before=before, speed=1.0))
     schedule = rest.schedule
     after = rest.step(rest.begin(), schedule.at(0.0, after=False), schedule.at(0.0))
     assert rest.observe(after).load == pytest.approx(2e3, rel=1e-12)
@@ -151,9 +153,9 @@ def test_growing_contact_is_elastic_with_the_creep_compliance() -> None:
     # E. H. Lee, J. R. M. Radok, J. Appl. Mech. 27 (1960) 438: while a contact grows, depth and extent under a constant
     # load are those of an elastic solid with the modulus 1/J(t); Westergaard's wave among them.
     points, pressure = 96, 2e3
-    wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(points) / points), LENGTH / points)
+    wave = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(points) / points), LENGTH / points)
     times = [1e-4, 1e-3, 1e-2]
-    run = vf.solve_transient(TWO_MODES, wave, vf.History([0.0, 1e-2], pressure=pressure), times=times)
+    run = vf.motion.solve_transient(TWO_MODES, wave, vf.motion.History([0.0, 1e-2], pressure=pressure), times=times)
     for i, time in enumerate(times):
         modulus = 1.0 / float(TWO_MODES.spectrum.creep_compliance(time))
         elastic = vf.Material.standard_linear_solid(modulus, 1.001 * modulus, "1 s")
@@ -179,7 +181,7 @@ def test_sliding_of_a_second_solver() -> None:
             surface.z.max() - surface.z[:, 0], matrix, TWO_MODES.spectrum.creep_compliance, time, shift, pressure
         )
         position = LENGTH / points * shift[[0, half, -1]]
-        history = vf.History(time[[0, half, -1]], pressure=pressure[[0, half, -1]], position=position)
+        history = vf.motion.History(time[[0, half, -1]], pressure=pressure[[0, half, -1]], position=position)
         one = mover(TWO_MODES, surface, history)
         seen = stepped(one, (0.5 * step * np.arange(2 * count + 1)).tolist())[::2]
         slope = surface.slope((1.0, 0.0))[:, 0]
@@ -205,7 +207,7 @@ def test_normal_motion_of_a_second_solver() -> None:
         0 * np.arange(31),
         pressure,
     )
-    one = mover(TWO_MODES, surface, vf.History(time, pressure=pressure), modes=Modes.of(TWO_MODES.spectrum))
+    one = mover(TWO_MODES, surface, vf.motion.History(time, pressure=pressure), modes=Modes.of(TWO_MODES.spectrum))
     seen = stepped(one, time.tolist())
     assert [each.depth for each in seen] == pytest.approx(depth, rel=2e-6, abs=2e-6 * depth.max())
     assert [each.area for each in seen] == pytest.approx((found > 0.0).mean(axis=1), abs=1e-9)
@@ -214,7 +216,7 @@ def test_normal_motion_of_a_second_solver() -> None:
 @pytest.mark.parametrize(("control", "values"), [("pressure", [400.0, 100.0]), ("gap", [5e-7, 9e-7])])
 def test_errors_by_the_contact_conditions_are_as_small_as_stated(control: str, values: list[float]) -> None:
     # Against the same steps with a twentieth of the tolerance: a contact that begins to slide while it gets lighter.
-    history = vf.History([0.0, 2e-3], **{control: values}, speed=[1.0, 0.2], before="at rest")
+    history = vf.motion.History([0.0, 2e-3], **{control: values}, speed=[1.0, 0.2], before="at rest")
     one, finer = (mover(TWO_MODES, crossed(), history) for _ in range(2))
     finer._tightness *= 0.05
     times = np.linspace(0.0, 2e-3, 13).tolist()
@@ -230,8 +232,8 @@ def test_errors_by_the_contact_conditions_are_as_small_as_stated(control: str, v
 
 @pytest.mark.slow
 def test_pressure_may_go_and_come_back() -> None:
-    history = vf.History([0.0, 1e-3, 2e-3, 3e-3, 8e-3], pressure=[1e3, 1e3, 0.0, 0.0, 1e3], speed=0.05)
-    run = vf.solve_transient(TWO_MODES, profile(48), history, times=[1e-3, 2.5e-3, 8e-3], accuracy=1e-2)
+    history = vf.motion.History([0.0, 1e-3, 2e-3, 3e-3, 8e-3], pressure=[1e3, 1e3, 0.0, 0.0, 1e3], speed=0.05)
+    run = vf.motion.solve_transient(TWO_MODES, profile(48), history, times=[1e-3, 2.5e-3, 8e-3], accuracy=1e-2)
     assert run.contact_area[1] == 0.0
     assert run.friction_force[1] == 0.0
     assert run.friction_coefficient[[0, 2]].min() > 0.0
@@ -242,8 +244,8 @@ def test_pressure_may_go_and_come_back() -> None:
 def test_work_is_stored_or_dissipated() -> None:
     # From rest into sliding, aside, and to rest: work, stored and dissipated energy are computed independently.
     path = [[0.0, 0.0], [2e-4, 0.0], [3e-4, 1e-4], [3e-4, 1e-4]]
-    history = vf.History([0.0, 2e-3, 4e-3, 6e-3], pressure=[1e3, 2e3, 1e3, 1e3], position=path, before="at rest")
-    run = vf.solve_transient(TWO_MODES, crossed(12), history, accuracy=3e-3, times=[0.0, 2e-3, 4e-3, 6e-3])
+    history = vf.motion.History([0.0, 2e-3, 4e-3, 6e-3], pressure=[1e3, 2e3, 1e3, 1e3], position=path, before="at rest")
+    run = vf.motion.solve_transient(TWO_MODES, crossed(12), history, accuracy=3e-3, times=[0.0, 2e-3, 4e-3, 6e-3])
     assert run.energy_imbalance < 1e-4
     assert run.dissipated[-1] > 0.3 * run.work[-1] > 0.0
 
@@ -252,8 +254,8 @@ def test_quick_modes_dissipate_after_a_jump() -> None:
     """A wave in full contact stores E q z²/(8 (1 − ν²)) per area: with E_inf at once, soon afterwards with E0."""
     z = 1e-6 * np.cos(2.0 * np.pi * np.arange(16) / 16)[:, None]
     solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=1e-9)
-    surface, history = vf.PeriodicSurface(z, (1e-5, 1e-5)), vf.History([0.0, 1.0], pressure=1e8)
-    run = vf.solve_transient(solid, surface, history, times=[0.0, 1.0])
+    surface, history = vf.contact.PeriodicSurface(z, (1e-5, 1e-5)), vf.motion.History([0.0, 1.0], pressure=1e8)
+    run = vf.motion.solve_transient(solid, surface, history, times=[0.0, 1.0])
     stored = np.array([1e7, 1e6]) / 0.75 * 2.0 * np.pi / 16e-5 * 1e-12 / 8.0
     assert run.stored == pytest.approx(stored, rel=2e-7)  # a memory in single precision
     assert run.dissipated == pytest.approx([0.0, stored[0] - stored[1]], rel=1e-3)
@@ -264,10 +266,12 @@ def test_temperature_sets_the_pace_of_the_material() -> None:
     warm = vf.Material(TWO_MODES.spectrum, shift=vf.WLF(C1=8.0, C2=100.0, reference="20 degC"))
     pace = 1.0 / float(warm.shift("40 degC"))
     path = [0.0, 3e-4, 3e-4, 6e-4]
-    rise = vf.History(
+    rise = vf.motion.History(
         [0.0, 1e-3, 1e-3, 3e-3], pressure=2e3, position=path, temperature=["20 degC", "20 degC", "40 degC", "40 degC"]
     )
-    longer = vf.History([0.0, 1e-3, 1e-3, 1e-3 + 2e-3 * pace], pressure=2e3, position=path, temperature="20 degC")
+    longer = vf.motion.History(
+        [0.0, 1e-3, 1e-3, 1e-3 + 2e-3 * pace], pressure=2e3, position=path, temperature="20 degC"
+    )
     seen = []
     for history, later in ((rise, 1e-3), (longer, 1e-3 * pace)):
         one = mover(warm, profile(32), history, modes=Modes.of(warm.spectrum))
@@ -288,8 +292,8 @@ def test_units_do_not_matter() -> None:
             spectrum.E0 * modulus, spectrum.E_inf * modulus, spectrum.C / modulus, spectrum.tau * second
         )
         one = profile(32)
-        surface = vf.PeriodicSurface(one.z * length, (one.spacing[0] * length, one.spacing[1] * length))
-        history = vf.History(times[[0, -1]] * second, pressure=1e3 * modulus, speed=0.1 * length / second)
+        surface = vf.contact.PeriodicSurface(one.z * length, (one.spacing[0] * length, one.spacing[1] * length))
+        history = vf.motion.History(times[[0, -1]] * second, pressure=1e3 * modulus, speed=0.1 * length / second)
         last = stepped(mover(vf.Material(scaled), surface, history), (times * second).tolist())[-1]
         work = modulus * length
         seen.append([last.friction_force[0] / modulus, last.depth / length, last.dissipated / work, last.stored / work])
@@ -300,7 +304,7 @@ def test_few_modes_do_for_a_broad_spectrum() -> None:
     tau = np.geomspace(1e-9, 1e7, 40)
     C = tau**0.1 / (tau**0.1).sum() * (1e-6 - 1e-8)
     broad = vf.Material(vf.RetardationSpectrum("1 MPa", "100 MPa", C, tau))
-    history = vf.History([0.0, 0.05], pressure=2e3, speed=0.1, before="sliding")
+    history = vf.motion.History([0.0, 0.05], pressure=2e3, speed=0.1, before="sliding")
     problem = Problem(broad, profile(32), history.schedule(broad, "periodic"), 1e-3, None, 0.0)
     few = merged_modes(problem)
     assert len(few) <= 20
@@ -315,7 +319,7 @@ def test_few_modes_do_for_a_broad_spectrum() -> None:
 @pytest.mark.parametrize("speed", [0.0, 1e-9, 1e3])
 def test_modes_are_merged_at_any_speed(speed: float) -> None:
     surface, creep = profile(32), TWO_MODES.spectrum.creep_compliance
-    history = vf.History([0.0, 0.05], pressure=2e3, speed=speed)
+    history = vf.motion.History([0.0, 0.05], pressure=2e3, speed=speed)
     problem = Problem(TWO_MODES, surface, history.schedule(TWO_MODES, "periodic"), 1e-3, None, 0.0)
     modes = merged_modes(problem)
     assert modes.error <= 1e-3
@@ -326,7 +330,7 @@ def test_modes_are_merged_at_any_speed(speed: float) -> None:
 @pytest.mark.parametrize("direction", [(0.0, 1.0), (0.6, 0.8)])
 def test_memory_in_single_precision_only_rounds(direction: tuple[float, float]) -> None:
     # The memory is rounded to 6e-8 of itself in each of 12 steps.
-    history = vf.History([0.0, 0.01], pressure=2e3, speed=0.1, direction=direction)
+    history = vf.motion.History([0.0, 0.01], pressure=2e3, speed=0.1, direction=direction)
     seen = []
     for precision in (np.complex64, np.complex128):
         one = mover(TWO_MODES, crossed(9), history)
@@ -339,7 +343,7 @@ def test_memory_in_single_precision_only_rounds(direction: tuple[float, float]) 
 
 @pytest.mark.parametrize("before", ["untouched", "at rest"])
 def test_contact_without_memory_is_elastic(before: str) -> None:
-    history = vf.History([0.0, 0.01], pressure=2e3, speed=0.1, before=before)
+    history = vf.motion.History([0.0, 0.01], pressure=2e3, speed=0.1, before=before)
     one = mover(TWO_MODES, profile(16), history, modes=Modes(1e-6, np.zeros(0), np.zeros(0)))
     first, last = stepped(one, [0.0, 0.01])
     assert last.depth == pytest.approx(first.depth)

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 RUBBER = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [3e-7, 3e-7, 3e-7], [1e-3, 1e-2, 1.0]))
 BALL = vf.Ball("10 mm")
-WHOLE = vf.History([0.0, 0.02, 0.02, 0.04], load=[0.0, 1.0, 0.5, 0.2])
+WHOLE = vf.motion.History([0.0, 0.02, 0.02, 0.04], load=[0.0, 1.0, 0.5, 0.2])
 X = 2.0 * np.pi * np.arange(24) / 24.0
-WAVE = vf.PeriodicSurface(1e-6 * (np.cos(X) + 0.3 * np.cos(2.0 * X + 1.0)), 1e-3 / 24.0)
-SLIDING = vf.History([0.0, 2e-3, 2e-3, 5e-3], pressure=1e3, speed=[0.0, 0.0, 0.05, 0.05])
+WAVE = vf.contact.PeriodicSurface(1e-6 * (np.cos(X) + 0.3 * np.cos(2.0 * X + 1.0)), 1e-3 / 24.0)
+SLIDING = vf.motion.History([0.0, 2e-3, 2e-3, 5e-3], pressure=1e3, speed=[0.0, 0.0, 0.05, 0.05])
 
 
 def stopped_after(count: int):
@@ -34,7 +34,7 @@ def stopped_after(count: int):
     return stop
 
 
-def same(one: vf.TransientSolution, two: vf.TransientSolution, rel: float = 1e-12) -> None:
+def same(one: vf.motion.TransientSolution, two: vf.motion.TransientSolution, rel: float = 1e-12) -> None:
     assert one.time.tolist() == two.time.tolist()
     for name in ("load", "indentation", "friction_force", "contact_area", "work", "stored", "dissipated"):
         wanted = getattr(two, name)
@@ -46,11 +46,11 @@ def same(one: vf.TransientSolution, two: vf.TransientSolution, rel: float = 1e-1
     ("steps", "times"), [(1, None), (17, [0.0, 0.01, 0.02, 0.02, 0.03, 0.04]), (43, None), (30, [0.03, 0.04])]
 )
 def test_an_interrupted_run_of_springs_goes_on_from_a_file(tmp_path: Path, steps: int, times: list[float] | None):
-    whole = vf.solve_transient(RUBBER, BALL, WHOLE, times=times)
-    part = vf.solve_transient(RUBBER, BALL, WHOLE, times=times, progress=stopped_after(steps))
+    whole = vf.motion.solve_transient(RUBBER, BALL, WHOLE, times=times)
+    part = vf.motion.solve_transient(RUBBER, BALL, WHOLE, times=times, progress=stopped_after(steps))
     assert part.interrupted
     part.save_state(tmp_path / "part.npz")
-    again = vf.solve_transient(RUBBER, BALL, WHOLE, times=times, resume=tmp_path / "part.npz")
+    again = vf.motion.solve_transient(RUBBER, BALL, WHOLE, times=times, resume=tmp_path / "part.npz")
     same(again, whole)
     assert not again.interrupted
     assert again.steps == whole.steps
@@ -60,72 +60,72 @@ def test_an_interrupted_run_of_springs_goes_on_from_a_file(tmp_path: Path, steps
 def test_an_interruption_at_a_kink_loses_nothing():
     """The last step before the jump is the one that is interrupted."""
     reached: list[float] = []
-    whole = vf.solve_transient(RUBBER, BALL, WHOLE, progress=lambda now, end: reached.append(now))
-    part = vf.solve_transient(RUBBER, BALL, WHOLE, progress=stopped_after(reached.index(0.02) + 1))
-    same(vf.solve_transient(RUBBER, BALL, WHOLE, resume=part), whole)
+    whole = vf.motion.solve_transient(RUBBER, BALL, WHOLE, progress=lambda now, end: reached.append(now))
+    part = vf.motion.solve_transient(RUBBER, BALL, WHOLE, progress=stopped_after(reached.index(0.02) + 1))
+    same(vf.motion.solve_transient(RUBBER, BALL, WHOLE, resume=part), whole)
 
 
 def test_an_interrupted_run_of_waves_goes_on_from_a_file(tmp_path: Path):
-    whole = vf.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2)
-    part = vf.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2, progress=stopped_after(whole.steps // 2))
+    whole = vf.motion.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2)
+    part = vf.motion.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2, progress=stopped_after(whole.steps // 2))
     part.save_state(tmp_path / "part.npz")
-    same(vf.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2, resume=tmp_path / "part.npz"), whole, rel=1e-9)
+    same(vf.motion.solve_transient(RUBBER, WAVE, SLIDING, accuracy=1e-2, resume=tmp_path / "part.npz"), whole, rel=1e-9)
 
 
 def test_modes_merged_for_waves_serve_twice_the_time():
     """Beyond that they differ from the material by more than is allowed."""
     tau = np.geomspace(1e-9, 1e7, 40)
     broad = vf.Material(vf.RetardationSpectrum("1 MPa", "20 MPa", tau**0.1 / (tau**0.1).sum() * 9.5e-7, tau))
-    moved = [vf.History([0.0, end], pressure=2e3, speed=0.1, before="sliding") for end in (0.05, 0.1, 5.0)]
-    part = vf.solve_transient(broad, WAVE, moved[0], accuracy=1e-2, progress=stopped_after(1))
-    further = vf.solve_transient(broad, WAVE, moved[1], accuracy=1e-2, resume=part, progress=stopped_after(1))
+    moved = [vf.motion.History([0.0, end], pressure=2e3, speed=0.1, before="sliding") for end in (0.05, 0.1, 5.0)]
+    part = vf.motion.solve_transient(broad, WAVE, moved[0], accuracy=1e-2, progress=stopped_after(1))
+    further = vf.motion.solve_transient(broad, WAVE, moved[1], accuracy=1e-2, resume=part, progress=stopped_after(1))
     assert further.steps > part.steps
     with pytest.raises(vf.InputError) as caught:
-        vf.solve_transient(broad, WAVE, moved[2], accuracy=1e-2, resume=part)
+        vf.motion.solve_transient(broad, WAVE, moved[2], accuracy=1e-2, resume=part)
     assert caught.value.code == "merged-modes"
 
 
 def test_a_run_goes_on_under_a_larger_load():
     """More springs are added beyond those that were touched: as solved at once, to the accuracy."""
-    dwell = vf.History([0.0, 0.02], load=0.1)
-    longer = vf.History([0.0, 0.02, 0.04], load=[0.1, 0.1, 4.0])
-    at_once = vf.solve_transient(RUBBER, BALL, longer, times=[0.02, 0.03, 0.04])
-    first = vf.solve_transient(RUBBER, BALL, dwell, times=[0.02])
-    run = vf.solve_transient(RUBBER, BALL, longer, times=[0.02, 0.03, 0.04], resume=first)
+    dwell = vf.motion.History([0.0, 0.02], load=0.1)
+    longer = vf.motion.History([0.0, 0.02, 0.04], load=[0.1, 0.1, 4.0])
+    at_once = vf.motion.solve_transient(RUBBER, BALL, longer, times=[0.02, 0.03, 0.04])
+    first = vf.motion.solve_transient(RUBBER, BALL, dwell, times=[0.02])
+    run = vf.motion.solve_transient(RUBBER, BALL, longer, times=[0.02, 0.03, 0.04], resume=first)
     assert run.time.tolist() == [0.02, 0.03, 0.04]
     assert run.indentation == pytest.approx(at_once.indentation, rel=1e-4)
     assert run.contact_radius == pytest.approx(at_once.contact_radius, rel=1e-3)
     assert run.dissipated == pytest.approx(at_once.dissipated, abs=3e-4 * at_once.dissipated.max())
-    further = vf.History([0.0, 0.02, 0.04, 0.04, 0.05], load=[0.1, 0.1, 4.0, 8.0, 8.0])
-    again = vf.solve_transient(RUBBER, BALL, further, times=[0.05], resume=run)
+    further = vf.motion.History([0.0, 0.02, 0.04, 0.04, 0.05], load=[0.1, 0.1, 4.0, 8.0, 8.0])
+    again = vf.motion.solve_transient(RUBBER, BALL, further, times=[0.05], resume=run)
     assert again.time.tolist() == [0.02, 0.03, 0.04, 0.05]
-    whole = vf.solve_transient(RUBBER, BALL, further, times=[0.05])
+    whole = vf.motion.solve_transient(RUBBER, BALL, further, times=[0.05])
     assert again.indentation[-1] == pytest.approx(whole.indentation[-1], rel=1e-4)
     assert again.energy_imbalance < 1e-4
 
 
 def test_what_cannot_go_on_is_refused(tmp_path: Path):
-    run = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02], load=1.0), times=[0.02])
-    longer = vf.History([0.0, 0.04], load=1.0)
+    run = vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 0.02], load=1.0), times=[0.02])
+    longer = vf.motion.History([0.0, 0.04], load=1.0)
     other = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
     for code, material, indenter, history in (
         ("not-the-same", other, BALL, longer),
         ("not-the-same", RUBBER, vf.Ball("11 mm"), longer),
-        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], load=1.1)),
-        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.01], load=1.0)),
-        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], indentation=1e-4)),
-        ("not-the-same", RUBBER, BALL, vf.History([0.0, 0.04], load=1.0, speed=[0.0, 1.0])),
+        ("not-the-same", RUBBER, BALL, vf.motion.History([0.0, 0.04], load=1.1)),
+        ("not-the-same", RUBBER, BALL, vf.motion.History([0.0, 0.01], load=1.0)),
+        ("not-the-same", RUBBER, BALL, vf.motion.History([0.0, 0.04], indentation=1e-4)),
+        ("not-the-same", RUBBER, BALL, vf.motion.History([0.0, 0.04], load=1.0, speed=[0.0, 1.0])),
         ("not-available", RUBBER, WAVE, SLIDING),
     ):
         with refused(code):
-            vf.solve_transient(material, indenter, history, resume=run)
+            vf.motion.solve_transient(material, indenter, history, resume=run)
     with refused("not-the-same"):
-        vf.solve_transient(RUBBER, BALL, longer, resume=run, accuracy=1e-2)
+        vf.motion.solve_transient(RUBBER, BALL, longer, resume=run, accuracy=1e-2)
     with refused("wrong-type"):
-        vf.solve_transient(RUBBER, BALL, longer, resume=3)
+        vf.motion.solve_transient(RUBBER, BALL, longer, resume=3)
     (tmp_path / "other.npz").write_bytes(b"no archive")
     with refused("not-a-state", DataFileError):
-        vf.solve_transient(RUBBER, BALL, longer, resume=tmp_path / "other.npz")
+        vf.motion.solve_transient(RUBBER, BALL, longer, resume=tmp_path / "other.npz")
     np.savez(tmp_path / "numbers.npz", format="numbers")
     with refused("not-a-state", DataFileError):
-        vf.solve_transient(RUBBER, BALL, longer, resume=tmp_path / "numbers.npz")
+        vf.motion.solve_transient(RUBBER, BALL, longer, resume=tmp_path / "numbers.npz")

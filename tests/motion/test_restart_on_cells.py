@@ -41,7 +41,7 @@ CASES = {
 }
 
 
-def history(name: str, end: float = 0.04) -> vf.History:
+def history(name: str, end: float = 0.04) -> vf.motion.History:
     """Return the history of a case, up to a time."""
     given = CASES[name][1]
     kept = [*(time for time in given["time"] if time < end), end]
@@ -50,19 +50,19 @@ def history(name: str, end: float = 0.04) -> vf.History:
         for one in ("load", "indentation", "position", "speed")
         if one in given
     }
-    return vf.History(kept, before=given.get("before", "untouched"), **columns)
+    return vf.motion.History(kept, before=given.get("before", "untouched"), **columns)
 
 
-def solved(name: str, end: float = 0.04, *, times=TIMES, **more) -> vf.TransientSolution:
+def solved(name: str, end: float = 0.04, *, times=TIMES, **more) -> vf.motion.TransientSolution:
     indenter, _, layer = CASES[name]
     asked = None if times is None else [time for time in times if time <= end]
-    return vf.solve_transient(
+    return vf.motion.solve_transient(
         RUBBER, indenter, history(name, end), layer=layer, accuracy=5e-2, times=asked, **more
     )  # fmt: skip
 
 
 @cache
-def whole(name: str) -> tuple[vf.TransientSolution, int]:
+def whole(name: str) -> tuple[vf.motion.TransientSolution, int]:
     """Return a run in one go, and the number of its steps on all grids."""
     steps: list[float] = []
     return solved(name, progress=lambda now, end: steps.append(now)), len(steps)
@@ -80,7 +80,7 @@ def stopped_after(count: int):
     return stop
 
 
-def same(one: vf.TransientSolution, two: vf.TransientSolution) -> None:
+def same(one: vf.motion.TransientSolution, two: vf.motion.TransientSolution) -> None:
     """Both took the same steps: equal but for rounding."""
     assert one.time.tolist() == two.time.tolist()
     for name in ("load", "indentation", "friction_force", "contact_area", "work", "stored", "dissipated"):
@@ -178,19 +178,21 @@ def test_an_interruption_before_the_first_step_of_a_finer_grid_keeps_the_coarser
 
 @pytest.mark.slow
 def test_a_normal_motion_that_goes_on_by_sliding_is_solved_again_on_cells(tmp_path: Path):
-    slides = vf.History([0.0, 0.02, 0.03], load=1.0, position=[0.0, 0.0, 1e-3])
-    pressed = vf.solve_transient(RUBBER, BALL, vf.History([0.0, 0.02], load=1.0), times=[0.01, 0.02], accuracy=5e-2)
+    slides = vf.motion.History([0.0, 0.02, 0.03], load=1.0, position=[0.0, 0.0, 1e-3])
+    pressed = vf.motion.solve_transient(
+        RUBBER, BALL, vf.motion.History([0.0, 0.02], load=1.0), times=[0.01, 0.02], accuracy=5e-2
+    )
     pressed.save_state(tmp_path / "pressed.npz")
-    again = vf.solve_transient(
+    again = vf.motion.solve_transient(
         RUBBER, BALL, slides, accuracy=5e-2, times=[0.03], resume=tmp_path / "pressed.npz"
     )  # fmt: skip
-    at_once = vf.solve_transient(RUBBER, BALL, slides, accuracy=5e-2, times=[0.01, 0.02, 0.03])
+    at_once = vf.motion.solve_transient(RUBBER, BALL, slides, accuracy=5e-2, times=[0.01, 0.02, 0.03])
     assert codes(again.warnings) >= {"solved-again"}
     same(again, at_once)
     known = pressed.indentation  # by springs
     assert np.all(np.abs(again.indentation[:2] - known) <= again.errors.indentation[:2] + pressed.errors.indentation)
-    jumps = vf.History([0.0, 0.02, 0.02, 0.03], load=[1.0, 1.0, 2.0, 2.0], position=[0.0, 0.0, 0.0, 1e-3])
-    both = vf.solve_transient(RUBBER, BALL, jumps, accuracy=5e-2, times=[0.03], resume=pressed)
+    jumps = vf.motion.History([0.0, 0.02, 0.02, 0.03], load=[1.0, 1.0, 2.0, 2.0], position=[0.0, 0.0, 0.0, 1e-3])
+    both = vf.motion.solve_transient(RUBBER, BALL, jumps, accuracy=5e-2, times=[0.03], resume=pressed)
     assert both.time.tolist() == [0.01, 0.02, 0.02, 0.03]
     assert both.load == pytest.approx([1.0, 1.0, 2.0, 2.0])
 
@@ -204,11 +206,11 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path):
         ("not-the-same", hard, CYLINDER, longer, None),
         ("not-the-same", RUBBER, vf.Cylinder("11 mm"), longer, None),
         ("not-the-same", RUBBER, CYLINDER, longer, vf.Layer("5 mm")),
-        ("not-the-same", RUBBER, CYLINDER, vf.History([0.0, 0.04], load=1e3, speed=0.06), None),
-        ("not-the-same", RUBBER, CYLINDER, vf.History([0.0, 0.01], load=1e3, speed=0.05), None),
+        ("not-the-same", RUBBER, CYLINDER, vf.motion.History([0.0, 0.04], load=1e3, speed=0.06), None),
+        ("not-the-same", RUBBER, CYLINDER, vf.motion.History([0.0, 0.01], load=1e3, speed=0.05), None),
     ):
         with refused(code):
-            vf.solve_transient(material, indenter, wanted, resume=begun, accuracy=5e-2, layer=layer)
+            vf.motion.solve_transient(material, indenter, wanted, resume=begun, accuracy=5e-2, layer=layer)
     interrupted = solved("cylinder", progress=stopped_after(int(0.6 * whole("cylinder")[1])))
     with refused("other-times"):
         solved("cylinder", resume=interrupted, times=[0.01, 0.037, 0.04])
@@ -224,9 +226,9 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path):
 def test_modes_that_were_merged_for_a_short_history_are_refused_in_a_long_one():
     tau = np.geomspace(1e-9, 1e7, 40)
     broad = vf.Material(vf.RetardationSpectrum("1 MPa", "20 MPa", tau**0.1 / (tau**0.1).sum() * 9.5e-7, tau))
-    moved = [vf.History([0.0, end], load=1e3, speed=0.05) for end in (0.02, 0.04, 20.0)]
-    begun = vf.solve_transient(broad, CYLINDER, moved[0], accuracy=5e-2, times=[0.02])
-    further = vf.solve_transient(broad, CYLINDER, moved[1], accuracy=5e-2, times=[0.04], resume=begun)
+    moved = [vf.motion.History([0.0, end], load=1e3, speed=0.05) for end in (0.02, 0.04, 20.0)]
+    begun = vf.motion.solve_transient(broad, CYLINDER, moved[0], accuracy=5e-2, times=[0.02])
+    further = vf.motion.solve_transient(broad, CYLINDER, moved[1], accuracy=5e-2, times=[0.04], resume=begun)
     assert further.time.tolist() == [0.02, 0.04]
     with refused("merged-modes"):
-        vf.solve_transient(broad, CYLINDER, moved[2], accuracy=5e-2, times=[20.0], resume=begun)
+        vf.motion.solve_transient(broad, CYLINDER, moved[2], accuracy=5e-2, times=[20.0], resume=begun)

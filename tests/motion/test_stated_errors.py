@@ -17,9 +17,9 @@ SPACING = 1e-5
 TIMES = [0.05, 0.15, 0.25, 0.5, 1.0]
 
 
-def ridges(points: int = 64) -> vf.PeriodicSurface:
+def ridges(points: int = 64) -> vf.contact.PeriodicSurface:
     x = 2.0 * np.pi * np.arange(points) / points
-    return vf.PeriodicSurface(2e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), SPACING)
+    return vf.contact.PeriodicSurface(2e-6 * (np.cos(x) + 0.3 * np.cos(2.0 * x + 1.0)), SPACING)
 
 
 def of_many_modes(seed: int, ratio: float, fastest: float) -> vf.Material:
@@ -43,7 +43,9 @@ def with_and_without_merging(material, history, accuracy, times):
 def test_stated_friction_includes_that_of_merged_modes_where_it_is_small_against_the_slopes(seed):
     """A slow motion, of small loss: the part of the friction that cancels is far larger than what remains."""
     speed = 64 * SPACING / 8.0
-    history = vf.History([0.0, 0.6, 0.6, 1.0], pressure=5e3, speed=[speed, speed, -speed, -speed], before="at rest")
+    history = vf.motion.History(
+        [0.0, 0.6, 0.6, 1.0], pressure=5e3, speed=[speed, speed, -speed, -speed], before="at rest"
+    )
     for one, two in with_and_without_merging(of_many_modes(seed, 4.0, -5.5), history, 2e-2, [0.1, 0.6, 0.7, 1.0]):
         assert abs(one.seen.friction_force[0] - two.seen.friction_force[0]) < one.errors.friction
 
@@ -51,7 +53,7 @@ def test_stated_friction_includes_that_of_merged_modes_where_it_is_small_against
 @pytest.mark.apart
 def test_stated_errors_soon_after_a_jump_include_those_of_modes_merged_for_later_times():
     """A hundred times earlier than the shortest time that the modes are merged for, and later."""
-    history = vf.History([0.0, 1.0], pressure=5e3)
+    history = vf.motion.History([0.0, 1.0], pressure=5e3)
     times = [1e-7, 1e-6, 1e-3, 1.0]
     off = []
     for one, two in with_and_without_merging(of_many_modes(1, 100.0, -8.0), history, 2e-2, times):
@@ -65,8 +67,8 @@ def test_friction_of_a_start_within_one_cell_relaxes(relaxations):
     """F = F∞ (1 − e^(−t E∞/(τE0))) over paths far shorter than the contact, the first time within a hundredth cell."""
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="10 ms")
     first = relaxations * 1e-4
-    history = vf.History([0.0, 0.3], load=10.0, speed=1e-4, before="at rest")
-    run = vf.solve_transient(rubber, CYLINDER, history, times=[first, 0.3], accuracy=1e-2)
+    history = vf.motion.History([0.0, 0.3], load=10.0, speed=1e-4, before="at rest")
+    run = vf.motion.solve_transient(rubber, CYLINDER, history, times=[first, 0.3], accuracy=1e-2)
     expected = run.friction_force[1] * -np.expm1(-relaxations)
     assert abs(run.friction_force[0] - expected) < run.errors.friction_force.sum() < 0.02 * run.friction_force[1]
 
@@ -75,8 +77,8 @@ def test_friction_of_a_start_within_one_cell_relaxes(relaxations):
 def test_the_first_steps_of_a_ramp_from_zero_load_are_within_their_errors(indenter, power):
     """δ ∝ (r ∫J dt)^(2/3 or 1/2) of a growing contact (Lee–Radok)."""
     spectrum = vf.RetardationSpectrum(1e6, 4e7, [0.975e-6 / 2] * 2, [1e-4, 1.0])
-    history = vf.History([0.0, 1.0], load=[0.0, 0.05])
-    run = vf.solve_transient(vf.Material(spectrum), indenter, history, accuracy=3e-3)
+    history = vf.motion.History([0.0, 1.0], load=[0.0, 0.05])
+    run = vf.motion.solve_transient(vf.Material(spectrum), indenter, history, accuracy=3e-3)
     time, C, tau = run.time[1:, None], spectrum.C, spectrum.tau
     creep = (time[:, 0] / 4e7) + (time - tau * -np.expm1(-time / tau)) @ C
     depth = run.indentation[-1] * (creep / creep[-1]) ** power
@@ -89,10 +91,11 @@ def test_the_first_steps_of_a_ramp_from_zero_load_are_within_their_errors(indent
 def test_a_contact_that_returns_into_its_dent_is_within_its_errors():
     """Steps were long while the contact shrank: the dent around it must not depend on them."""
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="343 MPa", tau=0.2)
-    history = vf.History([0.0, 0.13, 0.13, 0.8, 1.0], indentation=[0.0, 2.2e-5, 2.2e-5, 1.2e-5, 3.2e-5])
+    history = vf.motion.History([0.0, 0.13, 0.13, 0.8, 1.0], indentation=[0.0, 2.2e-5, 2.2e-5, 1.2e-5, 3.2e-5])
     times = [0.801, 0.803, 0.81]
     one, two = (
-        vf.solve_transient(rubber, vf.Cone(0.1), history, times=times, accuracy=accuracy) for accuracy in (2.5e-2, 1e-3)
+        vf.motion.solve_transient(rubber, vf.Cone(0.1), history, times=times, accuracy=accuracy)
+        for accuracy in (2.5e-2, 1e-3)
     )
     assert np.all(np.abs(one.load - two.load) <= one.errors.load + two.errors.load)
 
@@ -101,7 +104,9 @@ def test_the_stated_error_of_an_energy_is_not_below_its_imbalance():
     """Springs touched within steps that are longer than they relax in: errors of the loss of first order."""
     rubber = vf.Material(vf.RetardationSpectrum(1e6, 1e8, [0.5e-6, 0.49e-6], [0.24, 0.56]))
     one, two = (
-        vf.solve_transient(rubber, vf.Ball("10 mm"), vf.History([0.0, 1.0], load=0.08), times=TIMES, accuracy=accuracy)
+        vf.motion.solve_transient(
+            rubber, vf.Ball("10 mm"), vf.motion.History([0.0, 1.0], load=0.08), times=TIMES, accuracy=accuracy
+        )
         for accuracy in (5e-3, 2e-4)
     )
     assert np.all(one.errors.energy >= np.abs(one.errors.balance))
@@ -112,26 +117,29 @@ def test_the_stated_error_of_an_energy_is_not_below_its_imbalance():
 @pytest.mark.parametrize(
     ("indenter", "history"),
     [
-        (vf.Ball("10 mm"), vf.History([0.0, 0.05, 0.1], load=[0.0, 1.0, 0.0])),
-        (vf.Cone(0.1), vf.History([0.0, 0.01, 0.01, 0.1], indentation=[1e-4, 1e-4, 5e-5, 8e-5])),
-        (ridges(), vf.History([0.0, 0.1], pressure=5e3, speed=64e-5 / 0.05)),
-        (ridges(), vf.History([0.0, 0.1, 0.1, 0.2], pressure=5e3, speed=[5e-3, 5e-3, -5e-3, -5e-3], before="sliding")),
-        (CYLINDER, vf.History([0.0, 0.01], load=500.0, speed=0.2, before="at rest")),
-        (CYLINDER, vf.History([0.0, 0.02], load=[100.0, 500.0], speed=0.1)),
+        (vf.Ball("10 mm"), vf.motion.History([0.0, 0.05, 0.1], load=[0.0, 1.0, 0.0])),
+        (vf.Cone(0.1), vf.motion.History([0.0, 0.01, 0.01, 0.1], indentation=[1e-4, 1e-4, 5e-5, 8e-5])),
+        (ridges(), vf.motion.History([0.0, 0.1], pressure=5e3, speed=64e-5 / 0.05)),
+        (
+            ridges(),
+            vf.motion.History([0.0, 0.1, 0.1, 0.2], pressure=5e3, speed=[5e-3, 5e-3, -5e-3, -5e-3], before="sliding"),
+        ),
+        (CYLINDER, vf.motion.History([0.0, 0.01], load=500.0, speed=0.2, before="at rest")),
+        (CYLINDER, vf.motion.History([0.0, 0.02], load=[100.0, 500.0], speed=0.1)),
     ],
     ids=["ball", "cone", "ridges", "ridges there and back", "cylinder", "cylinder under a growing load"],
 )
 def test_energy_is_balanced_at_the_default_accuracy(indenter, history):
-    run = vf.solve_transient(RUBBER, indenter, history, times=np.linspace(0.2, 1.0, 5) * history.time[-1])
+    run = vf.motion.solve_transient(RUBBER, indenter, history, times=np.linspace(0.2, 1.0, 5) * history.time[-1])
     assert run.dissipated[-1] > 0.0
     assert run.energy_imbalance < 1e-4
 
 
 def test_the_stated_error_of_a_pressure_covers_the_marks_of_steps_at_an_advancing_edge():
     """Against steps for a tenth of the accuracy, on the same springs."""
-    history, times = vf.History([0.0, 0.02], indentation=[0.0, 1e-4]), [0.005, 0.01, 0.02]
+    history, times = vf.motion.History([0.0, 0.02], indentation=[0.0, 1e-4]), [0.005, 0.01, 0.02]
     one, two = (
-        vf.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=times, accuracy=accuracy)
+        vf.motion.solve_transient(RUBBER, vf.Ball("10 mm"), history, times=times, accuracy=accuracy)
         for accuracy in (1e-2, 1e-3)
     )
     for time in times:
@@ -143,7 +151,7 @@ def test_the_stated_error_of_a_pressure_covers_the_marks_of_steps_at_an_advancin
 
 def test_a_lower_tolerance_has_its_memory_in_double_precision():
     """E∞/E0 times the rounding of single precision is more than a step may add to the friction."""
-    history = vf.History([0.0, 0.1], pressure=5e3, speed=0.01)
+    history = vf.motion.History([0.0, 0.1], pressure=5e3, speed=0.01)
     mover = PeriodicMover(checked_problem(RUBBER, ridges(), history, 1e-2, None, None, 0.3))
     before = mover.floor(mover.scales)
     assert mover.begin().memory.dtype == np.complex64

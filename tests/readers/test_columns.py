@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 import viscofric as vf
 from readers.refusal import noted, refused
 from readers.samples.workbook import write as write_workbook
+from viscofric import read_dma, read_mtm
 from viscofric.errors import DataFileError
 from viscofric.notes import note_of
-from viscofric.readers import read_dma, read_mtm
 from viscofric.readers.headings import heading
 from viscofric.readers.source import to_rad_per_second, unit_conversion
 

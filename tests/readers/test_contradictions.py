@@ -12,7 +12,7 @@ from readers.refusal import noted, refused
 from readers.samples import mettler, rheocompass, trios, universal_analysis
 from readers.samples.eplexor import raw_tables, save
 from readers.samples.workbook import write as write_workbook
-from viscofric.readers import read_dma
+from viscofric import read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.source import decimal_comma, to_rad_per_second, unit_conversion
 from viscofric.rheology.catalogue import catalogue_material

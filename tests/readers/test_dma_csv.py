@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from readers.refusal import noted, refused
-from viscofric import readers
+from viscofric import read_mtm, readers
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
-from viscofric.readers import read_mtm
 from viscofric.readers.dma.read import trace_dma
 
 HEADER = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"

@@ -9,7 +9,7 @@ from readers.refusal import noted, refused
 from readers.samples import exports
 from readers.samples.reptate import sweep
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, moduli
-from viscofric.readers import read_dma
+from viscofric import read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
 
 

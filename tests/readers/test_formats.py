@@ -11,7 +11,7 @@ import pytest
 from readers.refusal import noted, refused
 from readers.samples import SAMPLES
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, moduli
-from viscofric.readers import read_dma
+from viscofric import read_dma
 from viscofric.readers.dma.read import FORMATS, format_of
 from viscofric.readers.source import Source
 

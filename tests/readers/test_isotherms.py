@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from readers.refusal import noted, refused
+from viscofric import read_dma
 from viscofric.notes import codes
-from viscofric.readers import read_dma
 from viscofric.readers.dma.isotherms import traced_sweeps
 from viscofric.readers.dma.readings import Readings
 

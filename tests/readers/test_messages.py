@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from readers.samples import pcs
+from viscofric import read_dma, read_mtm
 from viscofric.errors import DataFileError
-from viscofric.readers import read_dma, read_mtm
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.topography.read import read_scan
 from viscofric.readers.topography.scan import ScanOptions

@@ -10,8 +10,8 @@ import pytest
 
 from readers.refusal import noted, refused
 from readers.samples import pcs
+from viscofric import read_mtm
 from viscofric.notes import codes
-from viscofric.readers import read_mtm
 
 
 def changed(tmp_path, old, new, lines=None, count=1):

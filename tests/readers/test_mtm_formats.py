@@ -8,7 +8,7 @@ import pytest
 from readers.refusal import noted, refused
 from readers.samples import pcs_binary
 from readers.samples.workbook import write as write_workbook
-from viscofric.readers import read_mtm
+from viscofric import read_mtm
 
 
 @pytest.mark.parametrize("etm", [False, True])

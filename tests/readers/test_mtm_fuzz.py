@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from readers.samples.pcs import TRACTION_SAMPLES
 from readers.samples.pcs_binary import BINARY_SAMPLES
+from viscofric import read_mtm
 from viscofric.errors import LONGEST_SENTENCE, DataFileError
-from viscofric.readers import read_mtm
 
 #: Processor time of one damaged file of a few kilobytes, s; whole ones take some milliseconds.
 LONGEST = 1.0

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from readers.refusal import noted, refused
+from viscofric import read_mtm
 from viscofric.notes import codes
-from viscofric.readers import read_mtm
 
 HEADER = "temperature (degC),replicate,disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)"
 ROW = "30,1,-100,90,25,-0.4"

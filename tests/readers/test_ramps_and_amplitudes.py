@@ -109,7 +109,7 @@ def test_a_genuine_amplitude_sweep_is_found_among_other_techniques(real_data):
     found = vf.read_amplitude_sweep(real_data / "instruments" / "trios" / "multi_technique_LIMS.txt")
     assert found.deformation == "shear"
     assert found.strain_amplitude[[0, -1]] == pytest.approx([9.9e-5, 1.175], rel=0.01)
-    fit = vf.fit_kraus(found)
+    fit = vf.rheology.fit_kraus(found)
     assert 0.02 < fit.linear_ranges[0].strain < 0.1
     assert "kraus-misfit" in codes(fit.notes)  # a gel, not a filled rubber
 

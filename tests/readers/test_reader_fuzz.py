@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from marks import slow
 from readers.samples import SAMPLES
 from readers.samples.workbook import write as write_workbook
+from viscofric import read_dma
 from viscofric.errors import LONGEST_SENTENCE, DataFileError
-from viscofric.readers import read_dma
 from viscofric.readers.dma.read import FORMATS
 
 #: Processor time of one damaged file of a few kilobytes, s; whole ones take some milliseconds, a workbook 40 ms

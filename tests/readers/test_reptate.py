@@ -8,7 +8,7 @@ import pytest
 from readers.refusal import refused
 from readers.samples.reptate import sweep
 from readers.samples.rubber import FREQUENCIES, moduli
-from viscofric.readers import read_dma
+from viscofric import read_dma
 
 
 def write(tmp_path, *lines, name="a.osc"):

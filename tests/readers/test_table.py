@@ -8,8 +8,7 @@ import sys
 import pytest
 
 from readers.refusal import refused
-from viscofric import files
-from viscofric.readers import read_dma
+from viscofric import files, read_dma
 from viscofric.readers.table import table_of_text
 
 HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensile loss modulus (MPa)"

@@ -12,8 +12,9 @@ import pytest
 
 from readers.refusal import noted, refused
 from readers.samples.workbook import HEADER, one_sheet, rows, write
+from viscofric import read_dma
 from viscofric.errors import DataFileError
-from viscofric.readers import parse_workbook, read_dma, workbook
+from viscofric.readers import parse_workbook, workbook
 from viscofric.readers.source import Source
 
 POINTS = [[20, 1, 5, 0.5], [20, 10, 6, 0.7]]

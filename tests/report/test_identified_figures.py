@@ -7,9 +7,9 @@ import viscofric as vf
 from viscofric.report.figures.identified import indentation_figure, plot_fitted_records
 
 
-def found() -> vf.MaterialFromIndentation:
+def found() -> vf.friction.MaterialFromIndentation:
     omega = np.geomspace(1.0, 100.0, 5)
-    record = vf.OscillationRecord(
+    record = vf.friction.OscillationRecord(
         omega, 1e4 * omega**0.1, 1.6e3 * omega**0.1, 300.0, indentation=1e-4, amplitude=1e-6, error=0.01
     )
     return vf.identify_from_indentation(record, vf.Ball("10 mm"), modes=8, samples=20)

@@ -15,7 +15,7 @@ from viscofric.datasets import dataset
 from viscofric.friction.interface.prediction import with_interface
 from viscofric.report.figures.interface import parts_figure
 
-LAW = vf.PowerShearStress(
+LAW = vf.friction.PowerShearStress(
     "0.2 MPa", 0.2, 0.03, shift=vf.Arrhenius("60 kJ/mol", 313.15), covariance=np.diag([1e8, 1e-4, 1e6])
 )
 
@@ -39,9 +39,9 @@ def contacts():
 def test_stress_is_drawn_at_the_reduced_speed_of_the_first_law(contacts):
     predicted = with_interface(contacts, LAW)
     measured = replace(predicted, coulomb_error=0.02 * predicted.coulomb)
-    stress = vf.shear_stress(measured, contacts, shift=LAW.shift)
+    stress = vf.friction.shear_stress(measured, contacts, shift=LAW.shift)
     axes = Figure().subplots()
-    report.plot_shear_stress(axes, stress, [LAW, vf.ConstantShearStress("0.3 MPa")], synthetic=True)
+    report.plot_shear_stress(axes, stress, [LAW, vf.friction.ConstantShearStress("0.3 MPa")], synthetic=True)
     drawn = np.concatenate([bars.lines[0].get_xdata() for bars in axes.containers])
     reduced = 1e3 * stress.speed * LAW.shift(stress.temperature)
     np.testing.assert_allclose(np.sort(drawn), np.sort(reduced))
@@ -90,7 +90,7 @@ def test_parts_of_rough_surfaces_are_means_with_the_interval_of_the_total(count)
     asked = {"shape": (32, 32), "spacing": "30 um", "shortest": "160 um", "rms_slope": 0.2}
     tracks = [vf.self_affine(0.8, **asked, seed=seed) for seed in range(count)]
     rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
-    law = vf.ConstantShearStress("20 kPa", covariance=[[1e6]])
+    law = vf.friction.ConstantShearStress("20 kPa", covariance=[[1e6]])
     found = vf.predict_rough_friction(rubber, tracks, speeds=[0.01, 0.1], pressure="20 kPa", interface=law)
     axes = Figure().subplots()
     report.plot_friction_parts(axes, found)
@@ -107,7 +107,7 @@ def test_parts_of_rough_surfaces_are_means_with_the_interval_of_the_total(count)
 def test_parts_of_the_theory_and_of_a_given_coulomb_friction_are_drawn_alike():
     """Anything whose parts have these names, along any dimensions."""
     rubber = vf.synthetic_fluoroelastomer()
-    road = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.3)
+    road = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.3)
     asked = {"speeds": [0.1, 0.01], "temperatures": "60 degC"}
     theory = vf.persson_theory(rubber, road, **asked, pressure="0.3 MPa", interface=LAW)
     steel = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")

@@ -27,7 +27,7 @@ ACROSS = np.array([0.0, 1e-3, 1e-3, 5e-3, 1e-3])  # there and back, along y
 FRICTION = np.array([0.0, 0.2, 0.2, 0.5, -0.4])
 
 
-def solution(kind: str, **changes: Any) -> vf.TransientSolution:
+def solution(kind: str, **changes: Any) -> vf.motion.TransientSolution:
     """Return a made-up contact: a disc, a line, or a patch that slides along y and back."""
     n, none = len(TIME), np.zeros(len(TIME))
     radius = 1e-3 * np.arange(n)
@@ -47,11 +47,12 @@ def solution(kind: str, **changes: Any) -> vf.TransientSolution:
         "contact_radius": radius if round_one else None, "front": None if round_one else 0.9 * radius,
         "rear": None if round_one else radius, "half_width": radius if kind == "grid" else None, "work": none,
         "stored": none, "dissipated": none,
-        "errors": vf.TransientErrors(np.full(n, 0.01), np.full(n, 1e-6), np.full(n, 0.01), none, none), "steps": 4,
+        "errors": vf.motion.TransientErrors(np.full(n, 0.01), np.full(n, 1e-6), np.full(n, 0.01), none, none),
+        "steps": 4,
         "rejected_steps": 0, "interrupted": False, "method": "springs" if round_one else "grid",
         "geometry": "line" if kind == "line" else "point", "direction": (0.0, 1.0), "_fields": tuple(fields),
     }  # fmt: skip
-    return vf.TransientSolution(**(values | changes))
+    return vf.motion.TransientSolution(**(values | changes))
 
 
 def axes() -> Axes:

@@ -42,12 +42,12 @@ def made_sweeps(celsius: Any = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0), deformation
 
 
 @pytest.fixture(scope="module")
-def fit() -> vf.Superposition:
+def fit() -> vf.rheology.Superposition:
     return vf.superpose(made_sweeps(), REFERENCE)
 
 
 @pytest.fixture(scope="module")
-def spectrum(fit: vf.Superposition) -> vf.RetardationSpectrum:
+def spectrum(fit: vf.rheology.Superposition) -> vf.RetardationSpectrum:
     return vf.fit_retardation_spectrum(fit.master_curve)
 
 
@@ -97,7 +97,7 @@ def test_sweeps_as_read_are_drawn_in_their_own_modulus(axes: Axes) -> None:
     assert scale.get_clim() == pytest.approx((10.0, 60.0))
 
 
-def test_isotherms_that_were_joined_are_drawn_as_tensile(axes: Axes, fit: vf.Superposition) -> None:
+def test_isotherms_that_were_joined_are_drawn_as_tensile(axes: Axes, fit: vf.rheology.Superposition) -> None:
     rubber.plot_isotherms(axes, fit)
     assert "$E'$" in axes.get_ylabel()
     np.testing.assert_allclose(axes.lines[0].get_ydata(), fit.isotherms[0].storage_modulus / 1e6)
@@ -159,7 +159,7 @@ def test_check_is_drawn_without_its_vertical_shift(axes: Axes) -> None:
     assert axes.get_xlabel() == "modulus $|E^*|$ (MPa)"
 
 
-def test_causality_is_drawn_as_decades_with_the_ends_left_open(axes: Axes, fit: vf.Superposition) -> None:
+def test_causality_is_drawn_as_decades_with_the_ends_left_open(axes: Axes, fit: vf.rheology.Superposition) -> None:
     agreement = check_superposition(fit).kramers_kronig
     superposition.plot_kramers_kronig(axes, agreement)
     inner, ends = axes.lines[:2]
@@ -172,7 +172,7 @@ def test_causality_is_drawn_as_decades_with_the_ends_left_open(axes: Axes, fit: 
 
 
 def test_master_curve_and_spectrum_are_drawn_with_room_for_both(
-    axes: Axes, fit: vf.Superposition, spectrum: vf.RetardationSpectrum
+    axes: Axes, fit: vf.rheology.Superposition, spectrum: vf.RetardationSpectrum
 ) -> None:
     rubber.plot_master_curve(axes, fit, spectrum)
     shown = {str(line.get_label()): line for line in axes.lines}
@@ -185,12 +185,12 @@ def test_master_curve_and_spectrum_are_drawn_with_room_for_both(
     assert not overlaps_data(axes)
 
 
-def test_master_curve_without_a_spectrum_shows_points_only(axes: Axes, fit: vf.Superposition) -> None:
+def test_master_curve_without_a_spectrum_shows_points_only(axes: Axes, fit: vf.rheology.Superposition) -> None:
     rubber.plot_master_curve(axes, fit.master_curve)
     assert [str(line.get_label()) for line in axes.lines] == ["$E'$ measured", "$E''$ measured"]
 
 
-def test_band_of_moduli_is_filled_between_its_bounds(axes: Axes, fit: vf.Superposition) -> None:
+def test_band_of_moduli_is_filled_between_its_bounds(axes: Axes, fit: vf.rheology.Superposition) -> None:
     omega = np.geomspace(1.0, 100.0, 5)
     limits = {"storage_modulus_lower": 2e6, "storage_modulus_upper": 3e6}
     limits |= {"loss_modulus_lower": 1e5, "loss_modulus_upper": 4e5}
@@ -204,7 +204,7 @@ def test_band_of_moduli_is_filled_between_its_bounds(axes: Axes, fit: vf.Superpo
     assert not overlaps_data(axes)
 
 
-def test_samples_give_the_band_that_they_state(axes: Axes, fit: vf.Superposition, spectrum: Any) -> None:
+def test_samples_give_the_band_that_they_state(axes: Axes, fit: vf.rheology.Superposition, spectrum: Any) -> None:
     from viscofric.rheology.uncertainty.sampling import sample_materials
 
     samples = sample_materials(fit, spectrum, samples=20)
@@ -219,13 +219,13 @@ def test_samples_give_the_band_that_they_state(axes: Axes, fit: vf.Superposition
         assert heights_at(loss, omega[place]) == pytest.approx(ends)
 
 
-def test_residuals_need_a_fit(axes: Axes, fit: vf.Superposition) -> None:
+def test_residuals_need_a_fit(axes: Axes, fit: vf.rheology.Superposition) -> None:
     with pytest.raises(InputError) as caught:
         rubber.plot_residuals(axes, fit)
     assert caught.value.code == "no-fit"
 
 
-def test_residuals_are_decades_of_measured_over_fit(axes: Axes, fit: vf.Superposition, spectrum: Any) -> None:
+def test_residuals_are_decades_of_measured_over_fit(axes: Axes, fit: vf.rheology.Superposition, spectrum: Any) -> None:
     rubber.plot_residuals(axes, fit, spectrum)
     curve = fit.master_curve
     storage, loss = axes.lines[:2]
@@ -238,7 +238,7 @@ def test_residuals_are_decades_of_measured_over_fit(axes: Axes, fit: vf.Superpos
     assert not overlaps_data(axes)
 
 
-def test_law_is_drawn_with_its_stated_uncertainty(axes: Axes, fit: vf.Superposition) -> None:
+def test_law_is_drawn_with_its_stated_uncertainty(axes: Axes, fit: vf.rheology.Superposition) -> None:
     law = fit.shift_factors.law("wlf")
     shift_factors.plot_shift_factors(axes, fit, "wlf")
     (line,) = [line for line in axes.lines if str(line.get_label()).startswith("WLF")]
@@ -361,7 +361,7 @@ def test_log_axes_have_few_labels_on_any_range(axes: Axes, low: float, high: flo
     assert not any(first.overlaps(second) for first, second in pairwise(boxes))
 
 
-def test_synthetic_mark_and_legend_above_do_not_cover_each_other(axes: Axes, fit: vf.Superposition) -> None:
+def test_synthetic_mark_and_legend_above_do_not_cover_each_other(axes: Axes, fit: vf.rheology.Superposition) -> None:
     rubber.plot_master_curve(axes, fit, synthetic=True)
     style.mark_synthetic([axes])
     axes.figure.canvas.draw()

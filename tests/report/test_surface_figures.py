@@ -16,16 +16,16 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
-ROAD = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="100 um", rms_slope=0.2)
+ROAD = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="100 um", rms_slope=0.2)
 
 
 @pytest.fixture(scope="module")
 def road() -> vf.Topography:
-    return vf.surface_from_spectrum(ROAD, shape=(32, 32), spacing=1e-3 / 32, seed=1)
+    return vf.roughness.surface_from_spectrum(ROAD, shape=(32, 32), spacing=1e-3 / 32, seed=1)
 
 
 @pytest.fixture(scope="module")
-def solution(road: vf.Topography) -> vf.PeriodicSolution:
+def solution(road: vf.Topography) -> vf.contact.PeriodicSolution:
     return vf.solve_periodic(RUBBER, road.to_surface(), speed="0.1 m/s", pressure="10 kPa")
 
 
@@ -58,11 +58,11 @@ def test_a_line_scan_is_a_line():
 
 def test_spectra_and_what_wavelengths_add_are_drawn_as_given(road, solution):
     axes = new_figure().subplots()
-    figures.plot_power_spectra(axes, {"made of": ROAD, "measured": vf.power_spectrum(road)})
+    figures.plot_power_spectra(axes, {"made of": ROAD, "measured": vf.roughness.power_spectrum(road)})
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), ROAD.density)
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["made of", "measured"]
     axes = new_figure().subplots()
-    part = vf.friction_by_wavelength(solution)
+    part = vf.roughness.friction_by_wavelength(solution)
     figures.plot_friction_by_wavelength(axes, {"all": part})
     (steps,) = axes.patches
     areas = steps.get_data().values * np.diff(np.log10(steps.get_data().edges))

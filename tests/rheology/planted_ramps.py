@@ -22,6 +22,6 @@ def planted_ramps(seed, noise=0.01, *, material=None, hertz=(1.0, 10.0), celsius
             errors[:, place] = alike * errors[:, place - 1] + np.sqrt(1.0 - alike**2) * errors[:, place]
         scatter = 1.0 + noise * errors
         ramps.append(
-            vf.TemperatureRamp(f"{frequency} Hz", kelvin, scatter[0] * modulus.real, scatter[1] * modulus.imag)
+            vf.readers.TemperatureRamp(f"{frequency} Hz", kelvin, scatter[0] * modulus.real, scatter[1] * modulus.imag)
         )
-    return vf.TemperatureRamps(tuple(ramps), heating_rate=1.0 / 60.0)
+    return vf.readers.TemperatureRamps(tuple(ramps), heating_rate=1.0 / 60.0)

@@ -19,7 +19,7 @@ WLF = vf.WLF(8.0, 100.0, "30 degC")
 
 
 @pytest.fixture(scope="module")
-def fit() -> vf.Superposition:
+def fit() -> vf.rheology.Superposition:
     sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")  # synthetic
     return vf.superpose(sweeps, reference="30 degC", vertical="free")
 
@@ -80,7 +80,7 @@ def test_values_and_covariance_of_a_table_and_of_a_law() -> None:
         factors.covariance_at([390.0])
 
 
-def test_superposition_has_both_shifts_and_its_overlap(fit: vf.Superposition) -> None:
+def test_superposition_has_both_shifts_and_its_overlap(fit: vf.rheology.Superposition) -> None:
     data = fit.to_dataset()
     np.testing.assert_array_equal(data.log10_shift_factor, fit.shift_factors.log10_values)
     np.testing.assert_array_equal(data.standard_error, fit.shift_factors.standard_errors)
@@ -93,7 +93,7 @@ def test_superposition_has_both_shifts_and_its_overlap(fit: vf.Superposition) ->
     assert set(xarray_of_factors.data_vars) == {"log10_shift_factor", "standard_error"}
 
 
-def test_check_and_causality(fit: vf.Superposition) -> None:
+def test_check_and_causality(fit: vf.rheology.Superposition) -> None:
     data = fit.check.to_dataset()
     np.testing.assert_array_equal(data.temperature, fit.shift_factors.temperatures)
     assert (data.attrs["verdict"], data.attrs["holds"], data.attrs["consistent"]) == ("holds", 1, 1)
@@ -105,7 +105,7 @@ def test_check_and_causality(fit: vf.Superposition) -> None:
 
 
 def test_density_shift_has_no_errors() -> None:
-    data = vf.DensityShift(303.15, 0.0).to_dataset([303.15, 333.15])
+    data = vf.rheology.DensityShift(303.15, 0.0).to_dataset([303.15, 333.15])
     np.testing.assert_allclose(data.log10_vertical_shift, [0.0, np.log10(333.15 / 303.15)])
     assert "vertical_standard_error" not in data
 
@@ -130,21 +130,21 @@ def test_spectra_as_modes_and_as_moduli() -> None:
     curve = spectrum.modulus_dataset([1.0, 1e3])
     modulus = spectrum.complex_modulus([1.0, 1e3])
     np.testing.assert_array_equal(curve.storage_modulus + 1j * curve.loss_modulus, modulus)
-    table = vf.ModulusTable([1.0, 1e3], modulus.real, modulus.imag).to_dataset()
+    table = vf.rheology.ModulusTable([1.0, 1e3], modulus.real, modulus.imag).to_dataset()
     np.testing.assert_allclose(table.loss_modulus, modulus.imag)
 
 
 def test_bands_over_frequency() -> None:
     materials = tuple(vf.Material.standard_linear_solid(E0, 1e8, 1e-3) for E0 in np.linspace(0.9e6, 1.1e6, 41))
     C = np.array([one.spectrum.C for one in materials])
-    samples = vf.MaterialSamples(materials, C, np.full(C.shape, 1e-3), (1.0, 1e4))
+    samples = vf.rheology.MaterialSamples(materials, C, np.full(C.shape, 1e-3), (1.0, 1e4))
     band, data = samples.modulus_band([1.0, 1e3], level=0.9), samples.to_dataset([1.0, 1e3], level=0.9)
     np.testing.assert_array_equal(data.storage_modulus_lower, band.lower.real)
     np.testing.assert_array_equal(data.loss_modulus_upper, band.upper.imag)
     assert "90 %" in data.storage_modulus_lower.attrs["long_name"]
 
 
-def test_measurements_and_master_curve(fit: vf.Superposition) -> None:
+def test_measurements_and_master_curve(fit: vf.rheology.Superposition) -> None:
     sweeps = vf.IsothermalSweeps(fit.isotherms)
     data = sweeps.to_dataset()
     assert data.sizes["reading"] == sum(len(one) for one in fit.isotherms)

@@ -214,7 +214,7 @@ def test_every_result_is_shown_in_a_few_lines():
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC", vertical="free")
     spectrum = fit_retardation_spectrum(fit)
     samples = sample_materials(fit, spectrum, samples=20)
-    table = vf.ModulusTable.from_master_curve(fit.master_curve)
+    table = vf.rheology.ModulusTable.from_master_curve(fit.master_curve)
     shown = [
         repr(one)
         for one in (

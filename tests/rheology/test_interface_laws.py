@@ -10,10 +10,10 @@ from viscofric.rheology.interface.fitting import StressTable, compare_stress_law
 
 SHIFT = vf.Arrhenius("80 kJ/mol", "30 degC")
 LAWS = (
-    vf.ConstantShearStress("0.3 MPa"),
-    vf.PowerShearStress("0.3 MPa", 0.2, "10 mm/s", shift=SHIFT),
-    vf.EyringShearStress("20 nm**3", "1 mm/s", shift=SHIFT),
-    vf.GaussianShearStress("0.5 MPa", "20 mm/s", 1.5, shift=SHIFT),
+    vf.friction.ConstantShearStress("0.3 MPa"),
+    vf.friction.PowerShearStress("0.3 MPa", 0.2, "10 mm/s", shift=SHIFT),
+    vf.friction.EyringShearStress("20 nm**3", "1 mm/s", shift=SHIFT),
+    vf.friction.GaussianShearStress("0.5 MPa", "20 mm/s", 1.5, shift=SHIFT),
 )
 SPEED = np.logspace(-3.0, -0.5, 12)
 KELVIN = np.array([293.15, 303.15, 323.15, 343.15])
@@ -69,12 +69,12 @@ def test_the_planted_law_is_chosen_and_lies_in_its_band(law):
 
 def test_gaussian_is_that_of_persson():
     """τ = τ_p exp(−c log10(v/v_p)²) with c = 1/(2w²)."""
-    law = vf.GaussianShearStress(5e5, 0.02, 1.5)
+    law = vf.friction.GaussianShearStress(5e5, 0.02, 1.5)
     assert law(2.0) == pytest.approx(5e5 * np.exp(-(2.0**2) / (2.0 * 1.5**2)))
 
 
 def test_eyring_is_linear_in_slow_and_logarithmic_in_fast_slip():
-    law = vf.EyringShearStress(2e-26, 1e-3, shift=SHIFT)
+    law = vf.friction.EyringShearStress(2e-26, 1e-3, shift=SHIFT)
     stress = 1.380649e-23 * 303.15 / 2e-26
     assert law(1e-6, 303.15) == pytest.approx(1e-3 * stress, rel=1e-6)
     assert law(10.0, 303.15) == pytest.approx(stress * np.log(2e4), rel=1e-6)
@@ -82,7 +82,7 @@ def test_eyring_is_linear_in_slow_and_logarithmic_in_fast_slip():
 
 @pytest.mark.parametrize("celsius", [-85.0, -83.0, -70.0, -52.0])  # 2500 to 200 decades of reduced speed
 def test_eyring_is_logarithmic_where_the_shift_exceeds_all_floats(celsius):
-    law = vf.EyringShearStress(2e-26, 1e-3, shift=vf.VFT("2500 K", "187 K", "20 degC"))
+    law = vf.friction.EyringShearStress(2e-26, 1e-3, shift=vf.VFT("2500 K", "187 K", "20 degC"))
     kelvin = celsius + 273.15
     decades = law.shift.log10(kelvin) + 1.0
     stress = 1.380649e-23 * kelvin / 2e-26
@@ -116,7 +116,7 @@ def test_a_law_of_one_temperature_is_refused_at_another():
 
 
 def test_stress_beyond_all_numbers_is_refused_with_its_limits():
-    law = vf.PowerShearStress(
+    law = vf.friction.PowerShearStress(
         3e5, 1.0, 0.01, shift=vf.VFT("1500 K", "200 K", "20 degC"), covariance=np.diag([1e8, 1e4])
     )
     for ask in (law, law.interval):
@@ -131,7 +131,7 @@ def test_stress_beyond_all_numbers_is_refused_with_its_limits():
 
 def test_stress_without_a_maximum_has_no_gaussian_and_too_few_points_no_law():
     with pytest.raises(vf.InputError) as refused:
-        fit_stress("gaussian", table(vf.PowerShearStress(3e5, 0.2, 0.01)), None, 303.15, energy=False)
+        fit_stress("gaussian", table(vf.friction.PowerShearStress(3e5, 0.2, 0.01)), None, 303.15, energy=False)
     assert refused.value.code == "no-law"
     few = StressTable.of(np.array([-2.0, -1.0]), np.full(2, 300.0), np.array([5.0, 5.1]), 1e-4 * np.eye(2))
     with pytest.raises(vf.InputError) as refused:
@@ -140,7 +140,7 @@ def test_stress_without_a_maximum_has_no_gaussian_and_too_few_points_no_law():
 
 
 def test_extrapolation_and_unknown_errors_are_known():
-    law = vf.PowerShearStress(
+    law = vf.friction.PowerShearStress(
         3e5, 0.2, 0.01, shift=SHIFT, fitted_speeds=(1e-3, 0.1), fitted_temperatures=(290.0, 340.0)
     )
     assert law.extrapolates([0.01, 1.0], "30 degC").tolist() == [False, True]

@@ -121,7 +121,7 @@ def test_synthetic_fluoroelastomer_is_as_designed():
 
 
 def test_the_measured_frequencies_move_with_the_temperature():
-    fit = vf.SpectrumFit(0.01, 0.01, True, True, (1e-3, 1e6), measured_storage=(1e6, 1e9))
+    fit = vf.rheology.SpectrumFit(0.01, 0.01, True, True, (1e-3, 1e6), measured_storage=(1e6, 1e9))
     spectrum = vf.RetardationSpectrum(1e6, 1e9, [1e-6 - 1e-9], [1e-3], fit)
     material = vf.Material(spectrum, shift=vf.WLF(10.0, 100.0, 293.15))
     moved = material.at_reference(333.15)

@@ -24,7 +24,7 @@ FITTED = vf.WLF(8.0, 120.0, "30 degC", covariance=np.diag([1e-6, 1e-4]), fitted_
 FACTORS = vf.ShiftFactors(KELVIN, WLF.log10(KELVIN), 303.15)
 TWO = vf.ShiftFactors([273.15, 303.15], [1.0, 0.0], 303.15)
 SOLID = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
-TABLE = vf.ModulusTable([1.0, 10.0], [3e6, 4e6], [3e5, 4e5])
+TABLE = vf.rheology.ModulusTable([1.0, 10.0], [3e6, 4e6], [3e5, 4e5])
 LIQUID = vf.RelaxationSpectrum(0.0, [1e6], [1.0])
 
 
@@ -142,7 +142,7 @@ SAID = [
         ),
     ),
     (
-        lambda: vf.VerticalShiftFactors(["0 degC", "60 degC"], [0.0, 0.04], "0 degC")("61 degC"),
+        lambda: vf.rheology.VerticalShiftFactors(["0 degC", "60 degC"], [0.0, 0.04], "0 degC")("61 degC"),
         "outside-measured",
         (
             "temperature = 61.0 °C lies outside 0.0 to 60.0 °C, where the vertical shift was measured; a "
@@ -194,7 +194,7 @@ SAID = [
         "spectrum of a material must be a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable, not float.",
     ),
     (
-        lambda: vf.Material(SOLID.spectrum, vertical_shift=vf.DensityShift(303.15)),
+        lambda: vf.Material(SOLID.spectrum, vertical_shift=vf.rheology.DensityShift(303.15)),
         "no-shift",
         "vertical_shift of a material needs a shift too, which gives its reference.",
     ),
@@ -357,12 +357,12 @@ SAID = [
         "a.csv: the covariance must have the columns cov 1 to cov 2, one for each row.",
     ),
     (
-        lambda: vf.StepTest(300.0, [2.0, 1.0, 3.0], [1e-6, 2e-6, 3e-6]),
+        lambda: vf.readers.StepTest(300.0, [2.0, 1.0, 3.0], [1e-6, 2e-6, 3e-6]),
         "not-ascending",
         "the times of a step test must ascend without repeats.",
     ),
     (
-        lambda: vf.StepTest(300.0, [1.0, 2.0, 3.0], [-1e-6, 2e-6, 3e-6]),
+        lambda: vf.readers.StepTest(300.0, [1.0, 2.0, 3.0], [-1e-6, 2e-6, 3e-6]),
         "wrong-length",
         "response of a step test must be one row of positive numbers, one per time.",
     ),
@@ -404,8 +404,8 @@ def test_notes_on_cards(text: str, units: dict[str, str], notes: list[str], tmp_
 
 
 def test_notes_on_step_tests() -> None:
-    step = vf.StepTest(300.0, [1.0, 2.0, 3.0], [1e-6, 2e-6, 3e-6])
-    assert vf.StepTests((step,), "creep", "shear").in_tension(0.5).notes == (
+    step = vf.readers.StepTest(300.0, [1.0, 2.0, 3.0], [1e-6, 2e-6, 3e-6])
+    assert vf.readers.StepTests((step,), "creep", "shear").in_tension(0.5).notes == (
         "Shear responses converted to tensile ones by E = 2(1+ν)G with ν = 0.5.",
     )
 
@@ -477,7 +477,7 @@ def test_entries_without_a_shift_are_valid_at_one_temperature_only() -> None:
         ({}, "ansys", {"temperature_unit": "degC"}, "temperatures in degrees Celsius"),
         ({}, "ls-dyna", {"temperature_unit": "degC"}, "temperatures in degrees Celsius"),
         ({}, "abaqus", {"domain": "frequency"}, "is valid at 25 degrees Celsius only"),
-        ({"vertical_shift": vf.DensityShift(298.15)}, "ansys", {}, "vertical shift of the modulus"),
+        ({"vertical_shift": vf.rheology.DensityShift(298.15)}, "ansys", {}, "vertical shift of the modulus"),
     ],
 )
 @pytest.mark.filterwarnings("ignore::UserWarning")

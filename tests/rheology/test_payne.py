@@ -13,7 +13,7 @@ from viscofric.notes import codes
 from viscofric.rheology.payne.at_strain import on_strain
 from viscofric.rheology.payne.kraus_fit import linear_range
 
-LAW = vf.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 2.0 * np.pi * 10.0, 333.15, "shear")
+LAW = vf.rheology.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 2.0 * np.pi * 10.0, 333.15, "shear")
 STRAIN = np.geomspace(1e-4, 0.5, 25)
 
 
@@ -21,14 +21,16 @@ def planted(seed, noise=0.01):
     random = np.random.default_rng(seed)
     modulus = LAW.complex_modulus(STRAIN)
     scatter = 1.0 + noise * random.standard_normal((2, len(STRAIN)))
-    return vf.AmplitudeSweep(STRAIN, scatter[0] * modulus.real, scatter[1] * modulus.imag, "10 Hz", "60 degC", "shear")
+    return vf.readers.AmplitudeSweep(
+        STRAIN, scatter[0] * modulus.real, scatter[1] * modulus.imag, "10 Hz", "60 degC", "shear"
+    )
 
 
 @pytest.mark.slow
 def test_planted_constants_lie_within_their_errors():
     scores, ranges = [], []
     for seed in range(60):
-        fit = vf.fit_kraus(planted(seed))
+        fit = vf.rheology.fit_kraus(planted(seed))
         scores.append((fit.law.constants - LAW.constants) / np.array(fit.law.standard_errors))
         ranges.append(fit.linear_ranges[1])
     # 60 seeds of six constants, of which some three are independent: known to 0.05.
@@ -40,21 +42,21 @@ def test_planted_constants_lie_within_their_errors():
 
 
 def test_a_sweep_that_stays_linear_has_no_end_of_its_range():
-    flat = vf.AmplitudeSweep(STRAIN, np.full(25, 1e6), np.full(25, 1e5), "1 Hz", "25 degC")
+    flat = vf.readers.AmplitudeSweep(STRAIN, np.full(25, 1e6), np.full(25, 1e5), "1 Hz", "25 degC")
     assert np.isinf(linear_range(flat, 0.05).strain)
-    assert "hardly-nonlinear" in codes(vf.fit_kraus(flat).notes)
+    assert "hardly-nonlinear" in codes(vf.rheology.fit_kraus(flat).notes)
 
 
 def test_a_law_that_misses_the_sweep_is_named():
     sweep = planted(1)
     bent = replace(sweep, loss_modulus=sweep.loss_modulus * (1.0 + 0.5 * np.sin(np.arange(25.0))))
-    assert "kraus-misfit" in codes(vf.fit_kraus(bent).notes)
+    assert "kraus-misfit" in codes(vf.rheology.fit_kraus(bent).notes)
 
 
 @pytest.mark.parametrize("strain", [0.005, 0.05, 0.2])
 def test_a_material_at_a_strain_meets_the_law_where_it_was_measured(strain):
     rubber = vf.synthetic_fluoroelastomer()
-    scaled = vf.material_at_strain(rubber, LAW, strain, measured_at=0.001)
+    scaled = vf.rheology.material_at_strain(rubber, LAW, strain, measured_at=0.001)
     before, after = (one.complex_modulus(LAW.angular_frequency, LAW.temperature) for one in (rubber, scaled))
     first, last = LAW.complex_modulus(np.sqrt(3.0) * np.array([0.001, strain]))
     assert after.real / before.real == pytest.approx(last.real / first.real, rel=1e-9)
@@ -65,27 +67,27 @@ def test_a_material_at_a_strain_meets_the_law_where_it_was_measured(strain):
 
 def test_the_glass_keeps_its_modulus_at_any_strain():
     # at 2 % E' falls to half and E'' rises fourfold; the glass is a thousand times stiffer than the filler network
-    loud = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 2.0 * np.pi * 10.0, 333.15, "shear")
+    loud = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 2.0 * np.pi * 10.0, 333.15, "shear")
     rubber = vf.synthetic_fluoroelastomer()
-    scaled = vf.material_at_strain(rubber, loud, 0.02)
+    scaled = vf.rheology.material_at_strain(rubber, loud, 0.02)
     assert scaled.spectrum.E_inf == pytest.approx(rubber.spectrum.E_inf, rel=0.02)
 
 
 def test_at_the_strain_of_the_sweeps_nothing_changes():
     rubber = vf.synthetic_fluoroelastomer()
-    same = vf.material_at_strain(rubber, LAW, 0.001, measured_at=0.001)
+    same = vf.rheology.material_at_strain(rubber, LAW, 0.001, measured_at=0.001)
     omega = np.geomspace(1e-2, 1e8, 20)
     np.testing.assert_allclose(same.spectrum.complex_modulus(omega), rubber.spectrum.complex_modulus(omega), rtol=1e-6)
 
 
 def test_the_strain_of_a_ball_is_a_fifth_of_its_slope():
-    assert vf.contact_strain(1.5e-3 / 9.525e-3) == pytest.approx(0.2 * 1.5 / 9.525)
+    assert vf.rheology.contact_strain(1.5e-3 / 9.525e-3) == pytest.approx(0.2 * 1.5 / 9.525)
 
 
 @pytest.mark.slow
 def test_a_contact_at_its_own_strain_is_softer():
     ball, rubber = vf.Ball("9.525 mm"), vf.synthetic_fluoroelastomer()
-    found = vf.solve_at_contact_strain(
+    found = vf.friction.solve_at_contact_strain(
         rubber, LAW, ball, speed="20 mm/s", load="5 N", temperature="60 degC", accuracy=0.03
     )
     assert found.scaled.contact_area > found.linear.contact_area
@@ -98,10 +100,10 @@ def test_a_contact_at_its_own_strain_is_softer():
 def test_wrong_arguments_are_refused():
     rubber = vf.synthetic_fluoroelastomer()
     with refused("too-few-points"):
-        vf.fit_kraus(vf.AmplitudeSweep(STRAIN[:4], STRAIN[:4], STRAIN[:4], "1 Hz", "25 degC"))
+        vf.rheology.fit_kraus(vf.readers.AmplitudeSweep(STRAIN[:4], STRAIN[:4], STRAIN[:4], "1 Hz", "25 degC"))
     with refused("strain"):
-        vf.material_at_strain(rubber, LAW, 50.0)
+        vf.rheology.material_at_strain(rubber, LAW, 50.0)
     with refused("no-relaxed-modulus"):
-        vf.material_at_strain(rubber, replace(LAW, loss_peak=6e8), 0.02)
+        vf.rheology.material_at_strain(rubber, replace(LAW, loss_peak=6e8), 0.02)
     with refused("slope"):
-        vf.contact_strain(-1.0)
+        vf.rheology.contact_strain(-1.0)

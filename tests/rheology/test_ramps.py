@@ -116,13 +116,13 @@ def test_a_joined_law_is_found_where_ramps_begin_in_the_glass():
 def test_moduli_that_change_with_temperature_alone_do_not_fall_on_one_curve():
     ramps = planted_ramps(4)
     first, second = ramps.ramps
-    other = vf.TemperatureRamp(
+    other = vf.readers.TemperatureRamp(
         second.angular_frequency,
         second.temperature,
         second.storage_modulus * (1.0 + 0.5 * (second.temperature > 320.0)),
         second.loss_modulus,
     )
-    found = vf.superpose_ramps(vf.TemperatureRamps((first, other)), REFERENCE)
+    found = vf.superpose_ramps(vf.readers.TemperatureRamps((first, other)), REFERENCE)
     assert not found.check.holds
     assert {"ramps-do-not-superpose", "heating-rate-unknown"} <= codes(found.notes)
 
@@ -130,19 +130,21 @@ def test_moduli_that_change_with_temperature_alone_do_not_fall_on_one_curve():
 def test_the_peak_of_a_ramp_comes_back_with_its_error():
     cold = np.arange(-55.0, 41.0, 1.0)
     fine = planted_ramps(0, 0.0, celsius=np.arange(-55.0, 41.0, 0.5)).ramps[0]
-    truth = {by: vf.glass_transition(fine, by) for by in ("tan delta", "loss modulus")}
+    truth = {by: vf.rheology.glass_transition(fine, by) for by in ("tan delta", "loss modulus")}
     for by, at in truth.items():
         values = fine.loss_tangent if by == "tan delta" else fine.loss_modulus
         assert at.temperature == pytest.approx(fine.temperature[np.argmax(values)], abs=0.75)
-        found = [vf.glass_transition(planted_ramps(seed, celsius=cold).ramps[0], by) for seed in range(40)]
+        found = [vf.rheology.glass_transition(planted_ramps(seed, celsius=cold).ramps[0], by) for seed in range(40)]
         scores = [(one.temperature - at.temperature) / one.standard_error for one in found]
         assert 0.5 < np.median(np.abs(scores)) / 0.6745 < 1.6  # of errors themselves from 2 to 10 degrees of freedom
     assert truth["loss modulus"].temperature < truth["tan delta"].temperature
-    assert vf.glass_transition(planted_ramps(0, celsius=np.arange(60.0, 100.0)).ramps[0]) is None  # it lies below
+    assert (
+        vf.rheology.glass_transition(planted_ramps(0, celsius=np.arange(60.0, 100.0)).ramps[0]) is None
+    )  # it lies below
 
 
 def test_one_frequency_needs_an_assumption_that_is_said_and_tested():
-    one = vf.TemperatureRamps(planted_ramps(5).ramps[:1], heating_rate=0.2)
+    one = vf.readers.TemperatureRamps(planted_ramps(5).ramps[:1], heating_rate=0.2)
     with refused("one-frequency", vf.SuperpositionError):
         vf.superpose_ramps(one, REFERENCE)
     right = vf.superpose_ramps(one, REFERENCE, assumed=POLYMER.shift)
@@ -158,8 +160,8 @@ def test_one_frequency_needs_an_assumption_that_is_said_and_tested():
 
 
 def test_the_universal_law_is_taken_about_the_peak_of_the_loss_modulus():
-    one = vf.TemperatureRamps(planted_ramps(6, celsius=np.arange(-55.0, 61.0, 1.0)).ramps[:1])
-    peak = vf.glass_transition(one.ramps[0], "loss modulus")
+    one = vf.readers.TemperatureRamps(planted_ramps(6, celsius=np.arange(-55.0, 61.0, 1.0)).ramps[:1])
+    peak = vf.rheology.glass_transition(one.ramps[0], "loss modulus")
     found = vf.superpose_ramps(one, "40 degC", assumed="universal")
     law = vf.WLF(17.44, 51.6, peak.temperature)
     assert found.shift.log10("60 degC") == pytest.approx(law.at_reference("40 degC").log10("60 degC"))

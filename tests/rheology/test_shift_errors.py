@@ -139,7 +139,7 @@ def test_offsets_beside_a_free_vertical_shift_keep_errors_where_they_are_found_t
     found, scores = [], []
     rubber = {"material": synthetic_soft_rubber(), "celsius": np.arange(-30.0, 91.0, 10.0)}
     for seed in range(20):
-        rising = vf.DensityShift("20 degC").log10
+        rising = vf.rheology.DensityShift("20 degC").log10
         frequencies = np.logspace(-2.0, 2.0, 21)
         planted = planted_sweeps(seed, 0.005, **rubber, frequencies=frequencies, log10_b=rising, offset=0.01)
         fit = vf.superpose(planted.sweeps, "20 degC", vertical="free")

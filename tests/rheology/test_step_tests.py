@@ -25,10 +25,10 @@ def rubber() -> vf.RetardationSpectrum:
     return vf.RetardationSpectrum(1e6, 1e8, C, tau)
 
 
-def curve(spectrum: vf.RetardationSpectrum, kind: str, noise: float = 0.0, time=TIMES) -> vf.StepMasterCurve:
+def curve(spectrum: vf.RetardationSpectrum, kind: str, noise: float = 0.0, time=TIMES) -> vf.readers.StepMasterCurve:
     true = spectrum.creep_compliance(time) if kind == "creep" else spectrum.relaxation_modulus(time)
     scatter = 1.0 + noise * np.random.default_rng(0).standard_normal(time.size)
-    return vf.StepMasterCurve(time, true * scatter, np.full(time.size, 300.0), 300.0, kind)
+    return vf.readers.StepMasterCurve(time, true * scatter, np.full(time.size, 300.0), 300.0, kind)
 
 
 @pytest.mark.parametrize(
@@ -43,26 +43,26 @@ def curve(spectrum: vf.RetardationSpectrum, kind: str, noise: float = 0.0, time=
 )
 def test_columns_that_are_no_test_are_refused(change, code):
     with refused(code):
-        vf.StepTest(300.0, **{"time": TIMES, "response": TIMES} | change)
+        vf.readers.StepTest(300.0, **{"time": TIMES, "response": TIMES} | change)
 
 
 def test_shear_responses_become_tensile_ones():
-    one = vf.StepTest(300.0, TIMES, np.full(31, 3.0))
-    creep = vf.StepTests((one,), "creep", "shear").in_tension(0.5)
-    relaxation = vf.StepTests((one,), "relaxation", "shear").in_tension(0.5)
+    one = vf.readers.StepTest(300.0, TIMES, np.full(31, 3.0))
+    creep = vf.readers.StepTests((one,), "creep", "shear").in_tension(0.5)
+    relaxation = vf.readers.StepTests((one,), "relaxation", "shear").in_tension(0.5)
     assert creep.tests[0].response[0] == pytest.approx(1.0)
     assert relaxation.tests[0].response[0] == pytest.approx(9.0)
     assert (creep.deformation, len(creep.notes)) == ("tension", 1)
-    compressed = vf.StepTests((one,), "creep", "compression")
+    compressed = vf.readers.StepTests((one,), "creep", "compression")
     assert compressed.in_tension(0.5) is compressed
 
 
 def test_points_of_a_part_of_a_decade_are_averaged():
-    dense = vf.StepTest(300.0, np.arange(1.0, 2000.0), 1e-6 * np.arange(1.0, 2000.0) ** 0.3)
+    dense = vf.readers.StepTest(300.0, np.arange(1.0, 2000.0), 1e-6 * np.arange(1.0, 2000.0) ** 0.3)
     thin = dense.thinned(20)
     assert len(thin) < 20 * 3.5
     np.testing.assert_allclose(thin.response, 1e-6 * thin.time**0.3, rtol=1e-12)  # a power law stays one
-    sparse = vf.StepTest(300.0, np.logspace(0.0, 3.0, 31), np.arange(1.0, 32.0))
+    sparse = vf.readers.StepTest(300.0, np.logspace(0.0, 3.0, 31), np.arange(1.0, 32.0))
     np.testing.assert_allclose(sparse.thinned(20).time, sparse.time)
 
 
@@ -117,7 +117,7 @@ def test_spectra_come_back(kind, method, error):
 
 def test_a_flowing_creep_compliance_has_no_spectrum_for_contacts():
     flowing = curve(rubber(), "creep")
-    liquid = vf.StepMasterCurve(
+    liquid = vf.readers.StepMasterCurve(
         flowing.time, flowing.response + 1e-6 * flowing.time, flowing.temperature, flowing.reference, "creep"
     )
     with refused("liquid", vf.LiquidError, naming="100 s"):
@@ -135,7 +135,7 @@ def test_planted_shift_factors_come_back(kind):
     true = material.shift.at_reference(reference).log10(factors.temperatures)
     assert np.max(np.abs(factors.log10_values - true)) < 0.06
     assert np.all(factors.standard_errors[factors.temperatures != factors.reference] < 0.05)
-    assert vf.check_superposition(fit).holds
+    assert vf.rheology.check_superposition(fit).holds
     assert fit.check.to_dataset().attrs["verdict"] == "holds"
     assert fit.to_dataset().attrs["kind"] == kind
     assert "golub1973" in vf.citations(fit).keys
@@ -149,7 +149,7 @@ def test_planted_shift_factors_come_back(kind):
     )
 
 
-def least_squares(tests: vf.StepTests, reference: float) -> np.ndarray:
+def least_squares(tests: vf.readers.StepTests, reference: float) -> np.ndarray:
     """Return log10 α by least squares, which attributes a part of each offset to the shifts."""
     kelvin = np.array([one.temperature for one in tests.tests])
     logs = [LogSweep.of_step(one, tests.kind) for one in tests.tests]
@@ -180,18 +180,18 @@ def test_offsets_of_whole_tests_hardly_move_the_shifts():
 @pytest.mark.slow
 def test_vertical_shifts_of_tests_are_fitted_beside_horizontal_ones():
     tests, material, reference = planted_steps(1, 0.003)
-    rising = vf.DensityShift(reference)
+    rising = vf.rheology.DensityShift(reference)
     lifted = tuple(
-        vf.StepTest(one.temperature, one.time, one.response / rising(one.temperature)) for one in tests.tests
+        vf.readers.StepTest(one.temperature, one.time, one.response / rising(one.temperature)) for one in tests.tests
     )
-    fit = vf.superpose(vf.StepTests(lifted, "creep"), reference, vertical="free")
+    fit = vf.superpose(vf.readers.StepTests(lifted, "creep"), reference, vertical="free")
     away = fit.vertical_shift.log10_values - rising.log10(fit.shift_factors.temperatures)
     errors = fit.vertical_shift.standard_errors
     assert np.mean(np.abs(away[errors > 0]) < 2.5 * errors[errors > 0]) > 0.8
     assert not np.any(fit.offsets.covariance)  # part of b
     drawn = vf.sample_materials(fit, samples=20)
     assert drawn.materials[0].vertical_shift is not None
-    known = vf.superpose(vf.StepTests(lifted, "creep"), reference, vertical="density")
+    known = vf.superpose(vf.readers.StepTests(lifted, "creep"), reference, vertical="density")
     np.testing.assert_allclose(
         known.shift_factors.log10_values,
         material.shift.at_reference(reference).log10(known.shift_factors.temperatures),
@@ -202,10 +202,10 @@ def test_vertical_shifts_of_tests_are_fitted_beside_horizontal_ones():
 def test_tests_of_other_materials_do_not_superpose():
     tests, _, reference = planted_steps(1, 0.005)
     bent = tuple(
-        vf.StepTest(one.temperature, one.time, one.response ** (1.0 + 0.03 * place))
+        vf.readers.StepTest(one.temperature, one.time, one.response ** (1.0 + 0.03 * place))
         for place, one in enumerate(tests.tests)
     )
-    fit = vf.superpose(vf.StepTests(bent[:5], "creep"), bent[2].temperature)
+    fit = vf.superpose(vf.readers.StepTests(bent[:5], "creep"), bent[2].temperature)
     assert not fit.check.holds
     assert fit.check.sentences[0].code in ("superposition-fails", "superposition-roughly")
     assert reference
@@ -214,11 +214,13 @@ def test_tests_of_other_materials_do_not_superpose():
 def test_flow_is_noted():
     tests, _, reference = planted_steps(1, 0.005)
     liquid = tuple(
-        vf.StepTest(one.temperature, one.time, one.response * (1.0 + one.time / (1e4 * 10.0 ** -(0.06 * place))))
+        vf.readers.StepTest(
+            one.temperature, one.time, one.response * (1.0 + one.time / (1e4 * 10.0 ** -(0.06 * place)))
+        )
         for place, one in enumerate(tests.tests)
     )
     assert "flow" not in [getattr(note, "code", "") for note in vf.superpose(tests, reference).notes]
-    steep = (*liquid[:-1], vf.StepTest(liquid[-1].temperature, liquid[-1].time, 1e-6 * liquid[-1].time ** 0.98))
+    steep = (*liquid[:-1], vf.readers.StepTest(liquid[-1].temperature, liquid[-1].time, 1e-6 * liquid[-1].time ** 0.98))
     from viscofric.rheology.superposition.step_result import flowing
 
     assert [note.code for note in flowing(steep)] == ["flow"]
@@ -229,7 +231,7 @@ def test_arguments_for_two_moduli_are_refused():
     with refused("useless-weights"):
         vf.superpose(tests, reference, by="storage")
     with refused("too-few-isotherms", vf.SuperpositionError):
-        vf.superpose(vf.StepTests(tests.tests[:1], "creep"), reference)
+        vf.superpose(vf.readers.StepTests(tests.tests[:1], "creep"), reference)
     with refused("other-master-curve"):
         fit = vf.superpose(tests, reference)
         vf.sample_materials(fit, vf.fit_retardation_spectrum(curve(rubber(), "creep")), samples=20)

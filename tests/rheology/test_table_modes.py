@@ -107,7 +107,7 @@ def test_tables_that_no_solid_has_are_refused() -> None:
         short.modes_at()
 
 
-def beyond(solution: vf.ContactSolution) -> list[dict[str, float]]:
+def beyond(solution: vf.contact.ContactSolution) -> list[dict[str, float]]:
     """Return the frequencies of the notes that a contact lies beyond its table."""
     return [note.values for note in solution.warnings if note.code == "beyond-table"]
 

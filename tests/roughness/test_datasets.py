@@ -6,7 +6,7 @@ import pytest
 import viscofric as vf
 
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
-ROAD = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="50 um", rms_slope=0.1)
+ROAD = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="50 um", rms_slope=0.1)
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,7 @@ def test_a_periodic_contact_has_its_fields_over_x_and_y(solution):
 
 
 def test_friction_by_wavelength_has_both_ends_of_each_band(solution):
-    parts = vf.friction_by_wavelength(solution, [1e-3, 2e-4, 5e-5])
+    parts = vf.roughness.friction_by_wavelength(solution, [1e-3, 2e-4, 5e-5])
     found = parts.to_dataset()
     assert list(found["longest"]) == [1e-3, 2e-4]
     assert list(found["shortest"]) == [2e-4, 5e-5]
@@ -32,7 +32,7 @@ def test_friction_by_wavelength_has_both_ends_of_each_band(solution):
 
 
 def test_statistics_of_a_contact_are_single_numbers(solution):
-    statistics = vf.contact_statistics(solution)
+    statistics = vf.roughness.contact_statistics(solution)
     found = statistics.to_dataset()
     assert not found.sizes
     assert int(found["patches"]) == statistics.patches
@@ -44,7 +44,7 @@ def test_spectra_have_the_unit_of_their_density():
     np.testing.assert_array_equal(found["density"], ROAD.density)
     assert found["density"].attrs["units"] == "m**4"
     assert found["wave_number"].attrs["units"] == "rad/m"
-    line = vf.LineSpectrum([1e3, 1e4], [1e-14, 1e-16]).to_dataset()
+    line = vf.roughness.LineSpectrum([1e3, 1e4], [1e-14, 1e-16]).to_dataset()
     assert line["density"].attrs["units"] == "m**3"
 
 

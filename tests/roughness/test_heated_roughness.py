@@ -29,12 +29,12 @@ def roads(points: int = 16) -> list[vf.Topography]:
 
 
 @cache
-def friction() -> tuple[vf.HeatedRoughFriction, list[tuple[int, int]]]:
+def friction() -> tuple[vf.roughness.HeatedRoughFriction, list[tuple[int, int]]]:
     seen: list[tuple[int, int]] = []
     found = vf.predict_rough_friction(
         WARM, roads(), **ASKED, heating=HEATING, progress=lambda done, total: seen.append((done, total))
     )
-    assert isinstance(found, vf.HeatedRoughFriction)
+    assert isinstance(found, vf.roughness.HeatedRoughFriction)
     return found, seen
 
 
@@ -69,7 +69,7 @@ def test_contact_spots_may_be_colder_than_the_mean_of_the_surface() -> None:
     found = vf.predict_rough_friction(
         rubber, track, speeds=[1.0, 10.0], temperatures="20 degC", pressure="0.4 MPa", heating=heating
     )
-    assert isinstance(found, vf.HeatedRoughFriction)
+    assert isinstance(found, vf.roughness.HeatedRoughFriction)
     assert found.temperature_rise[0, 0, 0] > 0.0 > found.temperature_rise[0, 1, 0]
     assert found.loss_rise == pytest.approx(found.temperature_rise, rel=1.1e-2)
     assert np.array_equal(found.cold_rise, found.hot_rise)
@@ -89,12 +89,14 @@ def test_one_state_is_cold_and_hot_and_a_data_set_holds_all() -> None:
 
 @pytest.mark.slow
 def test_the_heat_of_an_interface_is_its_stress_on_the_real_area() -> None:
-    law = vf.PowerShearStress(stress="3 MPa", exponent=0.1, speed="0.5 m/s", shift=vf.Arrhenius("80 kJ/mol", 300.0))
+    law = vf.friction.PowerShearStress(
+        stress="3 MPa", exponent=0.1, speed="0.5 m/s", shift=vf.Arrhenius("80 kJ/mol", 300.0)
+    )
     one = ASKED | {"speeds": 0.5}
     found = vf.predict_rough_friction(
         WARM, roads()[0], **one, heating=vf.Heating(rubber=RUBBER, counterface=STONE), interface=law
     )
-    assert isinstance(found, vf.HeatedRoughFriction)
+    assert isinstance(found, vf.roughness.HeatedRoughFriction)
     warm = 300.0 + float(found.face_rise[0, 0, 0])
     stress = float(law(0.5, warm))
     assert found.interface_friction == pytest.approx(stress * found.corrected_area_fraction / 2e5)
@@ -130,8 +132,8 @@ def test_the_loss_warms_about_as_in_the_theory() -> None:
     asked = {"speeds": [0.001, 0.01, 0.1], "pressure": "0.2 MPa", "temperatures": 300.0, "heating": heating}
     solved = vf.predict_rough_friction(WARM, road, **asked)
     alone = asked | {"heating": replace(heating, nominal_radius=None)}
-    theory = vf.persson_theory(WARM, vf.power_spectrum(road), gamma=1.0, **alone)
-    assert isinstance(solved, vf.HeatedRoughFriction)
-    assert isinstance(theory, vf.HeatedPerssonTheory)
+    theory = vf.persson_theory(WARM, vf.roughness.power_spectrum(road), gamma=1.0, **alone)
+    assert isinstance(solved, vf.roughness.HeatedRoughFriction)
+    assert isinstance(theory, vf.roughness.HeatedPerssonTheory)
     ratio = solved.temperature_rise[0, :, 0] / theory.temperature_rise[0]
     assert np.all((ratio > 1.0 / 3.0) & (ratio < 3.0))

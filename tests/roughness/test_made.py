@@ -28,10 +28,10 @@ def test_a_finer_grid_holds_the_same_waves_and_a_shorter_cut_off_adds_to_them(ex
     coarse = vf.self_affine(0.8, shape=(64, 48), spacing=(3.0, 4.0), shortest=12.0, rms_height=1.0, seed=7, exact=exact)
     fine = vf.self_affine(0.8, shape=(192, 96), spacing=(1.0, 2.0), shortest=12.0, rms_height=1.0, seed=7, exact=exact)
     np.testing.assert_allclose(fine.heights[::3, ::2], coarse.heights, atol=1e-13)
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=192.0, shortest=4.5, rms_height=1.0)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=192.0, shortest=4.5, rms_height=1.0)
     made = {"shape": (192, 96), "spacing": (1.0, 2.0), "seed": 7, "exact": exact}
-    rough = vf.surface_from_spectrum(spectrum, **made)
-    smooth = vf.surface_from_spectrum(spectrum.limited(shortest=12.0), **made)
+    rough = vf.roughness.surface_from_spectrum(spectrum, **made)
+    smooth = vf.roughness.surface_from_spectrum(spectrum.limited(shortest=12.0), **made)
     kept = rough.keep_wavelengths(shortest=12.0)
     np.testing.assert_allclose(kept.heights, smooth.heights, atol=1e-13)
     assert rough.rms_slope > 1.2 * smooth.rms_slope
@@ -68,26 +68,26 @@ def test_heights_of_many_surfaces_are_gaussian():
 
 
 def test_measured_spectrum_is_the_one_the_surface_was_made_of():
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=256.0, rolloff=64.0, shortest=6.0, rms_height=1.0)
-    surface = vf.surface_from_spectrum(spectrum, shape=(256, 256), spacing=1.0, seed=2)
-    found = vf.power_spectrum(surface)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=256.0, rolloff=64.0, shortest=6.0, rms_height=1.0)
+    surface = vf.roughness.surface_from_spectrum(spectrum, shape=(256, 256), spacing=1.0, seed=2)
+    found = vf.roughness.power_spectrum(surface)
     inner = slice(2, -2)
     # Rings of a twelfth of a decade, in which the density falls by a factor of two: averages over half of it.
     np.testing.assert_allclose(found.density[inner], spectrum(found.wave_number[inner]), rtol=0.05)
     assert found.rms_slope() == pytest.approx(surface.rms_slope, rel=0.02)
     assert found.rms_height() == pytest.approx(surface.rms_height, rel=0.03)
     # The last of wide rings goes on falling to the shortest wave, where it is a third of what it is in its middle.
-    wide = vf.power_spectrum(surface, per_decade=4)
+    wide = vf.roughness.power_spectrum(surface, per_decade=4)
     assert wide.density[-1] == pytest.approx(float(spectrum(wide.wave_number[-1])), rel=0.2)
 
 
 def test_a_windowed_scan_shows_the_spectrum_of_the_surface_it_was_cut_from():
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=64.0, shortest=6.0, rms_height=1.0)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=64.0, shortest=6.0, rms_height=1.0)
     ratios = []
     for seed in range(6):
-        surface = vf.surface_from_spectrum(spectrum, shape=(512, 512), spacing=1.0, seed=seed)
+        surface = vf.roughness.surface_from_spectrum(spectrum, shape=(512, 512), spacing=1.0, seed=seed)
         scan = surface.crop(x=(0.0, 255.0), y=(100.0, 355.0)).remove("tilt")
-        found = vf.power_spectrum(scan)
+        found = vf.roughness.power_spectrum(scan)
         within = (found.wave_number > 2.0 * np.pi / 100.0) & (found.wave_number < 2.0 * np.pi / 7.0)
         ratios.append(found.density[within] / spectrum(found.wave_number[within]))
     # Six scans, tens of waves in the first ring: 10 % there, less further on.
@@ -97,15 +97,15 @@ def test_a_windowed_scan_shows_the_spectrum_of_the_surface_it_was_cut_from():
 
 def test_lines_of_an_isotropic_surface_have_half_its_mean_square_slope():
     surface = vf.self_affine(0.8, shape=(256, 256), spacing=1.0, shortest=8.0, rolloff=64.0, rms_slope=1.0, seed=3)
-    found = [vf.line_spectrum(surface, axis=axis).rms_slope() for axis in ("x", "y")]
+    found = [vf.roughness.line_spectrum(surface, axis=axis).rms_slope() for axis in ("x", "y")]
     assert np.hypot(*found) == pytest.approx(1.0, rel=0.03)
     assert found[0] == pytest.approx(found[1], rel=0.1)
 
 
 def test_lines_show_the_spectrum_of_an_isotropic_surface():
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=128.0, shortest=6.0, rms_slope=1.0)
-    surface = vf.surface_from_spectrum(spectrum, shape=(512, 512), spacing=1.0, seed=5)
-    found = vf.line_spectrum(surface).isotropic()
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=128.0, shortest=6.0, rms_slope=1.0)
+    surface = vf.roughness.surface_from_spectrum(spectrum, shape=(512, 512), spacing=1.0, seed=5)
+    found = vf.roughness.line_spectrum(surface).isotropic()
     within = (found.wave_number > 2.0 * np.pi / 128.0) & (found.wave_number < 2.0 * np.pi / 8.0)
     ratio = found.density[within] / spectrum(found.wave_number[within])
     # Lines of one surface, whose classes of wavelength hold few waves where they are long.
@@ -118,7 +118,9 @@ def test_lines_of_a_power_law_are_one_with_a_known_factor():
     """C = k^(−s) has the lines √π Γ((s−1)/2)/Γ(s/2) q^(1−s)."""
     s = 3.6
     q = np.geomspace(1.0, 1e4, 60)
-    lines = vf.LineSpectrum(q, math.sqrt(math.pi) * math.gamma(0.5 * s - 0.5) / math.gamma(0.5 * s) * q ** (1.0 - s))
+    lines = vf.roughness.LineSpectrum(
+        q, math.sqrt(math.pi) * math.gamma(0.5 * s - 0.5) / math.gamma(0.5 * s) * q ** (1.0 - s)
+    )
     found = lines.isotropic()
     # Far from the end, beyond which the lines of a power law that goes on have waves and these have none.
     np.testing.assert_allclose(found.density[:40] * q[:40] ** s, 1.0, rtol=0.01)
@@ -128,10 +130,10 @@ def test_profiles_follow_their_own_power_law():
     profile = vf.self_affine(0.8, shape=4096, spacing=1.0, shortest=8.0, rms_height=1.0, seed=0)
     assert profile.is_line
     assert profile.rms_height == pytest.approx(1.0, rel=1e-12)
-    found = vf.line_spectrum(profile)
+    found = vf.roughness.line_spectrum(profile)
     slope = np.polyfit(np.log(found.wave_number[3:-2]), np.log(found.density[3:-2]), 1)[0]
     assert slope == pytest.approx(-2.6, abs=0.02)
-    again = vf.surface_from_spectrum(found, shape=4096, spacing=1.0, seed=1)
+    again = vf.roughness.surface_from_spectrum(found, shape=4096, spacing=1.0, seed=1)
     assert again.rms_slope == pytest.approx(profile.rms_slope, rel=0.02)
 
 
@@ -157,7 +159,7 @@ def test_the_lay_turns_from_x_towards_y():
 
 
 def test_power_laws_between_points_are_integrated_in_closed_form():
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=1.0, rolloff=0.1, shortest=1e-3, rms_height=2.0)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=1.0, rolloff=0.1, shortest=1e-3, rms_height=2.0)
     assert spectrum.rms_height() == pytest.approx(2.0, rel=1e-13)
     q = np.geomspace(2.0 * np.pi, 2.0 * np.pi * 1e3, 40001)
     for order, found in ((0, spectrum.rms_height()), (2, spectrum.rms_slope()), (4, 2.0 * spectrum.rms_curvature())):
@@ -168,16 +170,16 @@ def test_power_laws_between_points_are_integrated_in_closed_form():
     assert parts == pytest.approx(spectrum.moment(2.0), rel=1e-13)
     assert spectrum.rms_slope(shortest=0.05) ** 2 == pytest.approx(spectrum.limited(shortest=0.05).moment(2.0))
     assert spectrum.scaled(rms_slope=0.1).rms_slope() == pytest.approx(0.1, rel=1e-13)
-    harmonic = vf.PowerSpectrum([1.0, 2.0, 4.0], [1.0, 0.25, 0.0625])  # q^-2: the logarithm
+    harmonic = vf.roughness.PowerSpectrum([1.0, 2.0, 4.0], [1.0, 0.25, 0.0625])  # q^-2: the logarithm
     assert harmonic.moment(0.0) == pytest.approx(2.0 * np.pi * np.log(4.0), rel=1e-13)
 
 
 def test_a_function_may_be_the_spectrum():
     made = {"shape": (32, 32), "spacing": 1.0, "seed": 0}
-    spectrum = vf.PowerSpectrum.self_affine(0.5, longest=32.0, shortest=4.0, rms_height=1.0)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.5, longest=32.0, shortest=4.0, rms_height=1.0)
     np.testing.assert_array_equal(
-        vf.surface_from_spectrum(lambda q: spectrum(q), **made).heights,
-        vf.surface_from_spectrum(spectrum, **made).heights,
+        vf.roughness.surface_from_spectrum(lambda q: spectrum(q), **made).heights,
+        vf.roughness.surface_from_spectrum(spectrum, **made).heights,
     )
 
 
@@ -213,22 +215,22 @@ def test_spectra_that_are_none_are_refused():
         ((["a", "b"], [1.0, 1.0]), "not-a-number"),
     ):
         with refused(code):
-            vf.PowerSpectrum(*rows)
-    line = vf.LineSpectrum([1.0, 2.0], [1.0, 0.5])
+            vf.roughness.PowerSpectrum(*rows)
+    line = vf.roughness.LineSpectrum([1.0, 2.0], [1.0, 0.5])
     with refused("spectrum"):
-        vf.surface_from_spectrum(line, shape=(16, 16), spacing=1.0, seed=0)
+        vf.roughness.surface_from_spectrum(line, shape=(16, 16), spacing=1.0, seed=0)
     with refused("no-wave"):
-        vf.surface_from_spectrum(line, shape=16, spacing=1e-3, seed=0)
+        vf.roughness.surface_from_spectrum(line, shape=16, spacing=1e-3, seed=0)
     with refused("not-positive"):
-        vf.surface_from_spectrum(lambda q: -q, shape=16, spacing=1.0, seed=0)
+        vf.roughness.surface_from_spectrum(lambda q: -q, shape=16, spacing=1.0, seed=0)
     for wrong, code in ((lambda q: q[:3], "wrong-length"), (lambda q: "none", "not-a-number")):
         with refused(code, naming="spectrum"):
-            vf.surface_from_spectrum(wrong, shape=16, spacing=1.0, seed=0)
-    for measure in (vf.power_spectrum, vf.line_spectrum):
+            vf.roughness.surface_from_spectrum(wrong, shape=16, spacing=1.0, seed=0)
+    for measure in (vf.roughness.power_spectrum, vf.roughness.line_spectrum):
         with refused("topography"):
             measure(np.zeros((8, 8)))
     flat = vf.Topography(np.zeros((8, 8)), 1.0)
     with refused("flat"):
-        vf.power_spectrum(flat)
+        vf.roughness.power_spectrum(flat)
     with refused("line-scan"):
-        vf.power_spectrum(vf.Topography(np.zeros(8), 1.0))
+        vf.roughness.power_spectrum(vf.Topography(np.zeros(8), 1.0))

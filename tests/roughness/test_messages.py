@@ -34,7 +34,7 @@ SENTENCES = [
         "shape = Ball(radius: 5 mm): a line scan is roughness on a shape such as a Cylinder.",
     ),
     (
-        lambda: vf.power_spectrum(LINE),
+        lambda: vf.roughness.power_spectrum(LINE),
         "line-scan",
         "power_spectrum needs a map of heights; line_spectrum takes line scans.",
     ),
@@ -49,7 +49,7 @@ SENTENCES = [
         "shortest = 2e-06 m: must be longer than 4e-06 m, two points of the grid (eight are good for a contact).",
     ),
     (
-        lambda: vf.PowerSpectrum([1e3, 1e4], [1.0, 1.0]).limited(longest=1e-6),
+        lambda: vf.roughness.PowerSpectrum([1e3, 1e4], [1.0, 1.0]).limited(longest=1e-6),
         "no-wave",
         "the power spectrum reaches from wavelength 0.0006283 to 0.006283 m; no part of it lies between the cut-offs.",
     ),

@@ -16,7 +16,7 @@ from viscofric.notes import codes
 from viscofric.roughness.flash import Flash
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "30 MPa", "1 ms", poisson_ratio=0.4)
-ROAD = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", rolloff="0.3 mm", shortest="5 um", rms_slope=0.4)
+ROAD = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", rolloff="0.3 mm", shortest="5 um", rms_slope=0.4)
 FLUOROELASTOMER = vf.synthetic_fluoroelastomer()
 THERMAL = vf.ThermalProperties(0.25, 1200.0, 1500.0, "rubber")
 
@@ -42,8 +42,8 @@ def test_fast_and_slow_sliding_are_elastic_contacts_of_glass_and_rubber():
 def test_all_is_in_contact_under_a_high_pressure_and_friction_is_that_of_the_solved_contact():
     """In full contact the theory is exact, up to the difference between an integral and a sum over waves."""
     period, points = 1e-3, 128
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=period / 6, shortest=period / 30, rms_slope=0.05)
-    surface = vf.surface_from_spectrum(spectrum, shape=(points, points), spacing=period / points, seed=1)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=period / 6, shortest=period / 30, rms_slope=0.05)
+    surface = vf.roughness.surface_from_spectrum(spectrum, shape=(points, points), spacing=period / points, seed=1)
     for speed in (1e-3, 0.05):
         solved = vf.solve_periodic(RUBBER, surface.to_surface(), speed=speed, pressure="60 MPa")
         theory = vf.persson_theory(RUBBER, spectrum, speeds=speed, pressure="60 MPa")
@@ -92,7 +92,7 @@ def test_another_quadrature_finds_the_same(over_directions, gamma):
 @pytest.mark.parametrize("speed", [1e-4, 100.0])
 def test_friction_under_vanishing_loads_does_not_depend_on_them(speed):
     """P falls from one within 1e-24 of the longest wave; grids that miss that make up any friction."""
-    road = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.3)
+    road = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.3)
 
     def friction(pressure: float, accuracy: float) -> float:
         reported = vf.persson_theory(
@@ -141,7 +141,7 @@ def test_other_units_give_the_same_answer():
     length, force, time = 1e-3, 1e5, 1e6
     stress = force / length**2
     other = vf.Material.standard_linear_solid(1e6 * stress, 30e6 * stress, 1e-3 * time, poisson_ratio=0.4)
-    road = vf.PowerSpectrum(ROAD.wave_number / length, ROAD.density * length**4)
+    road = vf.roughness.PowerSpectrum(ROAD.wave_number / length, ROAD.density * length**4)
     one = vf.persson_theory(RUBBER, ROAD, speeds=0.01, pressure=1e5)
     two = vf.persson_theory(other, road, speeds=0.01 * length / time, pressure=1e5 * stress)
     np.testing.assert_allclose(two.friction_coefficient, one.friction_coefficient, rtol=1e-10)
@@ -217,7 +217,7 @@ def test_heating_without_coulomb_heat_is_the_theory_of_the_rubber_alone():
 
 
 def test_an_interface_rubs_with_its_stress_on_the_real_contact_area():
-    law = vf.PowerShearStress("0.2 MPa", 0.1, "0.1 m/s", shift=vf.Arrhenius("50 kJ/mol", "30 degC"))
+    law = vf.friction.PowerShearStress("0.2 MPa", 0.1, "0.1 m/s", shift=vf.Arrhenius("50 kJ/mol", "30 degC"))
     asked = {"speeds": [0.01, 1.0], "pressure": "0.1 MPa", "temperatures": ["30 degC", "60 degC"]}
     plain = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked)
     rubbed = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, interface=law)
@@ -234,11 +234,11 @@ def test_an_interface_rubs_with_its_stress_on_the_real_contact_area():
 
 def test_the_heat_of_an_interface_is_that_of_as_much_coulomb_friction():
     """And its stress is that at the temperature of the surface that this heat warms."""
-    law = vf.GaussianShearStress("20 MPa", "6 mm/s", 2.0, shift=vf.Arrhenius("90 kJ/mol", "30 degC"))
+    law = vf.friction.GaussianShearStress("20 MPa", "6 mm/s", 2.0, shift=vf.Arrhenius("90 kJ/mol", "30 degC"))
     asked = {"speeds": 2.0, "pressure": "0.2 MPa", "temperatures": "30 degC", "accuracy": 1e-2}
     heating = vf.Heating(rubber=THERMAL, counterface=vf.ThermalProperties(2.0, 2500.0, 800.0, "stone"))
     found = vf.persson_theory(FLUOROELASTOMER, ROAD, **asked, heating=heating, interface=law)
-    assert isinstance(found, vf.HeatedPerssonTheory)
+    assert isinstance(found, vf.roughness.HeatedPerssonTheory)
     friction, face = float(found.interface_friction[0, 0]), float(found.face_rise[0, 0])
     assert face > 10.0
     stress = float(law(2.0, 303.15 + face))
@@ -261,14 +261,14 @@ def test_the_theory_has_a_cold_and_a_hot_state_on_the_glassy_side_of_its_peak():
     """As the speed rises friction stays cold, as it falls hot: the hysteresis of a ramp, with the isothermal beside."""
     glassy = vf.Material.standard_linear_solid("1 MPa", "1 GPa", "1 s")
     rubber = vf.Material(glassy.spectrum, shift=vf.WLF(C1=15.0, C2=60.0, reference="0 degC"))
-    road = vf.PowerSpectrum.self_affine(0.8, longest="10 mm", shortest="30 um", rms_slope=0.5)
+    road = vf.roughness.PowerSpectrum.self_affine(0.8, longest="10 mm", shortest="30 um", rms_slope=0.5)
     heating = vf.Heating(rubber=THERMAL, counterface=THERMAL)
     asked = {"speeds": [0.1, 4.0, 10.0], "pressure": "0.5 MPa", "temperatures": "0 degC", "accuracy": 1e-3}
     cold, hot = (
         vf.persson_theory(rubber, road, **asked, heating=replace(heating, branch=one)) for one in ("cold", "hot")
     )
-    assert isinstance(cold, vf.HeatedPerssonTheory)
-    assert isinstance(hot, vf.HeatedPerssonTheory)
+    assert isinstance(cold, vf.roughness.HeatedPerssonTheory)
+    assert isinstance(hot, vf.roughness.HeatedPerssonTheory)
     assert (cold.hot_rise > cold.cold_rise + 1.0).tolist() == [[False, True, True]]
     assert np.all(cold.hot_viscoelastic[0, 1:] > 2.0 * cold.cold_viscoelastic[0, 1:])
     assert cold.friction_coefficient == pytest.approx(cold.cold_viscoelastic)
@@ -284,7 +284,9 @@ def test_the_theory_has_a_cold_and_a_hot_state_on_the_glassy_side_of_its_peak():
 
 def test_a_rubber_that_hardly_warms_rubs_as_one_of_one_temperature_with_its_vertical_shift():
     shifted = vf.Material(
-        FLUOROELASTOMER.spectrum, shift=FLUOROELASTOMER.shift, vertical_shift=vf.DensityShift(reference="30 degC")
+        FLUOROELASTOMER.spectrum,
+        shift=FLUOROELASTOMER.shift,
+        vertical_shift=vf.rheology.DensityShift(reference="30 degC"),
     )
     asked = {"speeds": 0.1, "pressure": "0.1 MPa", "temperatures": "90 degC"}
     cold = vf.persson_theory(shifted, ROAD, **asked)
@@ -298,7 +300,7 @@ def test_a_rubber_that_hardly_warms_rubs_as_one_of_one_temperature_with_its_vert
 
 
 def test_flash_temperature_lowers_the_friction_of_fast_sliding_and_not_that_of_slow():
-    road = vf.PowerSpectrum.self_affine(0.8, longest="5 mm", rolloff="3 mm", shortest="5 um", rms_slope=1.0)
+    road = vf.roughness.PowerSpectrum.self_affine(0.8, longest="5 mm", rolloff="3 mm", shortest="5 um", rms_slope=1.0)
     asked = {"speeds": [1e-6, 1.0], "pressure": "0.1 MPa", "temperatures": "30 degC"}
     cold = vf.persson_theory(FLUOROELASTOMER, road, **asked)
     hot = vf.persson_theory(FLUOROELASTOMER, road, **asked, thermal=THERMAL)

@@ -21,7 +21,7 @@ def road(points: int, seed: int, waves: int = 16, **more) -> vf.Topography:
 
 
 @pytest.fixture(scope="module")
-def solutions() -> dict[float, vf.PeriodicSolution]:
+def solutions() -> dict[float, vf.contact.PeriodicSolution]:
     surface = road(128, 1).to_surface()
     return {
         speed: vf.solve_periodic(RUBBER, surface, speed=speed, pressure="30 kPa", tolerance=1e-9, direction=(2.0, 1.0))
@@ -32,7 +32,7 @@ def solutions() -> dict[float, vf.PeriodicSolution]:
 @pytest.mark.parametrize("edges", [None, ["1 mm", "50 um", "1 um"], [1e-6, 1e-2]])
 def test_what_wavelengths_add_sums_to_the_friction(solutions, edges):
     for speed, solution in solutions.items():
-        found = vf.friction_by_wavelength(solution, edges)
+        found = vf.roughness.friction_by_wavelength(solution, edges)
         # The waves that the displacement is made of dissipate all there is: rounding only.
         assert found.total == pytest.approx(solution.friction_coefficient, rel=1e-12, abs=1e-15)
         assert np.all(np.diff(found.edges) < 0.0)
@@ -42,13 +42,13 @@ def test_what_wavelengths_add_sums_to_the_friction(solutions, edges):
 
 
 def test_a_single_wave_dissipates_at_its_own_length():
-    wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 16), spacing=1e-3 / 64)
+    wave = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 16), spacing=1e-3 / 64)
     solution = vf.solve_periodic(RUBBER, wave, speed="0.1 m/s", pressure="2 MPa")
     assert solution.diagnostics.full_contact
-    found = vf.friction_by_wavelength(solution, ["1 mm", "0.3 mm", "0.2 mm", "10 um"])
+    found = vf.roughness.friction_by_wavelength(solution, ["1 mm", "0.3 mm", "0.2 mm", "10 um"])
     assert found.contribution[1] == pytest.approx(solution.friction_coefficient, rel=1e-12)
     assert np.abs(found.contribution[[0, 2]]).max() < 1e-12 * found.contribution[1]
-    at_its_edge = vf.friction_by_wavelength(solution, ["1 mm", "0.25 mm", "10 um"])
+    at_its_edge = vf.roughness.friction_by_wavelength(solution, ["1 mm", "0.25 mm", "10 um"])
     assert at_its_edge.contribution[0] == pytest.approx(solution.friction_coefficient, rel=1e-12)
 
 
@@ -57,8 +57,8 @@ def test_contact_patches_are_counted_across_the_edges_of_the_period():
     n = 64
     x = np.arange(n) / n
     z = 1e-5 * (np.cos(2.0 * np.pi * (x[:, None] + x)) + np.cos(2.0 * np.pi * (x[:, None] - x)))
-    solution = vf.solve_periodic(RUBBER, vf.PeriodicSurface(z, 1e-3 / n), speed=0.0, pressure="5 kPa")
-    found = vf.contact_statistics(solution)
+    solution = vf.solve_periodic(RUBBER, vf.contact.PeriodicSurface(z, 1e-3 / n), speed=0.0, pressure="5 kPa")
+    found = vf.roughness.contact_statistics(solution)
     assert found.patches == 2
     assert found.stretch == pytest.approx(1.0, rel=1e-12)
     assert found.area_fraction == solution.contact_area_fraction
@@ -74,7 +74,9 @@ def test_points_that_touch_at_corners_are_one_patch_and_borders_are_counted_poin
     for place in [(1, 1), (2, 2), (0, 4), (7, 5), (4, 7), (5, 0)]:  # three pairs, two of them across the period's edges
         points[place] = 1e5
     axis = solution.x[:8]
-    found = vf.contact_statistics(replace(solution, x=axis, y=axis, pressure=points, gap=(points == 0.0) * 1e-6))
+    found = vf.roughness.contact_statistics(
+        replace(solution, x=axis, y=axis, pressure=points, gap=(points == 0.0) * 1e-6)
+    )
     assert found.patches == 3
     # Six points with four borders each; (π − 1 + ln 2)/24 = 0.118114.
     assert found.corrected_area_fraction == pytest.approx((6.0 - 0.118114 * 24.0) / 64.0, rel=1e-5)
@@ -83,15 +85,17 @@ def test_points_that_touch_at_corners_are_one_patch_and_borders_are_counted_poin
 
 def test_ridges_across_the_motion_make_patches_that_are_short_along_it():
     lay = road(128, 2, aspect=6.0, angle="90 deg", shortest=1e-3 / 8)
-    along_x = vf.contact_statistics(vf.solve_periodic(RUBBER, lay.to_surface(), speed=0.01, pressure="20 kPa"))
+    along_x = vf.roughness.contact_statistics(
+        vf.solve_periodic(RUBBER, lay.to_surface(), speed=0.01, pressure="20 kPa")
+    )
     assert along_x.stretch < 0.6
     along_y = vf.solve_periodic(RUBBER, lay.to_surface(), speed=0.01, pressure="20 kPa", direction=(0.0, 1.0))
-    assert vf.contact_statistics(along_y).stretch > 1.6
+    assert vf.roughness.contact_statistics(along_y).stretch > 1.6
 
 
 def test_pressures_are_distributed_over_the_area_of_contact(solutions):
     solution = solutions[0.01]
-    pressure, density = vf.pressure_distribution(solution, 40)
+    pressure, density = vf.roughness.pressure_distribution(solution, 40)
     width = pressure[1] - pressure[0]
     assert density.sum() * width == pytest.approx(solution.contact_area_fraction, rel=1e-12)
     # Middles of classes instead of pressures.
@@ -99,9 +103,9 @@ def test_pressures_are_distributed_over_the_area_of_contact(solutions):
 
 
 def test_full_contact_has_no_gap_and_no_borders():
-    wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
+    wave = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
     solution = vf.solve_periodic(RUBBER, wave, speed="0.2 m/s", pressure="100 kPa")
-    found = vf.contact_statistics(solution)
+    found = vf.roughness.contact_statistics(solution)
     assert (found.area_fraction, found.corrected_area_fraction, found.patches) == (1.0, 1.0, 1)
     assert (found.chord_along, found.stretch, found.gap_outside) == (math.inf, 1.0, 0.0)
 
@@ -114,7 +118,7 @@ def test_an_ensemble_is_solved_surface_by_surface_and_says_how_they_scatter():
         roads,
         speeds=[0.01, "20 cm/s"],
         pressure="20 kPa",
-        interface=vf.PowerShearStress("0.1 MPa", 0.5, "0.2 m/s"),
+        interface=vf.friction.PowerShearStress("0.1 MPa", 0.5, "0.2 m/s"),
         progress=lambda *one: steps.append(one),
     )
     assert found.friction_coefficient.shape == (1, 2, 4)
@@ -141,7 +145,7 @@ def test_an_ensemble_is_solved_surface_by_surface_and_says_how_they_scatter():
 def test_the_interval_of_total_friction_has_the_scatter_of_the_surfaces_and_the_error_of_the_law():
     """The law's error is shared by the surfaces: more of them do not make it smaller."""
     asked = {"surfaces": [road(32, seed, waves=6) for seed in range(3)], "speeds": 0.1, "pressure": "20 kPa"}
-    law = vf.ConstantShearStress("0.1 MPa", covariance=[[1e8]])  # known to a tenth
+    law = vf.friction.ConstantShearStress("0.1 MPa", covariance=[[1e8]])  # known to a tenth
     found = vf.predict_rough_friction(RUBBER, **asked, interface=law)
     lower, upper = found.interval(of="total")
     # Student's t for two degrees of freedom and 95 %: 4.3027.
@@ -200,16 +204,20 @@ def test_what_cannot_be_predicted_is_refused_and_what_fails_is_named():
             most_products=1,
             tolerance=1e-9,
         )
-    for describes in (vf.contact_statistics, vf.friction_by_wavelength, vf.pressure_distribution):
+    for describes in (
+        vf.roughness.contact_statistics,
+        vf.roughness.friction_by_wavelength,
+        vf.roughness.pressure_distribution,
+    ):
         with refused("solution"):
             describes(surface)
     solution = vf.solve_periodic(RUBBER, surface.to_surface(), speed=0.1, pressure="20 kPa")
     for edges in (["1 mm"], [1e-3, 1e-3], [1e-3, -1.0]):
         with refused("edges"):
-            vf.friction_by_wavelength(solution, edges)
+            vf.roughness.friction_by_wavelength(solution, edges)
     for edges in (0, "many", [2.0, 1.0], [1.0, math.nan]):
         with refused("edges"):
-            vf.pressure_distribution(solution, edges)
+            vf.roughness.pressure_distribution(solution, edges)
 
 
 @pytest.mark.slow  # six contacts of 512² points
@@ -224,7 +232,7 @@ def test_elastic_contact_area_grows_with_the_load_as_published():
             surface = road(points, seed, waves=64)
             pressure = 0.02 * surface.rms_slope * 1e6 / 0.75
             solution = vf.solve_periodic(RUBBER, surface.to_surface(), speed=0.0, pressure=pressure, tolerance=1e-6)
-            ratios[points].append(vf.contact_statistics(solution).corrected_area_fraction / 0.02)
+            ratios[points].append(vf.roughness.contact_statistics(solution).corrected_area_fraction / 0.02)
     assert 2.0 < np.mean(ratios[512]) < 2.2
     assert np.std(ratios[512], ddof=1) / math.sqrt(6) < 0.02
     # Four and eight points in the shortest wave.
@@ -263,11 +271,13 @@ def test_a_larger_piece_of_the_same_roughness_rubs_alike():
 
 def test_persson_theory_is_near_without_a_fitted_number():
     """Its area is a little too small at a quarter of full contact; the friction of 2001 fits there (γ = 1)."""
-    spectrum = vf.PowerSpectrum.self_affine(0.8, longest=1e-3, rolloff=0.25e-3, shortest=1e-3 / 16, rms_slope=0.2)
+    spectrum = vf.roughness.PowerSpectrum.self_affine(
+        0.8, longest=1e-3, rolloff=0.25e-3, shortest=1e-3 / 16, rms_slope=0.2
+    )
     asked = {"speeds": 0.02, "pressure": "50 kPa"}
     solved = vf.solve_periodic(RUBBER, road(256, 3).to_surface(), speed=0.02, pressure="50 kPa", tolerance=1e-7)
     theory = vf.persson_theory(RUBBER, spectrum, **asked, gamma=1.0)
-    area = vf.contact_statistics(solved).corrected_area_fraction
+    area = vf.roughness.contact_statistics(solved).corrected_area_fraction
     assert 0.2 < area < 0.3
     assert theory.contact_area_fraction[0, 0] == pytest.approx(0.94 * area, rel=0.05)
     assert theory.friction_coefficient[0, 0] == pytest.approx(solved.friction_coefficient, rel=0.1)

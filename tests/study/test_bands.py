@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from viscofric import run_study
 from viscofric.errors import ConvergenceError
 from viscofric.friction.cases.record import Record
-from viscofric.study import StudyResults, run_study
+from viscofric.study import StudyResults
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.run_file.study import load_study
 

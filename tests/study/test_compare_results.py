@@ -31,7 +31,7 @@ def changed(results: StudyResults, folder: Path, name: str, factor: float, case:
     return StudyResults(tree, folder)
 
 
-def difference(found: vf.ResultsComparison, name: str) -> Any:
+def difference(found: vf.study.ResultsComparison, name: str) -> Any:
     return next(one for one in found.differences if one.name == name)
 
 

@@ -67,19 +67,19 @@ ROUGH_HEAT = '[heating]\ncounterface = "steel"\nnominal_radius = "5 mm"\n'
 BALL = BASE.replace('shape = "cylinder"\n', "").replace("500 N/m", "2 N")
 
 
-def run(folder: Path, text: str, base: str = BASE) -> vf.StudyResults:
+def run(folder: Path, text: str, base: str = BASE) -> vf.study.StudyResults:
     path = folder / "study.toml"
     path.write_text(base + text, encoding="utf-8")
     return vf.run_study(path)
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory: pytest.TempPathFactory) -> vf.StudyResults:
+def results(tmp_path_factory: pytest.TempPathFactory) -> vf.study.StudyResults:
     return run(tmp_path_factory.mktemp("heating"), HEATING)
 
 
 @pytest.mark.slow
-def test_every_case_is_heated_by_each_coulomb_friction(results: vf.StudyResults) -> None:
+def test_every_case_is_heated_by_each_coulomb_friction(results: vf.study.StudyResults) -> None:
     """The same numbers as those of the Python interface, to all digits."""
     data = results.tree["heating"].to_dataset()
     assert dict(data.sizes) == {"temperature": 2, "speed": 2, "coulomb": 2}
@@ -92,7 +92,7 @@ def test_every_case_is_heated_by_each_coulomb_friction(results: vf.StudyResults)
         accuracy=0.1,
         heating=vf.Heating(rubber=FILLED_RUBBER, counterface=PTFE, coulomb=0.5, average="contact"),
     )
-    assert isinstance(direct, vf.HeatedFrictionCurves)
+    assert isinstance(direct, vf.friction.HeatedFrictionCurves)
     found = data.isel(temperature=1, coulomb=1)
     np.testing.assert_array_equal(found["friction_coefficient"], direct.viscoelastic)
     np.testing.assert_array_equal(found["temperature_rise"], direct.temperature_rise)
@@ -104,7 +104,7 @@ def test_every_case_is_heated_by_each_coulomb_friction(results: vf.StudyResults)
 
 
 @pytest.mark.slow
-def test_the_heat_of_the_largest_coulomb_friction_is_checked(results: vf.StudyResults) -> None:
+def test_the_heat_of_the_largest_coulomb_friction_is_checked(results: vf.study.StudyResults) -> None:
     """As of the same isothermal contacts in Python; a half-space of ν = ½ does not feel the shear."""
     data = results.dataset
     found = results.tree["assumptions"].to_dataset().set_index(assumption="assumption_name")
@@ -131,7 +131,7 @@ def test_the_heat_of_the_largest_coulomb_friction_is_checked(results: vf.StudyRe
 
 
 @pytest.mark.slow
-def test_tables_keep_a_rise_of_temperature_in_kelvin(results: vf.StudyResults) -> None:
+def test_tables_keep_a_rise_of_temperature_in_kelvin(results: vf.study.StudyResults) -> None:
     data = results.tree["heating"].to_dataset()
     names, units, columns = columns_of(data)
     table = dict(zip(names, zip(units, columns, strict=True), strict=True))
@@ -140,7 +140,7 @@ def test_tables_keep_a_rise_of_temperature_in_kelvin(results: vf.StudyResults) -
 
 
 @pytest.mark.slow
-def test_the_map_is_that_of_the_warmest_contact(results: vf.StudyResults) -> None:
+def test_the_map_is_that_of_the_warmest_contact(results: vf.study.StudyResults) -> None:
     """Its mean over the contact on 40 cells is the rise of the face, found on 18 cells to 1 %; it is warmest inside."""
     data, curves = (results.tree[name].to_dataset() for name in ("temperature_map", "heating"))
     mean = float((data["rise"] * data["contact"]).sum() / data["contact"].sum())
@@ -151,7 +151,7 @@ def test_the_map_is_that_of_the_warmest_contact(results: vf.StudyResults) -> Non
 
 
 @pytest.mark.slow
-def test_the_report_shows_heat_and_says_what_is_given(results: vf.StudyResults) -> None:
+def test_the_report_shows_heat_and_says_what_is_given(results: vf.study.StudyResults) -> None:
     figure = heating_figure(results.tree)
     assert figure is not None
     assert figure.axes[0].get_title() == "60 °C, Coulomb friction 0.2"
@@ -176,7 +176,7 @@ def test_rough_surfaces_are_heated_too(tmp_path_factory: pytest.TempPathFactory)
     bodies = {"rubber": FILLED_RUBBER, "counterface": STEEL, "nominal_radius": "5 mm"}
     rubber, track = vf.synthetic_fluoroelastomer(), vf.self_affine(0.8, shape=(16, 16), seed=1, **made)
     direct = vf.predict_rough_friction(rubber, track, **asked, heating=vf.Heating(**bodies, coulomb=0.3))
-    assert isinstance(direct, vf.HeatedRoughFriction)
+    assert isinstance(direct, vf.roughness.HeatedRoughFriction)
     found = data.isel(seed=1, coulomb=1)
     np.testing.assert_array_equal(found["friction_coefficient"], direct.friction_coefficient[0, :, 0])
     np.testing.assert_array_equal(found["temperature_rise"], direct.temperature_rise[0, :, 0])
@@ -315,8 +315,8 @@ def test_heated_contacts_over_time_are_those_of_the_python_interface(tmp_path: P
     base = BALL.replace('["50 mm/s", "200 mm/s"]', '"0.1 m/s"').replace('["60 degC", "90 degC"]', '"60 degC"')
     results = run(tmp_path, '[heating]\ncounterface = "PTFE"\n[history]\ndwell = "1 ms"\npoints = 3\n', base)
     data = results.tree["history"].to_dataset()
-    history = vf.History([0.0, 1e-3], load="2 N", temperature="60 degC")
-    alone = vf.solve_transient(
+    history = vf.motion.History([0.0, 1e-3], load="2 N", temperature="60 degC")
+    alone = vf.motion.solve_transient(
         vf.synthetic_fluoroelastomer(), vf.Ball("10 mm"), history, times=data["time"].values, accuracy=0.1,
         heating=vf.Heating(rubber=FILLED_RUBBER, counterface=PTFE),
     )  # fmt: skip

@@ -49,26 +49,26 @@ def written(folder: Path, history: str, base: str = BASE) -> Path:
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory: pytest.TempPathFactory) -> vf.StudyResults:
+def results(tmp_path_factory: pytest.TempPathFactory) -> vf.study.StudyResults:
     return vf.run_study(written(tmp_path_factory.mktemp("history"), DWELL))
 
 
-def test_every_case_is_solved_over_time(results: vf.StudyResults) -> None:
+def test_every_case_is_solved_over_time(results: vf.study.StudyResults) -> None:
     data = results.tree["history"].to_dataset()
     assert dict(data.sizes) == {"temperature": 2, "dwell": 4, "instant": 3}
     assert data["time"].values[0, [0, 3]].tolist() == [[0.0, 5e-3, 0.01], [0.0, 0.05, 0.1]]
     assert data["contact_radius"].attrs["units"] == "m"
     # the same as one solution, at the accuracy and the modes of the case
     rubber = vf.synthetic_fluoroelastomer()
-    history = vf.History([0.0, 0.1], load="2 N", temperature="60 degC")
-    run = vf.solve_transient(rubber, vf.Ball("10 mm"), history, times=[0.0, 0.05, 0.1], accuracy=0.1)
+    history = vf.motion.History([0.0, 0.1], load="2 N", temperature="60 degC")
+    run = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=[0.0, 0.05, 0.1], accuracy=0.1)
     found = data.isel(temperature=1, dwell=3)
     # The clock of one temperature is that of the modes at it, up to rounding.
     np.testing.assert_allclose(found["contact_radius"], run.contact_radius, rtol=1e-9)
     np.testing.assert_allclose(found["load_over_time"], 2.0, rtol=1e-9)
 
 
-def test_solved_histories_are_reused(results: vf.StudyResults, tmp_path: Path) -> None:
+def test_solved_histories_are_reused(results: vf.study.StudyResults, tmp_path: Path) -> None:
     events = []
     again = vf.run_study(
         results.folder.with_name("study.toml"), resume=True, progress=lambda event: events.append(event)
@@ -78,7 +78,7 @@ def test_solved_histories_are_reused(results: vf.StudyResults, tmp_path: Path) -
     assert again.tree["history"].identical(results.tree["history"])
 
 
-def test_histories_are_drawn_and_exported(results: vf.StudyResults, tmp_path: Path) -> None:
+def test_histories_are_drawn_and_exported(results: vf.study.StudyResults, tmp_path: Path) -> None:
     figure = histories_figure(results.tree)
     assert figure is not None
     (panel,) = figure.axes
@@ -130,7 +130,7 @@ def test_an_interrupted_history_is_not_stored(tmp_path: Path, monkeypatch: pytes
 
     path = written(tmp_path, DWELL, ONE)
     with monkeypatch.context() as patch:
-        patch.setattr(cases, "solve_transient", partial(vf.solve_transient, progress=impatient))
+        patch.setattr(cases, "solve_transient", partial(vf.motion.solve_transient, progress=impatient))
         with pytest.raises(KeyboardInterrupt):
             vf.run_study(path)
     events: list[str] = []
@@ -194,11 +194,11 @@ def test_a_rough_surface_slides_from_rest(tmp_path: Path) -> None:
     tree = vf.run_study(path).tree
     data = tree["history"].to_dataset()
     surface = vf.self_affine(0.8, shape=(16, 1), rms_slope=0.1, spacing="40 um", shortest="320 um", seed=1)
-    history = vf.History(
+    history = vf.motion.History(
         [0.0, 1e-3, 1e-3, 1.4e-3], pressure=2e5, speed=[0.0, 0.0, 0.05, 0.05], direction=(-1.0, 0.0),
         temperature="60 degC",
     )  # fmt: skip
-    run = vf.solve_transient(
+    run = vf.motion.solve_transient(
         vf.synthetic_fluoroelastomer(), surface.to_surface(), history, times=data["time"].values, accuracy=0.1
     )
     np.testing.assert_allclose(data["friction_force"], run.friction_force, rtol=1e-6, atol=1e-6 * 2e5)
@@ -264,8 +264,8 @@ def test_the_periodic_state_of_a_table_is_solved(tmp_path: Path) -> None:
     path = written(tmp_path, f"[history]\n{TABLE}cycle = true\n".replace("points = 3", "points = 20"), ONE)
     results = vf.run_study(path)
     data = results.tree["history"].to_dataset()
-    history = vf.read_history(tmp_path / "h.csv", temperature="30 degC")
-    cycle = vf.solve_cycle(
+    history = vf.motion.read_history(tmp_path / "h.csv", temperature="30 degC")
+    cycle = vf.motion.solve_cycle(
         vf.synthetic_fluoroelastomer(), vf.Ball("10 mm"), history, times=data["time"].values, accuracy=0.1
     )
     assert float(data["loss_stiffness"]) == pytest.approx(cycle.loss_stiffness, rel=1e-6)

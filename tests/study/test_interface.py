@@ -38,7 +38,7 @@ fields = "none"
 GIVEN = '[interface]\nlaw = "power"\nstress = "0.2 MPa"\nexponent = 0.5\nspeed = "20 mm/s"\n'
 
 
-def run(folder: Path, text: str, *, resume: bool = False) -> vf.StudyResults:
+def run(folder: Path, text: str, *, resume: bool = False) -> vf.study.StudyResults:
     path = folder / "study.toml"
     path.write_text(BASE + text, encoding="utf-8")
     return vf.run_study(path, resume=resume)
@@ -121,4 +121,4 @@ def test_a_given_law_has_its_constants_and_shift(tmp_path: Path) -> None:
     study = parse_study(BASE + text, tmp_path / "study.toml")
     assert study.interface is not None
     shift = vf.Arrhenius("80 kJ/mol", "30 degC")
-    assert study.interface.given() == vf.PowerShearStress("0.2 MPa", 0.5, "20 mm/s", shift=shift)
+    assert study.interface.given() == vf.friction.PowerShearStress("0.2 MPa", 0.5, "20 mm/s", shift=shift)

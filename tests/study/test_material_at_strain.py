@@ -18,7 +18,7 @@ from viscofric.study.study_rubber import FrictionBands
 if TYPE_CHECKING:
     from pathlib import Path
 
-LAW = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tension")
+LAW = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tension")
 
 
 @pytest.fixture
@@ -38,7 +38,7 @@ CATALOGUE = {"catalogue": "synthetic fluoroelastomer"}
 
 def test_a_run_file_scales_its_material_to_a_strain(sweep: str) -> None:
     made = make_rubber(material_of(CATALOGUE | {"amplitude_sweep": sweep, "strain": 0.05, "measured_at": 0.001}))
-    expected = vf.material_at_strain(vf.synthetic_fluoroelastomer(), LAW, 0.05, measured_at=0.001)
+    expected = vf.rheology.material_at_strain(vf.synthetic_fluoroelastomer(), LAW, 0.05, measured_at=0.001)
     omega = np.array([1.0, 62.8, 1e4])
     # constants fitted to data of 16 digits
     np.testing.assert_allclose(

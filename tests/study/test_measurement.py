@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.study import StudyResults, run_study
+from viscofric import run_study
+from viscofric.study import StudyResults
 from viscofric.study.contacts import Contacts
 from viscofric.study.measurement import Measurement
 from viscofric.study.run_file.study import parse_study

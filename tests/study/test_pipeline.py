@@ -13,8 +13,9 @@ from scipy.interpolate import CubicSpline
 import viscofric as vf
 from contact.dense_reference import dense_friction
 from refusals import refused
+from viscofric import load_study, open_results, run_study
 from viscofric.notes import codes
-from viscofric.study import StudyResults, load_study, open_results, run_study
+from viscofric.study import StudyResults
 from viscofric.study.checking import check_study
 
 ROOT = Path(__file__).resolve().parents[2]

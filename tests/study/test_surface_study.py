@@ -11,13 +11,13 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric import open_results, run_study
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import MadeSurface
 from viscofric.friction.planning.plan import plan_cases
 from viscofric.notes import codes
-from viscofric.study import open_results, run_study
 from viscofric.study.checking import check_study
 from viscofric.study.run_file.study import parse_study
 from viscofric.study.running.store import CaseStore
@@ -186,7 +186,7 @@ def test_interpolated_contacts_lie_within_their_claims() -> None:
 
 @pytest.mark.slow
 def test_with_a_vertical_shift_the_pressure_counts_as_p_over_b() -> None:
-    b = vf.VerticalShiftFactors([283.15, 303.15, 343.15], [-0.05, 0.0, 0.08], reference=303.15)
+    b = vf.rheology.VerticalShiftFactors([283.15, 303.15, 343.15], [-0.05, 0.0, 0.08], reference=303.15)
     rubber = vf.Material(RUBBER.spectrum, shift=RUBBER.shift, vertical_shift=b)
     factor = float(b(343.15))
     # Enough cases close to each other for a curve at either temperature.
@@ -255,7 +255,7 @@ def test_an_interface_acts_on_the_real_contact_area(tmp_path: Path) -> None:
         speeds=["10 mm/s", "1 m/s"],
         temperatures="30 degC",
         pressure="50 kPa",
-        interface=vf.ConstantShearStress("0.2 MPa"),
+        interface=vf.friction.ConstantShearStress("0.2 MPa"),
         tolerance=1e-7,
     )
     np.testing.assert_allclose(data["interface_friction"], same.interface_friction[0, :, 0], rtol=1e-9)

@@ -50,7 +50,7 @@ def ramp(folder: Path, *hertz: float) -> Path:
 
 def amplitudes(folder: Path) -> Path:
     """Write an amplitude sweep at 10 Hz and 60 °C."""
-    law = vf.KrausLaw(6e6, 3e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tension")
+    law = vf.rheology.KrausLaw(6e6, 3e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tension")
     rows = ["T (degC),f (Hz),strain (%),E' (MPa),E'' (MPa)"]
     for strain in np.geomspace(5e-4, 0.5, 25):
         E = 1e-6 * law.complex_modulus(strain)

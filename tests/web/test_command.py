@@ -16,8 +16,8 @@ import pytest
 from click.testing import CliRunner
 
 import viscofric.web.server as module
+from viscofric import load_study
 from viscofric.cli import main
-from viscofric.study import load_study
 from web.processes_left import ended, started_by
 from web.served_page import STUDY, started
 

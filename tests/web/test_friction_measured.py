@@ -150,9 +150,9 @@ def test_the_librarys_advice_becomes_the_pages(tmp_path: Path) -> None:
         "temperature": np.full(count, 300.0),
         "replicate": np.arange(count),
     }
-    runs = vf.TractionRuns(**columns)
-    drifting = vf.TractionRuns(**{**columns, "temperature": np.linspace(300.0, 310.0, count)})
-    unsteady = vf.TractionRuns(
+    runs = vf.readers.TractionRuns(**columns)
+    drifting = vf.readers.TractionRuns(**{**columns, "temperature": np.linspace(300.0, 310.0, count)})
+    unsteady = vf.readers.TractionRuns(
         **{**columns, "load": np.r_[np.full(20, 10.0), np.geomspace(11.0, 25.0, 20)]}, step=np.repeat([1, 2], 20)
     )
     reported = [

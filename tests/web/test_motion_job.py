@@ -31,8 +31,8 @@ def rubber() -> vf.Material:
 
 def test_a_history_has_the_numbers_of_the_library(desk: Desk) -> None:
     found = desk.run(motion, BALL, rows=PRESSED, temperature=333.15)
-    history = vf.History([0.0, 0.1, 0.3], load=[0.0, 25.0, 25.0], temperature=333.15)
-    solved = vf.solve_transient(rubber(), vf.Ball("9.525 mm"), history, times=[0.1, 0.3], accuracy=1e-2)
+    history = vf.motion.History([0.0, 0.1, 0.3], load=[0.0, 25.0, 25.0], temperature=333.15)
+    solved = vf.motion.solve_transient(rubber(), vf.Ball("9.525 mm"), history, times=[0.1, 0.3], accuracy=1e-2)
     rows = [found["time"].index(time) for time in (0.1, 0.3)]
     for name in ("load", "indentation", "contact_radius", "work", "dissipated"):
         # both are exact to 1 % in time; their steps differ
@@ -61,7 +61,7 @@ def test_a_jump_is_drawn_before_and_after_it(desk: Desk) -> None:
 
 def test_an_impact_has_the_numbers_of_the_library(desk: Desk) -> None:
     found = desk.run(motion, BALL, impact={"mass": 0.033, "speed": 0.5}, temperature=303.15)
-    solved = vf.solve_impact(rubber(), vf.Ball("9.525 mm"), mass=0.033, speed=0.5, temperature=303.15)
+    solved = vf.motion.solve_impact(rubber(), vf.Ball("9.525 mm"), mass=0.033, speed=0.5, temperature=303.15)
     (contact,) = found["contacts"]
     assert "animation" not in found  # an impact keeps no pressures
     assert contact["restitution"] == pytest.approx(solved.restitution, rel=ROUNDING)

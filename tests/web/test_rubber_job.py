@@ -32,11 +32,11 @@ def rubber(workspace: Context) -> Any:
 
 
 @pytest.fixture(scope="module")
-def fit() -> vf.Superposition:
+def fit() -> vf.rheology.Superposition:
     return vf.superpose(vf.read_dma(EXAMPLE), "30 degC")
 
 
-def test_shift_factors_and_their_bars_are_those_of_superposition(rubber: Any, fit: vf.Superposition) -> None:
+def test_shift_factors_and_their_bars_are_those_of_superposition(rubber: Any, fit: vf.rheology.Superposition) -> None:
     factors = rubber["shift"]["factors"]
     np.testing.assert_allclose(factors["log10_shift_factor"], fit.shift_factors.log10_values, rtol=5e-6)
     np.testing.assert_allclose(factors["error95"], 1.959964 * fit.shift_factors.standard_errors, rtol=5e-6, atol=1e-12)
@@ -44,7 +44,7 @@ def test_shift_factors_and_their_bars_are_those_of_superposition(rubber: Any, fi
     assert rubber["shift"]["misfit"]["joint"] == pytest.approx(fit.quality.joint, rel=5e-6)
 
 
-def test_isotherms_are_moved_by_their_factors(rubber: Any, fit: vf.Superposition) -> None:
+def test_isotherms_are_moved_by_their_factors(rubber: Any, fit: vf.rheology.Superposition) -> None:
     for reported, one, shift in zip(
         rubber["shift"]["isotherms"], fit.isotherms, fit.shift_factors.log10_values, strict=True
     ):
@@ -53,7 +53,7 @@ def test_isotherms_are_moved_by_their_factors(rubber: Any, fit: vf.Superposition
     assert [one["temperature"] for one in rubber["shift"]["isotherms"] if one["is_reference"]] == [303.15]
 
 
-def test_laws_are_compared_and_the_one_used_is_marked(rubber: Any, fit: vf.Superposition) -> None:
+def test_laws_are_compared_and_the_one_used_is_marked(rubber: Any, fit: vf.rheology.Superposition) -> None:
     laws = {one["kind"]: one for one in rubber["shift"]["laws"]}
     assert [kind for kind, one in laws.items() if one["used"]] == ["wlf"]
     compared = fit.shift_factors.compare_laws()
@@ -67,7 +67,7 @@ def test_laws_are_compared_and_the_one_used_is_marked(rubber: Any, fit: vf.Super
     assert np.max(np.abs(laws["wlf"]["residual"]["log10_residual"])) < 0.05
 
 
-def test_verdict_is_that_of_the_check(rubber: Any, fit: vf.Superposition) -> None:
+def test_verdict_is_that_of_the_check(rubber: Any, fit: vf.rheology.Superposition) -> None:
     check = rubber["check"]
     assert check["verdict"] == "holds"
     assert check["sentences"] == list(fit.check.sentences)
@@ -88,7 +88,7 @@ def test_diagrams_are_columns_of_the_shifted_isotherms(workspace: Context, verti
         np.testing.assert_allclose(kelvin, diagram.temperature, rtol=5e-6)
 
 
-def test_readings_are_sent_once(rubber: Any, fit: vf.Superposition) -> None:
+def test_readings_are_sent_once(rubber: Any, fit: vf.rheology.Superposition) -> None:
     """Figures share columns: six of isotherms, four of the master curve, two of residuals; ten characters a number."""
     readings = sum(len(one) for one in fit.isotherms)
     # moduli, bands and laws are lines whose length does not depend on the readings

@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.readers import read_dma
+from viscofric import read_dma
 from viscofric.web.jobs.context import Context, JobError
 from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
 

@@ -48,9 +48,9 @@ def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bo
         raise click.BadParameter(f"{forms[0]} cannot be printed; name a file.", param_hint="--out")
     check_ending(out, "--out", (_ENDINGS[forms[0]],))
     with reported_errors():
-        from viscofric.study import open_results
         from viscofric.study.results.columns import table_text
         from viscofric.study.results.export import FORMS
+        from viscofric.study.results.results import open_results
 
         found = open_results(results)
         if out == DASH:

@@ -51,7 +51,7 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
 def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
     """Return the friction curves of the runs in files of a tribometer."""
     from viscofric.friction.measurement.tribometry import separate
-    from viscofric.readers import read_mtm
+    from viscofric.readers.mtm.read import read_mtm
 
     settings = dict(settings)
     runs = read_mtm(*paths, columns=settings.pop("columns", None), sheet=settings.pop("sheet", None))

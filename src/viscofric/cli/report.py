@@ -21,7 +21,7 @@ def command(results: Path, out: Path | None, pdf: bool, as_json: bool) -> None:
     from viscofric.cli.run import outcome_record, print_outcome, status_of
     from viscofric.report import write_figures_and_report
     from viscofric.report.html import write_pdf
-    from viscofric.study import open_results
+    from viscofric.study.results.results import open_results
 
     with reported_errors("run_file"):
         found = open_results(results)

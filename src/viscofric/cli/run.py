@@ -14,7 +14,7 @@ from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
-    from viscofric.study import StudyResults
+    from viscofric.study.results.results import StudyResults
 
 SOME_CASES_FAILED, NOT_ACCURATE = 3, 4
 #: Checks of the numbers themselves; others judge the assumptions and the data.
@@ -84,7 +84,7 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         from viscofric.cli.progress import JsonProgress, Silent, TerminalProgress
         from viscofric.errors import ViscofricError
         from viscofric.report import write_figures_and_report
-        from viscofric.study import run_study
+        from viscofric.study.execution import run_study
         from viscofric.study.running.running import Event
 
         listener = JsonProgress(sys.stdout) if as_json else Silent() if quiet else TerminalProgress()

@@ -35,8 +35,8 @@ def compare_test(folder: Path, as_json: bool) -> None:
     from viscofric.report.results import group, is_synthetic, sentences
     from viscofric.report.texts.friction_tables import measurement_table
     from viscofric.report.texts.tables import aligned
-    from viscofric.study import open_results
     from viscofric.study.friction_test import open_friction_test
+    from viscofric.study.results.results import open_results
 
     with reported_errors():
         run_file, study = open_friction_test(folder)

@@ -129,10 +129,10 @@ def solve_at_contact_strain(
     Examples
     --------
     >>> import viscofric as vf
-    >>> law = vf.KrausLaw(6e6, 3e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
+    >>> law = vf.rheology.KrausLaw(6e6, 3e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
     >>> ball, rubber = vf.Ball("9.525 mm"), vf.synthetic_fluoroelastomer()
     >>> contact = dict(speed="20 mm/s", load="5 N", temperature="60 degC", accuracy=0.03)
-    >>> both = vf.solve_at_contact_strain(rubber, law, ball, **contact)
+    >>> both = vf.friction.solve_at_contact_strain(rubber, law, ball, **contact)
     >>> both.scaled.contact_area > both.linear.contact_area
     True
     """

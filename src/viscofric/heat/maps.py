@@ -76,7 +76,7 @@ def surface_temperature(
     >>> import numpy as np
     >>> import viscofric as vf
     >>> steel = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")
-    >>> rise = vf.surface_temperature(np.full((16, 16), 1e6), "20 um", steel, speed="1 m/s")
+    >>> rise = vf.heat.surface_temperature(np.full((16, 16), 1e6), "20 um", steel, speed="1 m/s")
     >>> f"{rise.mean():.2f} K, at most {rise.max():.2f} K"
     '0.96 K, at most 1.46 K'
     """

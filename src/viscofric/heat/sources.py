@@ -60,7 +60,7 @@ class MovingHeatSource(Shown):
     --------
     >>> import viscofric as vf
     >>> steel = vf.ThermalProperties("46 W/m/K", "7810 kg/m**3", "475 J/kg/K", "steel")
-    >>> spot = vf.MovingHeatSource("10 W", size="0.5 mm", speed="1 m/s", body=steel)
+    >>> spot = vf.heat.MovingHeatSource("10 W", size="0.5 mm", speed="1 m/s", body=steel)
     >>> f"Pe = {spot.peclet_number:.1f}: mean {spot.mean_temperature:.1f} K, largest {spot.max_temperature:.1f} K"
     'Pe = 20.2: mean 21.9 K, largest 39.4 K'
     """

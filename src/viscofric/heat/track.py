@@ -92,7 +92,7 @@ def track_temperature(
     --------
     >>> import viscofric as vf
     >>> rubber = vf.ThermalProperties("0.3 W/m/K", "1200 kg/m**3", "1500 J/kg/K", "rubber")
-    >>> rise = vf.track_temperature(
+    >>> rise = vf.heat.track_temperature(
     ...     "0.1 W", rubber, radius="1 mm", track_radius="23 mm", speed="0.1 m/s", passes=[0, 1, 10, 100, 1000]
     ... )
     >>> rise.round(1)

@@ -38,7 +38,7 @@ from viscofric.roughness.patches import ContactStatistics
 from viscofric.roughness.persson_result import PerssonTheory
 from viscofric.roughness.rough_friction import RoughFriction
 from viscofric.roughness.spectrum import PowerSpectrum
-from viscofric.study import StudyResults
+from viscofric.study.results.results import StudyResults
 
 if TYPE_CHECKING:
     import xarray

@@ -122,8 +122,8 @@ def solve_cycle(
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
     >>> phase = np.linspace(0.0, 2.0 * np.pi, 49)
-    >>> period = vf.History(time=phase / 100.0, indentation=1e-4 + 3e-6 * np.sin(phase))
-    >>> cycle = vf.solve_cycle(rubber, vf.Ball("10 mm"), period)
+    >>> period = vf.motion.History(time=phase / 100.0, indentation=1e-4 + 3e-6 * np.sin(phase))
+    >>> cycle = vf.motion.solve_cycle(rubber, vf.Ball("10 mm"), period)
     >>> print(f"{cycle.storage_stiffness:.0f} ± {cycle.storage_stiffness_error:.0f} N/m")
     2903 ± 1 N/m
     >>> print(f"loss tangent {cycle.loss_tangent:.4f} ± {cycle.loss_tangent_error:.4f}")

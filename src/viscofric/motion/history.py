@@ -81,7 +81,7 @@ class History(Shown):
     A load put on at once, a dwell of 0.2 s, then sliding at 0.1 m/s:
 
     >>> import viscofric as vf
-    >>> history = vf.History(time=[0.0, 0.2, 0.2, 0.5], load="25 N", speed=[0.0, 0.0, 0.1, 0.1])
+    >>> history = vf.motion.History(time=[0.0, 0.2, 0.2, 0.5], load="25 N", speed=[0.0, 0.0, 0.1, 0.1])
     >>> history.position[:, 0].round(6).tolist()
     [0.0, 0.0, 0.0, 0.03]
     """

@@ -75,7 +75,7 @@ def read_history(
     >>> with Path("start.csv").open("w") as file:
     ...     for row in ("time (s),load (N),position (mm)", "0,25,0", "0.1,25,0", "0.3,25,20"):
     ...         print(row, file=file)
-    >>> history = vf.read_history("start.csv", temperature="60 degC")
+    >>> history = vf.motion.read_history("start.csv", temperature="60 degC")
     >>> history.position[:, 0].tolist()
     [0.0, 0.0, 0.02]
     """

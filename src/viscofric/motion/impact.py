@@ -109,7 +109,7 @@ def solve_impact(
     --------
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
-    >>> hit = vf.solve_impact(rubber, vf.Ball("10 mm"), mass="33 g", speed="0.1 m/s")
+    >>> hit = vf.motion.solve_impact(rubber, vf.Ball("10 mm"), mass="33 g", speed="0.1 m/s")
     >>> f"{hit.restitution:.3f}, {1e3 * hit.contact_time:.2f} ms, {hit.peak_force:.3f} N"
     '0.661, 9.95 ms, 0.977 N'
     """
@@ -176,7 +176,7 @@ def restitution_curve(
     >>> import viscofric as vf
     >>> rubber = vf.synthetic_fluoroelastomer()
     >>> ball = vf.Ball("5 mm")
-    >>> curve = vf.restitution_curve(
+    >>> curve = vf.motion.restitution_curve(
     ...     rubber, ball, speeds=["1 m/s"], temperatures=["-40 degC", "0 degC", "60 degC"], mass="4 g"
     ... )
     >>> curve.restitution[:, 0].round(2).tolist()

@@ -239,10 +239,10 @@ class TransientSolution(Plotted):
         --------
         >>> import viscofric as vf
         >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
-        >>> ball, dwell = vf.Ball("10 mm"), vf.History(time=[0.0, 0.1], load="1 N")
-        >>> vf.solve_transient(rubber, ball, dwell, times=["0.1 s"]).save_state("dwell.npz")
-        >>> longer = vf.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"])
-        >>> run = vf.solve_transient(rubber, ball, longer, times=["0.2 s"], resume="dwell.npz")
+        >>> ball, dwell = vf.Ball("10 mm"), vf.motion.History(time=[0.0, 0.1], load="1 N")
+        >>> vf.motion.solve_transient(rubber, ball, dwell, times=["0.1 s"]).save_state("dwell.npz")
+        >>> longer = vf.motion.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"])
+        >>> run = vf.motion.solve_transient(rubber, ball, longer, times=["0.2 s"], resume="dwell.npz")
         >>> run.time.tolist()
         [0.1, 0.2]
         """

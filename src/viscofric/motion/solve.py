@@ -136,8 +136,8 @@ def solve_transient(
 
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
-    >>> step = vf.History(time=[0.0, 0.1], load="1 N")
-    >>> run = vf.solve_transient(rubber, vf.Ball("10 mm"), step, times=["1 ms", "10 ms", "100 ms"])
+    >>> step = vf.motion.History(time=[0.0, 0.1], load="1 N")
+    >>> run = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), step, times=["1 ms", "10 ms", "100 ms"])
     >>> (1e3 * run.contact_radius).round(3).tolist()
     [1.015, 1.555, 1.778]
     """

@@ -170,8 +170,8 @@ def surface_from_spectrum(
     Examples
     --------
     >>> import viscofric as vf
-    >>> spectrum = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="80 um", rms_slope=0.2)
-    >>> made = vf.surface_from_spectrum(spectrum, shape=(128, 128), spacing="10 um", seed=1)
+    >>> spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="80 um", rms_slope=0.2)
+    >>> made = vf.roughness.surface_from_spectrum(spectrum, shape=(128, 128), spacing="10 um", seed=1)
     >>> made.heights.shape
     (128, 128)
     """

@@ -46,7 +46,7 @@ class LineSpectrum(Density):
     >>> import numpy as np
     >>> import viscofric as vf
     >>> q = np.geomspace(1e3, 1e5, 200)
-    >>> line = vf.LineSpectrum(q, 1e-10 * q**-1.6)
+    >>> line = vf.roughness.LineSpectrum(q, 1e-10 * q**-1.6)
     >>> f"{line.moment(0) ** 0.5:.1e} m rms"
     '2.2e-06 m rms'
     """
@@ -145,7 +145,7 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
-    >>> spectrum = vf.power_spectrum(road)
+    >>> spectrum = vf.roughness.power_spectrum(road)
     >>> bool(abs(spectrum.rms_height() / road.rms_height - 1.0) < 0.1)
     True
     """
@@ -189,7 +189,7 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
-    >>> line = vf.line_spectrum(road)
+    >>> line = vf.roughness.line_spectrum(road)
     >>> bool(0.5 < (line.moment(0) ** 0.5 / road.rms_height) < 1.5)
     True
     """

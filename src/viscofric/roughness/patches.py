@@ -121,7 +121,7 @@ def contact_statistics(solution: PeriodicSolution) -> ContactStatistics:
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
     >>> solution = vf.solve_periodic(rubber, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
-    >>> vf.contact_statistics(solution).patches
+    >>> vf.roughness.contact_statistics(solution).patches
     3
     """
     _insist(solution)
@@ -176,7 +176,7 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
     >>> solution = vf.solve_periodic(rubber, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
-    >>> pressure, density = vf.pressure_distribution(solution, 20)
+    >>> pressure, density = vf.roughness.pressure_distribution(solution, 20)
     >>> pressure.shape, density.shape
     ((20,), (20,))
     """

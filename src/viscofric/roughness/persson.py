@@ -116,7 +116,7 @@ def persson_theory(
     --------
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="1 ms")
-    >>> road = vf.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.5)
+    >>> road = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="10 um", rms_slope=0.5)
     >>> theory = vf.persson_theory(rubber, road, speeds=[0.001, 0.1], pressure="0.1 MPa")
     >>> theory.friction_coefficient.shape
     (1, 2)

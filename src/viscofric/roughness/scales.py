@@ -108,7 +108,7 @@ def friction_by_wavelength(
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
     >>> solution = vf.solve_periodic(rubber, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
-    >>> parts = vf.friction_by_wavelength(solution)
+    >>> parts = vf.roughness.friction_by_wavelength(solution)
     >>> bool(abs(parts.cumulative[-1] / parts.total - 1.0) < 1e-9)
     True
     """

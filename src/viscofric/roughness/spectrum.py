@@ -88,7 +88,7 @@ class PowerSpectrum(Density):
     Examples
     --------
     >>> import viscofric as vf
-    >>> road = vf.PowerSpectrum.self_affine(0.8, longest="3 mm", shortest="3 um", rms_height="0.3 mm")
+    >>> road = vf.roughness.PowerSpectrum.self_affine(0.8, longest="3 mm", shortest="3 um", rms_height="0.3 mm")
     >>> round(road.rms_slope(), 2), round(road.rms_slope(shortest="30 um"), 2)
     (4.84, 2.9)
     """

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, cast, overload
 from viscofric.data import IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.notes import Note, note_of
-from viscofric.readers import read_dma, read_step_tests
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.dma.ramps import read_ramps
+from viscofric.readers.dma.read import read_dma
+from viscofric.readers.steps.read import read_step_tests
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
 from viscofric.rheology.material import Material

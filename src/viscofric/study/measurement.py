@@ -14,7 +14,7 @@ from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import Note, note_of
-from viscofric.readers import read_mtm
+from viscofric.readers.mtm.read import read_mtm
 from viscofric.study.results.tree import as_measured, measurement_data
 
 if TYPE_CHECKING:

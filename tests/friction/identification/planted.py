@@ -48,7 +48,7 @@ def closed_form_curves(*kelvin: float, rubber: vf.Material = RUBBER) -> Friction
     return curves_of(speed, temperature, np.exp(found.log_friction), 1e-6, load=LOAD)
 
 
-def planted_anchor(frequency: float = 10.0, error: float = 1e-3) -> vf.ModulusAnchor:
+def planted_anchor(frequency: float = 10.0, error: float = 1e-3) -> vf.friction.ModulusAnchor:
     """|E| of the rubber at the reference."""
     modulus = float(abs(RUBBER.complex_modulus(frequency)))
-    return vf.ModulusAnchor(modulus, frequency, REFERENCE, error=error)
+    return vf.friction.ModulusAnchor(modulus, frequency, REFERENCE, error=error)

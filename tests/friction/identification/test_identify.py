@@ -34,7 +34,7 @@ WARM = (REFERENCE, REFERENCE + 4.0, REFERENCE + 9.0)
 
 
 @pytest.fixture(scope="module")
-def solved() -> vf.IdentifiedMaterial:
+def solved() -> vf.friction.IdentifiedMaterial:
     return vf.identify_material(planted_curves(*WARM), anchor=planted_anchor(), reference=REFERENCE, **SETTINGS)
 
 
@@ -45,20 +45,20 @@ def closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="module")
-def found() -> vf.IdentifiedMaterial:
+def found() -> vf.friction.IdentifiedMaterial:
     """Identify the planted rubber from friction of the closed form."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Contacts, "solved", lambda contacts, problem, unknowns, step: problem)
         return vf.identify_material(closed_form_curves(*WARM), anchor=planted_anchor(), reference=REFERENCE, **SETTINGS)
 
 
-def error_of(found: vf.IdentifiedMaterial, omega: NDArray[np.float64]) -> NDArray[np.float64]:
+def error_of(found: vf.friction.IdentifiedMaterial, omega: NDArray[np.float64]) -> NDArray[np.float64]:
     """Ln of |E| found over planted, at the reference."""
     return np.log(np.abs(found.material.complex_modulus(omega) / RUBBER.complex_modulus(omega)))
 
 
 @pytest.mark.slow
-def test_modulus_and_shifts_come_back(solved: vf.IdentifiedMaterial) -> None:
+def test_modulus_and_shifts_come_back(solved: vf.friction.IdentifiedMaterial) -> None:
     found = solved
     omega = np.geomspace(*found.frequency_range, 12)
     # The planted friction is solved to some 1e-4, that of the fit, to 1 % as asked for, to a few of it.
@@ -75,7 +75,7 @@ def test_modulus_and_shifts_come_back(solved: vf.IdentifiedMaterial) -> None:
 
 
 @pytest.mark.slow
-def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.IdentifiedMaterial) -> None:
+def test_uncertainty_grows_outside_the_contacts_frequencies(found: vf.friction.IdentifiedMaterial) -> None:
     low, high = found.frequency_range
     inside = found.standard_error(np.sqrt(low * high))
     beyond = found.standard_error(np.array([low / 1e3, high * 1e3]))
@@ -110,7 +110,7 @@ def test_a_spectrum_that_ends_near_the_lowest_frequency_is_met_within_its_errors
     rubber = vf.Material(spectrum, RUBBER.shift)
     curves = closed_form_curves(*(REFERENCE + np.array([0.0, 8.0, 17.0, 28.0, 40.0])), rubber=rubber)
     curves = replace(curves, viscoelastic_error=0.015 * curves.viscoelastic)
-    anchor = vf.ModulusAnchor(float(abs(rubber.complex_modulus(10.0))), 10.0, REFERENCE, error=1e-3)
+    anchor = vf.friction.ModulusAnchor(float(abs(rubber.complex_modulus(10.0))), 10.0, REFERENCE, error=1e-3)
     found = vf.identify_material(curves, anchor=anchor, shift=rubber.shift, **(SETTINGS | {"modes": 20}))
     omega = found.frequency_range[0] * np.array([0.5, 0.7, 1.0, 1.5, 2.5, 5.0, 10.0])
     drawn = np.log([one.complex_modulus(omega).imag for one in found.samples.materials])
@@ -120,7 +120,7 @@ def test_a_spectrum_that_ends_near_the_lowest_frequency_is_met_within_its_errors
 
 
 @pytest.mark.slow
-def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
+def test_the_result_says_what_it_found(found: vf.friction.IdentifiedMaterial) -> None:
     text = str(found)
     assert "5 %" in text
     assert "3 temperatures" in text
@@ -130,7 +130,7 @@ def test_the_result_says_what_it_found(found: vf.IdentifiedMaterial) -> None:
 
 
 @pytest.mark.slow
-def test_data_sets_hold_modulus_friction_and_shift_factors(found: vf.IdentifiedMaterial) -> None:
+def test_data_sets_hold_modulus_friction_and_shift_factors(found: vf.friction.IdentifiedMaterial) -> None:
     omega = np.geomspace(*found.frequency_range, 5)
     modulus = found.to_dataset(omega)
     np.testing.assert_array_equal(modulus["storage_modulus"], found.material.complex_modulus(omega).real)
@@ -174,7 +174,7 @@ def test_without_an_anchor_there_is_a_family() -> None:
 def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
     speed = 0.05
     contact = vf.solve_steady(RUBBER, BALL, speed=speed, load=LOAD, temperature=REFERENCE)
-    anchor = vf.ContactAnchor(speed, REFERENCE, LOAD, error=2e-3, **{size: getattr(contact, size)})
+    anchor = vf.friction.ContactAnchor(speed, REFERENCE, LOAD, error=2e-3, **{size: getattr(contact, size)})
     found = vf.identify_material(planted_curves(REFERENCE), anchor=anchor, **(SETTINGS | {"samples": 20}))
     assert found.anchored
     assert found.material.shift is None
@@ -187,7 +187,7 @@ def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
 def test_a_part_of_the_modulus_known_beforehand_fixes_the_level() -> None:
     omega = np.geomspace(0.1, 1.0, 15)
     E = RUBBER.complex_modulus(omega)
-    curve = vf.MasterCurve(omega, E.real, E.imag, np.full(15, REFERENCE), REFERENCE)
+    curve = vf.readers.MasterCurve(omega, E.real, E.imag, np.full(15, REFERENCE), REFERENCE)
     curves = closed_form_curves(REFERENCE)
     found = vf.identify_material(curves, shift=RUBBER.shift, prior=curve, prior_error=5e-3, **FEW)
     assert found.anchored
@@ -262,7 +262,7 @@ def test_residuals_that_follow_each_other_are_reported() -> None:
 @pytest.mark.usefixtures("closed_form")
 def test_anchors_that_contradict_or_fix_nothing_are_reported() -> None:
     curves = closed_form_curves(REFERENCE)
-    both = [planted_anchor(), vf.ModulusAnchor("30 MPa", 10.0, REFERENCE, error=1e-3)]
+    both = [planted_anchor(), vf.friction.ModulusAnchor("30 MPa", 10.0, REFERENCE, error=1e-3)]
     assert "anchor-contradicted" in codes(vf.identify_material(curves, anchor=both, **FEW).notes)
     far = vf.identify_material(curves, anchor=planted_anchor(1e8), **FEW)
     assert "level-not-fixed" in codes(far.notes)
@@ -288,7 +288,7 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
     with refused("no-such-temperature", naming="reference = 100.0"):
         vf.identify_material(curves, reference="100 degC", **SETTINGS)
     with refused("outside-measured"):
-        vf.identify_material(curves, anchor=vf.ModulusAnchor(3e6, 1.0, "150 degC"), **SETTINGS)
+        vf.identify_material(curves, anchor=vf.friction.ModulusAnchor(3e6, 1.0, "150 degC"), **SETTINGS)
     with refused("wrong-type", naming="anchor"):
         vf.identify_material(curves, anchor=3e6, **SETTINGS)
     with refused("wrong-type", naming="shift"):
@@ -304,13 +304,13 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
     with refused("wrong-count", naming="prior_band"):
         vf.identify_material(curves, prior=RUBBER, prior_band=("1 Hz",), **SETTINGS)
     with refused("not-positive", naming="-1.0"):
-        vf.ModulusAnchor(3e6, 1.0, 300.0, error=-1.0)
+        vf.friction.ModulusAnchor(3e6, 1.0, 300.0, error=-1.0)
     with refused("sharp-edge"):
         vf.identify_material(curves, indenter=vf.FlatPunch(radius="1 mm"))
     with refused("give-one"):
-        vf.ContactAnchor(0.1, 300.0, 5.0, indentation=1e-5, half_width=1e-4)
+        vf.friction.ContactAnchor(0.1, 300.0, 5.0, indentation=1e-5, half_width=1e-4)
     with refused("wrong-choice", naming="part = 'modulus'"):
-        vf.ModulusAnchor(3e6, 1.0, 300.0, part="modulus")
+        vf.friction.ModulusAnchor(3e6, 1.0, 300.0, part="modulus")
 
 
 @pytest.mark.slow
@@ -329,7 +329,7 @@ def test_the_synthetic_fluoroelastomer_comes_back_over_four_decades() -> None:
     """Nine temperatures, ten speeds, no noise, one modulus, α(T) unknown: 2 % and 0.01 decades are asked for."""
     truth = vf.synthetic_fluoroelastomer()
     ball, reference = vf.Ball(radius="9.525 mm"), 303.15
-    anchor = vf.ModulusAnchor(float(abs(truth.complex_modulus(1.0))), 1.0, reference, error=1e-3)
+    anchor = vf.friction.ModulusAnchor(float(abs(truth.complex_modulus(1.0))), 1.0, reference, error=1e-3)
     found = vf.identify_material(
         synthetic_curves(), indenter=ball, anchor=anchor, reference=reference, modes=30, samples=20
     )
@@ -350,7 +350,7 @@ def test_friction_known_better_than_contacts_are_solved_settles() -> None:
     truth, ball = vf.synthetic_fluoroelastomer(), vf.Ball(radius="9.525 mm")
     speeds = list(np.geomspace(1e-3, 3.0, 13))
     exact = vf.predict_friction(truth, ball, speeds=speeds, temperatures=["20 degC", "30 degC", "40 degC"], load="1 N")
-    anchor = vf.ModulusAnchor(float(abs(truth.complex_modulus(1.0))), 1.0, 303.15)
+    anchor = vf.friction.ModulusAnchor(float(abs(truth.complex_modulus(1.0))), 1.0, 303.15)
     found = vf.identify_material(exact, indenter=ball, anchor=anchor, samples=20)
     assert np.sqrt(np.mean((found.friction.viscoelastic / exact.viscoelastic - 1.0) ** 2)) < 1e-3
     np.testing.assert_allclose(
@@ -384,7 +384,7 @@ def test_curves_about_a_maximum_of_friction_stay_together() -> None:
         replicates=np.full(len(exact), 8),
     )
     modulus = float(abs(rubber.complex_modulus(1.0, REFERENCE)))
-    anchor = vf.ModulusAnchor(modulus, 1.0, REFERENCE, error=1e-3)
+    anchor = vf.friction.ModulusAnchor(modulus, 1.0, REFERENCE, error=1e-3)
     found = vf.identify_material(
         curves, indenter=ball, anchor=anchor, reference=REFERENCE, accuracy=3e-2, samples=20, modes=20
     )

@@ -30,20 +30,22 @@ def bell() -> vf.Material:
 RUBBER = bell()
 
 
-def creep(kelvin: float = KELVIN, noise: float = NOISE, seed: int = 0, extra: float = 0.0) -> vf.IndentationRecord:
+def creep(
+    kelvin: float = KELVIN, noise: float = NOISE, seed: int = 0, extra: float = 0.0
+) -> vf.friction.IndentationRecord:
     J = RUBBER.at(kelvin).creep_compliance(TIME)
     depth = ((PLANE_STRAIN * J + extra) * 2.0 / KAPPA) ** (2.0 / 3.0)
     depth *= 1.0 + noise * np.random.default_rng(seed).standard_normal(len(TIME))
-    return vf.IndentationRecord(TIME, np.full(len(TIME), 2.0), depth, kelvin, control="load", start=0.0)
+    return vf.friction.IndentationRecord(TIME, np.full(len(TIME), 2.0), depth, kelvin, control="load", start=0.0)
 
 
-def relaxation(noise: float = NOISE) -> vf.IndentationRecord:
+def relaxation(noise: float = NOISE) -> vf.friction.IndentationRecord:
     load = KAPPA / PLANE_STRAIN * RUBBER.at(KELVIN).relaxation_modulus(TIME) * 1e-6
     load *= 1.0 + noise * np.random.default_rng(5).standard_normal(len(TIME))
-    return vf.IndentationRecord(TIME, load, np.full(len(TIME), 1e-4), KELVIN, control="indentation", start=0.0)
+    return vf.friction.IndentationRecord(TIME, load, np.full(len(TIME), 1e-4), KELVIN, control="indentation", start=0.0)
 
 
-def contact_of(record: vf.IndentationRecord) -> Growing:
+def contact_of(record: vf.friction.IndentationRecord) -> Growing:
     reduced = Reduced(BALL, float(record.indentation.max()))
     return growing(usable_rows(record, reduced, len(record)), reduced)
 
@@ -54,14 +56,14 @@ def planted(kelvin: float) -> Trial:
     return Trial(x, np.array(spectrum.tau), 0.0, PLANE_STRAIN, 0.0)
 
 
-def forward(record: vf.IndentationRecord) -> tuple[np.ndarray, np.ndarray]:
+def forward(record: vf.friction.IndentationRecord) -> tuple[np.ndarray, np.ndarray]:
     """Return measured responses, and those of the planted material by the functional of the identification."""
     contact, trial = contact_of(record), planted(record.temperature)
     return contact.response, np.exp(contact.functional(trial.tau)(trial).log_value)
 
 
 @pytest.mark.parametrize("record", [creep(noise=0.0), relaxation(noise=0.0)], ids=["creep", "relaxation"])
-def test_steps_are_those_of_the_closed_form(record: vf.IndentationRecord) -> None:
+def test_steps_are_those_of_the_closed_form(record: vf.friction.IndentationRecord) -> None:
     # Cubics over twentieths of a decade, and the contour with 14 nodes.
     measured, computed = forward(record)
     assert computed == pytest.approx(measured, rel=2e-5)
@@ -72,11 +74,11 @@ def test_ramps_and_holds_agree_with_the_solver_over_time(control: str) -> None:
     time = np.append(np.linspace(0.0, 1.0, 11)[1:], 1.0 + np.geomspace(0.03, 10.0, 12))
     most = 2.0 if control == "load" else 2e-4
     values = np.minimum(time, 1.0) * most
-    history = vf.History([0.0, 1.0, 11.0], **{control: [0.0, most, most]}, temperature=KELVIN)
-    run = vf.solve_transient(RUBBER, BALL, history, times=time, accuracy=1e-3)
+    history = vf.motion.History([0.0, 1.0, 11.0], **{control: [0.0, most, most]}, temperature=KELVIN)
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=time, accuracy=1e-3)
     rows = {"load": run.load, "indentation": run.indentation, control: values}
     rows = {name: np.append(0.0, column) for name, column in rows.items()}
-    record = vf.IndentationRecord(np.append(0.0, time), **rows, temperature=KELVIN, control=control)
+    record = vf.friction.IndentationRecord(np.append(0.0, time), **rows, temperature=KELVIN, control=control)
     measured, computed = forward(record)
     assert computed == pytest.approx(measured, rel=3e-3)  # of X: 1.5 times the accuracy of the depth
 
@@ -139,7 +141,7 @@ def test_known_factors_and_an_elastic_indenter() -> None:
 
 def test_given_errors_that_are_too_small_are_enlarged() -> None:
     exact = creep(noise=0.02)
-    record = vf.IndentationRecord(
+    record = vf.friction.IndentationRecord(
         TIME, exact.load, exact.indentation, KELVIN, control="load", start=0.0, error=1e-3 * exact.indentation
     )
     found = vf.identify_from_indentation(record, BALL, samples=20, modes=16)
@@ -153,7 +155,7 @@ def test_dense_records_are_averaged() -> None:
     random = np.random.default_rng(2)
     depth = (PLANE_STRAIN * J * 2.0 / KAPPA) ** (2.0 / 3.0) * (1.0 + 0.01 * random.standard_normal(2000))
     load = 2.0 * (1.0 + 1e-4 * random.standard_normal(2000))
-    record = vf.IndentationRecord(time, load, depth, KELVIN, control="load", start=0.0, error=0.01 * depth)
+    record = vf.friction.IndentationRecord(time, load, depth, KELVIN, control="load", start=0.0, error=0.01 * depth)
     contact = contact_of(record)
     assert len(contact) < 20 * 3.4
     assert contact.count.sum() == 2000
@@ -170,7 +172,7 @@ def test_the_approach_to_the_surface_is_left_out() -> None:
         np.append(np.zeros(50), (PLANE_STRAIN * J * 2.0 / KAPPA) ** (2 / 3)),
     )
     load, depth = load + 2e-3 * random.standard_normal(1050), depth + 1e-6 * random.standard_normal(1050)
-    record = vf.IndentationRecord(time, load, depth, KELVIN, control="load")
+    record = vf.friction.IndentationRecord(time, load, depth, KELVIN, control="load")
     contact = contact_of(record)
     assert (contact.count.sum(), contact.rows.unclear) == (1000, 0)
     # The step was put on between two rows, within 10 ms: 5 ms of 40, or 0.2 % of J after a second.
@@ -181,7 +183,7 @@ def test_the_approach_to_the_surface_is_left_out() -> None:
 
 def test_responses_of_no_more_than_scatter_are_refused() -> None:
     depth = 1e-6 * np.random.default_rng(1).standard_normal(40)
-    record = vf.IndentationRecord(TIME, np.full(40, 2.0), depth, KELVIN, control="load", start=0.0, error=1e-5)
+    record = vf.friction.IndentationRecord(TIME, np.full(40, 2.0), depth, KELVIN, control="load", start=0.0, error=1e-5)
     with pytest.raises(InputError) as caught:
         vf.identify_from_indentation(record, BALL)
     assert caught.value.code == "no-clear-response"
@@ -201,7 +203,7 @@ def test_responses_of_no_more_than_scatter_are_refused() -> None:
 def test_records_that_cannot_be(change: dict, code: str) -> None:
     given = {"time": np.arange(5.0), "load": np.ones(5), "indentation": np.full(5, 1e-4), "temperature": KELVIN}
     with pytest.raises(InputError) as caught:
-        vf.IndentationRecord(**(given | {"control": "load"} | change))
+        vf.friction.IndentationRecord(**(given | {"control": "load"} | change))
     assert caught.value.code == code
 
 
@@ -215,14 +217,14 @@ def test_tables_of_indentation_tests(tmp_path) -> None:
     path = tmp_path / "test.csv"
     rows = "".join(f"{n},{2},{100 + n},{23 + 0.01 * n}\n" for n in range(6))
     path.write_text("time (s),load (N),depth (um),temperature (degC)\n" + rows, encoding="utf-8")
-    record = vf.read_indentation(path, control="load", error="0.1 um")
+    record = vf.friction.read_indentation(path, control="load", error="0.1 um")
     assert record.indentation == pytest.approx(1e-6 * (100.0 + np.arange(6)))
     assert record.temperature == pytest.approx(296.175)
     assert record.error == pytest.approx(np.full(6, 1e-7))
     with pytest.raises(InputError) as twice:
-        vf.read_indentation(path, control="load", temperature="23 degC")
+        vf.friction.read_indentation(path, control="load", temperature="23 degC")
     assert twice.value.code == "give-one"
     path.write_text("time (s),load (N)\n0,1\n1,1\n", encoding="utf-8")
     with pytest.raises(DataFileError) as missing:
-        vf.read_indentation(path, control="load", temperature="23 degC")
+        vf.friction.read_indentation(path, control="load", temperature="23 degC")
     assert missing.value.code == "missing-columns"

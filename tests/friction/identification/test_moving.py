@@ -40,27 +40,29 @@ def planted(kelvin: float) -> Trial:
 
 
 @functools.cache
-def shrinking(control: str) -> vf.IndentationRecord:
+def shrinking(control: str) -> vf.friction.IndentationRecord:
     """Return a ramp, a hold and an unloading, solved over time."""
     time = np.concatenate([np.linspace(0.1, 1.0, 7), 1.0 + np.geomspace(0.05, 9.0, 9), 10.0 + np.linspace(0.1, 0.5, 5)])
     most = {"load": 2.0, "indentation": 2e-4}[control]
     knots, values = [0.0, 1.0, 10.0, 11.0], [0.0, most, most, 0.0]
-    history = vf.History(knots, **{control: values}, temperature=KELVIN)
-    run = vf.solve_transient(RUBBER, BALL, history, times=time, accuracy=1e-3)
+    history = vf.motion.History(knots, **{control: values}, temperature=KELVIN)
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=time, accuracy=1e-3)
     rows = {"load": run.load, "indentation": run.indentation, control: np.interp(time, knots, values)}
     rows = {name: np.append(0.0, one) for name, one in rows.items()}
-    return vf.IndentationRecord(np.append(0.0, time), **rows, temperature=KELVIN, control=control, error=1e-9)
+    return vf.friction.IndentationRecord(np.append(0.0, time), **rows, temperature=KELVIN, control=control, error=1e-9)
 
 
 @functools.cache
-def rebounds(kelvin: float = KELVIN, speeds: tuple[float, ...] = (0.4, 1.6)) -> vf.ReboundRecord:
-    hits = [vf.solve_impact(RUBBER, BALL, mass=0.033, speed=v, temperature=kelvin, accuracy=1e-3) for v in speeds]
+def rebounds(kelvin: float = KELVIN, speeds: tuple[float, ...] = (0.4, 1.6)) -> vf.friction.ReboundRecord:
+    hits = [
+        vf.motion.solve_impact(RUBBER, BALL, mass=0.033, speed=v, temperature=kelvin, accuracy=1e-3) for v in speeds
+    ]
     columns = {
         "restitution": "restitution", "contact_time": "contact_time", "peak_force": "peak_force",
         "indentation": "largest_indentation",
     }  # fmt: skip
     values = {name: [getattr(hit, own) for hit in hits] for name, own in columns.items()}
-    return vf.ReboundRecord(speeds, kelvin, mass=0.033, error=0.01, **values)
+    return vf.friction.ReboundRecord(speeds, kelvin, mass=0.033, error=0.01, **values)
 
 
 MADE = {
@@ -118,7 +120,7 @@ def test_nearby_materials_are_those_solved_again() -> None:
         # A change of all moduli by one factor is exact, up to the derivative: a spring in or out is 2 % of the load.
         # Second order remains of any other: a tenth, squared.
         for there, allowed in ((harder, 0.02 * 0.5), (other, 1e-2)):
-            if record.__class__ is vf.ReboundRecord and there is harder:
+            if record.__class__ is vf.friction.ReboundRecord and there is harder:
                 continue  # contact times change, and with them what of the spectrum counts
             assert near(there).log_value == pytest.approx(contact.answer(there).log_value, abs=allowed)
 
@@ -137,8 +139,8 @@ def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> Non
     at_first = contact.functional(trial.tau)(trial).log_value - measured
     # To first order in 1 %, by springs to their error.
     assert found[:, 0] == pytest.approx(moved - at_first, abs=1e-3)
-    if isinstance(record, vf.IndentationRecord):
-        other = vf.IndentationRecord(
+    if isinstance(record, vf.friction.IndentationRecord):
+        other = vf.friction.IndentationRecord(
             record.time, record.load * (1.0 + SHARED.gain), record.indentation, record.temperature,
             control=record.control, start=record.start, error=record.error,
         )  # fmt: skip
@@ -146,7 +148,7 @@ def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> Non
         moved = away.functional(trial.tau)(trial).log_value - np.log(away.response)
         assert found[:, 1] == pytest.approx(moved - at_first, abs=2e-3)
         deeper = np.where(record.indentation > 0.0, record.indentation + SHARED.zero, record.indentation)
-        other = vf.IndentationRecord(
+        other = vf.friction.IndentationRecord(
             record.time, record.load, deeper, record.temperature, control=record.control, start=record.start,
             error=record.error,
         )  # fmt: skip
@@ -169,8 +171,8 @@ def test_stiffness_of_small_oscillations_is_that_of_the_contact_radius() -> None
     phase = 2.0 * np.pi * np.arange(0, 3 * 32 + 1) / 32
     time = np.concatenate([[0.0, 0.01], 100.0 + phase / omega])
     values = np.concatenate([[0.0, depth], depth * (1.0 + part * np.sin(phase))])
-    history = vf.History(time, indentation=values, temperature=KELVIN)
-    run = vf.solve_transient(RUBBER, BALL, history, times=time[-33:], accuracy=1e-3)
+    history = vf.motion.History(time, indentation=values, temperature=KELVIN)
+    run = vf.motion.solve_transient(RUBBER, BALL, history, times=time[-33:], accuracy=1e-3)
     turned = np.exp(-1j * phase[-33:])
     stiffness = np.trapezoid(run.load * turned) / np.trapezoid(values[-33:] * turned)
     expected = 2.0 * np.sqrt(BALL.radius * depth) * RUBBER.complex_modulus(omega, KELVIN) / PLANE_STRAIN
@@ -183,7 +185,7 @@ def test_stiffness_gives_the_modulus() -> None:
     omega = 2.0 * np.pi * np.geomspace(0.1, 10.0, 9)
     E = RUBBER.complex_modulus(omega, KELVIN)
     K = 2.0 * np.sqrt(0.01 * 1e-4) / PLANE_STRAIN * E
-    record = vf.OscillationRecord(
+    record = vf.friction.OscillationRecord(
         omega, K.real, K.imag, KELVIN, indentation="100 um", amplitude="2 um", error=0.01, source="synthetic"
     )
     found = vf.identify_from_indentation(record, BALL, samples=20, modes=8, radius_error=0.02, load_error=0.01)
@@ -203,7 +205,7 @@ def test_planted_modulus_comes_back_from_rebounds_and_unloading() -> None:
     away = found.material.complex_modulus(omega) / RUBBER.complex_modulus(omega, KELVIN) - 1.0
     assert np.abs(away).max() < 0.03  # errors of 1 %, without noise
     assert codes(found.notes) == set()
-    unloading = vf.IndentationRecord(**{
+    unloading = vf.friction.IndentationRecord(**{
         name: getattr(shrinking("load"), name) for name in ("time", "load", "indentation", "temperature", "control")
     })  # fmt: skip
     found = vf.identify_from_indentation(unloading, BALL, samples=20, modes=16)
@@ -213,12 +215,14 @@ def test_planted_modulus_comes_back_from_rebounds_and_unloading() -> None:
 
 
 def test_restitution_alone_needs_an_anchor() -> None:
-    record = vf.ReboundRecord([0.4, 1.6], KELVIN, mass=0.033, error=0.01, restitution=rebounds().restitution)
+    record = vf.friction.ReboundRecord([0.4, 1.6], KELVIN, mass=0.033, error=0.01, restitution=rebounds().restitution)
     with pytest.raises(InputError) as caught:
         vf.identify_from_indentation(record, BALL)
     assert caught.value.code == "level-unknown"
     E = abs(RUBBER.complex_modulus(100.0, KELVIN))
-    found = vf.identify_from_indentation([record, vf.ModulusAnchor(E, 100.0, KELVIN)], BALL, samples=20, modes=12)
+    found = vf.identify_from_indentation(
+        [record, vf.friction.ModulusAnchor(E, 100.0, KELVIN)], BALL, samples=20, modes=12
+    )
     assert abs(found.material.complex_modulus(100.0)) == pytest.approx(E, rel=0.03)
     assert [one.quantity for one in found.records] == ["restitution", "magnitude_modulus"]
 
@@ -228,7 +232,7 @@ def test_almost_a_single_retardation_time_has_a_note() -> None:
     time = np.geomspace(0.01, 100.0, 40)
     depth = (0.75 * solid.at().creep_compliance(time) * 2.0 * 0.75 / 0.1) ** (2.0 / 3.0)
     depth *= 1.0 + 1e-3 * np.random.default_rng(1).standard_normal(40)
-    record = vf.IndentationRecord(time, np.full(40, 2.0), depth, 300.0, control="load", start=0.0)
+    record = vf.friction.IndentationRecord(time, np.full(40, 2.0), depth, 300.0, control="load", start=0.0)
     found = vf.identify_from_indentation(record, BALL, samples=20, modes=16)
     assert "narrow-spectrum" in codes(found.notes)
     assert found.identified_loss.decades == 0.0
@@ -248,27 +252,27 @@ def test_almost_a_single_retardation_time_has_a_note() -> None:
 def test_rebounds_that_cannot_be(change: dict, code: str) -> None:
     given = {"speed": [1.0, 2.0], "temperature": 300.0, "mass": 0.03, "restitution": [0.6, 0.5], "error": 0.01}
     with pytest.raises(InputError) as caught:
-        vf.ReboundRecord(**(given | change))
+        vf.friction.ReboundRecord(**(given | change))
     assert caught.value.code == code
 
 
 def test_large_oscillations_are_no_stiffness() -> None:
     with pytest.raises(InputError) as caught:
-        vf.OscillationRecord([1.0], [1e4], [1e3], 300.0, indentation=1e-4, amplitude=4e-6, error=0.01)
+        vf.friction.OscillationRecord([1.0], [1e4], [1e3], 300.0, indentation=1e-4, amplitude=4e-6, error=0.01)
     assert caught.value.code == "out-of-range"
 
 
 def test_tables_of_rebounds_and_oscillations(tmp_path) -> None:
     path = tmp_path / "rebound.csv"
     path.write_text("speed (m/s),restitution (1),temperature (degC)\n1,0.6,20\n2,0.5,20.1\n1,0.7,40\n")
-    cold, warm = vf.read_rebound(path, mass="33 g", error=0.01)
+    cold, warm = vf.friction.read_rebound(path, mass="33 g", error=0.01)
     assert (len(cold), len(warm)) == (2, 1)
     assert warm.temperature == pytest.approx(313.15)
     assert cold.to_dataset()["restitution"].values.tolist() == [0.6, 0.5]
     path.write_text("frequency (Hz),storage stiffness (N/mm),loss stiffness (N/mm)\n1,10,1\n")
-    (one,) = vf.read_oscillation(path, indentation=1e-4, amplitude=1e-6, error=0.01, temperature=300.0)
+    (one,) = vf.friction.read_oscillation(path, indentation=1e-4, amplitude=1e-6, error=0.01, temperature=300.0)
     assert (one.angular_frequency[0], one.storage_stiffness[0]) == pytest.approx((2.0 * np.pi, 1e4))
     assert one.to_dataset().attrs["loss_stiffness_error"] == 0.01
     with pytest.raises(vf.DataFileError) as caught:
-        vf.read_rebound(path, mass="33 g", error=0.01, temperature=300.0)
+        vf.friction.read_rebound(path, mass="33 g", error=0.01, temperature=300.0)
     assert caught.value.code == "missing-columns"

@@ -193,7 +193,7 @@ def test_speed_zero_and_other_impossible_cases_fail_alone() -> None:
 
 
 VERTICAL = replace(
-    SLS, vertical_shift=vf.VerticalShiftFactors([283.15, 303.15, 343.15], [-0.05, 0.0, 0.08], reference=303.15)
+    SLS, vertical_shift=vf.rheology.VerticalShiftFactors([283.15, 303.15, 343.15], [-0.05, 0.0, 0.08], reference=303.15)
 )
 
 

@@ -17,8 +17,8 @@ import xarray
 
 from refusals import refused
 from study.running.kills import STUDY
+from viscofric import open_results, run_study
 from viscofric.errors import DataFileError
-from viscofric.study import open_results, run_study
 from viscofric.study.running.folder import check_results
 
 if TYPE_CHECKING:

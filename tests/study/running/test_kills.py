@@ -9,7 +9,7 @@ import pytest
 import xarray
 
 from study.running.kills import STUDY, Runs, killed_and_resumed
-from viscofric.study import open_results
+from viscofric import open_results
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -69,7 +69,7 @@ class Backend(Shown):
     Examples
     --------
     >>> import viscofric as vf
-    >>> vf.Backend("scipy", threads=2)
+    >>> vf.contact.Backend("scipy", threads=2)
     Backend(name: scipy; threads: 2)
     """
 

@@ -63,7 +63,7 @@ def stress_layer(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, depth: float, 
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
-    >>> stress = vf.stress_layer(contact.x, contact.y, contact.pressure, 1e-4, poisson_ratio=0.5)
+    >>> stress = vf.contact.stress_layer(contact.x, contact.y, contact.pressure, 1e-4, poisson_ratio=0.5)
     >>> stress.von_mises.shape == contact.pressure.shape
     True
     """
@@ -118,7 +118,7 @@ def stress_plane(
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
-    >>> stress = vf.stress_plane(contact.x, contact.y, contact.pressure, [1e-4, 5e-4], poisson_ratio=0.5)
+    >>> stress = vf.contact.stress_plane(contact.x, contact.y, contact.pressure, [1e-4, 5e-4], poisson_ratio=0.5)
     >>> stress.von_mises.shape == (2, len(contact.x)) or stress.von_mises.shape == (len(contact.x), 2)
     True
     """
@@ -165,7 +165,7 @@ def line_stress(x: ArrayLike, pressure: ArrayLike, depths: ArrayLike, poisson_ra
     >>> import numpy as np
     >>> import viscofric as vf
     >>> x = np.linspace(-0.995e-3, 0.995e-3, 200)  # m
-    >>> stress = vf.line_stress(x, 1e6 * np.sqrt(1.0 - (x / 1e-3) ** 2), [0.78e-3], 0.5)  # Hertz's pressure
+    >>> stress = vf.contact.line_stress(x, 1e6 * np.sqrt(1.0 - (x / 1e-3) ** 2), [0.78e-3], 0.5)  # Hertz's pressure
     >>> f"{stress.max_shear.max() / 1e6:.2f}"  # of the peak pressure, 0.78 half-widths deep (K. L. Johnson, 1985)
     '0.30'
     """
@@ -203,7 +203,7 @@ def stress_at(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, points: ArrayLike
     >>> import numpy as np
     >>> import viscofric as vf
     >>> x = y = np.array([0.0])  # one cell
-    >>> stress = vf.stress_at([0.0, 1e-3], [0.0, 1e-3], np.full((2, 2), 1e6), [[0.5e-3, 0.5e-3, 10e-3]], 0.5)
+    >>> stress = vf.contact.stress_at([0.0, 1e-3], [0.0, 1e-3], np.full((2, 2), 1e6), [[0.5e-3, 0.5e-3, 10e-3]], 0.5)
     >>> f"{-stress.zz[0]:.0f} Pa"  # 4 N, 10 mm below: nearly 3P/2πz² (Boussinesq), 19100 Pa
     '18785 Pa'
     """

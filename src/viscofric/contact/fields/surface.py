@@ -126,7 +126,7 @@ def surface_displacement(
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
     >>> modes = rubber.spectrum
-    >>> trail = vf.surface_displacement(
+    >>> trail = vf.contact.surface_displacement(
     ...     contact.x,
     ...     contact.y,
     ...     contact.pressure,
@@ -288,7 +288,7 @@ def surface_power(x: ArrayLike, pressure: ArrayLike, displacement: ArrayLike, sp
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
-    >>> power = vf.surface_power(contact.x, contact.pressure, contact.displacement, speed=1.0)  # W/m²
+    >>> power = vf.contact.surface_power(contact.x, contact.pressure, contact.displacement, speed=1.0)  # W/m²
     >>> cell = (contact.x[1] - contact.x[0]) * (contact.y[1] - contact.y[0])
     >>> bool(abs(power.sum() * cell / (contact.friction_coefficient * 1.0) - 1.0) < 0.02)  # μ F v, 1 N at 1 m/s
     True

@@ -134,7 +134,7 @@ def solve_periodic(
     >>> import numpy as np
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
-    >>> wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
+    >>> wave = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
     >>> solution = vf.solve_periodic(rubber, wave, speed="0.2 m/s", pressure="100 kPa")
     >>> solution.diagnostics.full_contact, round(solution.friction_coefficient, 7)
     (True, 0.0001465)

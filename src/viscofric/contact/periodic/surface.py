@@ -63,7 +63,7 @@ class PeriodicSurface(Shown):
     --------
     >>> import numpy as np
     >>> import viscofric as vf
-    >>> wave = vf.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
+    >>> wave = vf.contact.PeriodicSurface(1e-6 * np.cos(2.0 * np.pi * np.arange(64) / 64), spacing=1e-3 / 64)
     >>> wave.z.shape
     (64, 1)
     """

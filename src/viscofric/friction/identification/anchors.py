@@ -66,7 +66,7 @@ class ModulusAnchor(Shown):
     Examples
     --------
     >>> import viscofric as vf
-    >>> anchor = vf.ModulusAnchor("8 MPa", "1 Hz", "30 degC", error=0.02)
+    >>> anchor = vf.friction.ModulusAnchor("8 MPa", "1 Hz", "30 degC", error=0.02)
     >>> f"{anchor.angular_frequency:.3f} rad/s"
     '6.283 rad/s'
     """
@@ -122,7 +122,7 @@ class ContactAnchor(Shown):
     Examples
     --------
     >>> import viscofric as vf
-    >>> seen = vf.ContactAnchor("20 mm/s", "60 degC", "25 N", half_width="2.4 mm", error=0.02)
+    >>> seen = vf.friction.ContactAnchor("20 mm/s", "60 degC", "25 N", half_width="2.4 mm", error=0.02)
     """
 
     speed: Quantity

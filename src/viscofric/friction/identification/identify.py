@@ -150,7 +150,7 @@ def identify_material(
     ...     np.zeros(6),
     ...     np.ones(6, int),
     ... )
-    >>> anchor = vf.ModulusAnchor("3 MPa", "60 rad/s", temperature=300.0)
+    >>> anchor = vf.friction.ModulusAnchor("3 MPa", "60 rad/s", temperature=300.0)
     >>> found = vf.identify_material(curves, indenter=ball, anchor=anchor, accuracy=3e-2, samples=20)
     >>> found.anchored
     True

@@ -270,7 +270,7 @@ def shear_stress(
     >>> rubbed = {"coulomb": np.array([0.20, 0.21, 0.22]), "coulomb_error": np.full(3, 2e-3)}  # made up
     >>> solved = {"mean_pressure": np.full(3, 1e6), "mean_pressure_error": np.full(3, 1e3)}
     >>> measured, contacts = vf.FrictionCurves(**columns, **rubbed), vf.FrictionCurves(**columns, **solved)
-    >>> stress = vf.shear_stress(measured, contacts)
+    >>> stress = vf.friction.shear_stress(measured, contacts)
     >>> print(stress.law("power"))
     power of speed: τ = 0.2098 ± 0.0012 MPa, n = 0.0413 ± 0.0059, v₀ = 62.14 mm/s
     """

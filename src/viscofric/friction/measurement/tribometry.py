@@ -138,7 +138,7 @@ def separate(
     Examples
     --------
     >>> import numpy as np, viscofric as vf
-    >>> runs = vf.TractionRuns(
+    >>> runs = vf.readers.TractionRuns(
     ...     disc_speed=np.array([-0.1, -0.1, 0.1, 0.1]),
     ...     ball_speed=np.array([-0.15, -0.05, 0.15, 0.05]),
     ...     traction_force=np.array([0.6, -1.4, -0.4, 1.6]),

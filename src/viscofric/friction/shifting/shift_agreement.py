@@ -173,7 +173,7 @@ def compare_shift_factors(
     >>> law = vf.WLF(C1=9.0, C2=100.0, reference=303.15)
     >>> kelvin = [303.15, 313.15, 323.15]
     >>> found = vf.ShiftFactors(kelvin, law.log10(kelvin), 303.15, [[0, 0, 0], [0, 1e-4, 1e-4], [0, 1e-4, 4e-4]])
-    >>> agreement = vf.compare_shift_factors(found, law)
+    >>> agreement = vf.friction.compare_shift_factors(found, law)
     >>> round(agreement.p_value, 3), round(agreement.slope, 3), round(agreement.slope_error, 3)
     (1.0, 1.0, 0.011)
     """

@@ -116,10 +116,10 @@ def plot_friction_master_curve(
         `plot_friction_curves`.
     measurement : FrictionMasterCurve or xarray.Dataset, optional
         Points with bars of one standard deviation; without a prediction also the smooth line through a
-        `viscofric.FrictionMasterCurve`, with the 95 % band that the points' errors leave.  A dataset has
+        `viscofric.friction.FrictionMasterCurve`, with the 95 % band that the points' errors leave.  A dataset has
         `reduced_speed`, `temperature`, `viscoelastic` and `viscoelastic_scatter` along `point`.
     reference_temperature : float, optional
-        K, for the label; that of a `viscofric.FrictionMasterCurve` if not given.
+        K, for the label; that of a `viscofric.friction.FrictionMasterCurve` if not given.
     synthetic : bool
         Whether to call the points synthetic instead of measured.
 

@@ -88,7 +88,7 @@ def plot_amplitude_sweep(axes: Axes, fit: PayneFit) -> None:
     ----------
     axes : matplotlib.axes.Axes
     fit : PayneFit
-        From `viscofric.fit_kraus`.
+        From `viscofric.rheology.fit_kraus`.
     """
     insist_on(fit, "fit", PayneFit)
     sweep = fit.sweep

@@ -283,7 +283,7 @@ def open_card(
     >>> import viscofric as vf
     >>> rubber = vf.catalogue_material("PVB interlayer")
     >>> path = vf.write_card(rubber, "rubber.inp", format="abaqus", poisson_ratio=0.49)
-    >>> card = vf.open_card(path)
+    >>> card = vf.rheology.open_card(path)
     >>> card.format
     'an Abaqus card'
     """

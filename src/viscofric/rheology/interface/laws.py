@@ -31,7 +31,7 @@ class ConstantShearStress(InterfaceLaw):
     Examples
     --------
     >>> import viscofric as vf
-    >>> round(vf.ConstantShearStress("0.4 MPa")("1 mm/s"))
+    >>> round(vf.friction.ConstantShearStress("0.4 MPa")("1 mm/s"))
     400000
     """
 
@@ -71,7 +71,7 @@ class PowerShearStress(InterfaceLaw):
     Examples
     --------
     >>> import viscofric as vf
-    >>> round(vf.PowerShearStress("0.4 MPa", 0.5, "1 mm/s")("100 mm/s"))
+    >>> round(vf.friction.PowerShearStress("0.4 MPa", 0.5, "1 mm/s")("100 mm/s"))
     4000000
     """
 
@@ -119,7 +119,7 @@ class EyringShearStress(InterfaceLaw):
     Examples
     --------
     >>> import viscofric as vf
-    >>> law = vf.EyringShearStress("20 nm**3", "1 um/s", shift=vf.Arrhenius("90 kJ/mol", reference="20 degC"))
+    >>> law = vf.friction.EyringShearStress("20 nm**3", "1 um/s", shift=vf.Arrhenius("90 kJ/mol", reference="20 degC"))
     >>> round(1e-6 * law("1 mm/s", "20 degC"), 3)
     1.538
     """
@@ -181,7 +181,9 @@ class GaussianShearStress(InterfaceLaw):
     Examples
     --------
     >>> import viscofric as vf
-    >>> law = vf.GaussianShearStress("6 MPa", "6 mm/s", 2.0, shift=vf.Arrhenius("90 kJ/mol", reference="20 degC"))
+    >>> law = vf.friction.GaussianShearStress(
+    ...     "6 MPa", "6 mm/s", 2.0, shift=vf.Arrhenius("90 kJ/mol", reference="20 degC")
+    ... )
     >>> round(1e-6 * law("600 mm/s", "20 degC"), 3)
     3.639
     """

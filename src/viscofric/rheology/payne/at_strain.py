@@ -50,7 +50,7 @@ def contact_strain(slope: float) -> float:
     Examples
     --------
     >>> import viscofric as vf
-    >>> vf.contact_strain(0.25)
+    >>> vf.rheology.contact_strain(0.25)
     0.05
     """
     if not (value := number(slope, "slope")) >= 0.0:
@@ -96,8 +96,8 @@ def material_at_strain(
     Examples
     --------
     >>> import viscofric as vf
-    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
-    >>> soft = vf.material_at_strain(vf.synthetic_fluoroelastomer(), law, strain=0.05)
+    >>> law = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
+    >>> soft = vf.rheology.material_at_strain(vf.synthetic_fluoroelastomer(), law, strain=0.05)
     >>> before = vf.synthetic_fluoroelastomer().complex_modulus(62.8, 333.15)
     >>> ratio = soft.complex_modulus(62.8, 333.15).real / before.real
     >>> wanted = law.complex_modulus(law.tensile_strain(0.05)).real / law.complex_modulus(0.0).real

@@ -70,7 +70,7 @@ class KrausLaw(Plotted):
     Examples
     --------
     >>> import viscofric as vf
-    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
+    >>> law = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")
     >>> law.complex_modulus(0.02).round()
     np.complex128(3750000+900000j)
     """

@@ -174,10 +174,10 @@ def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
     --------
     >>> import numpy as np
     >>> import viscofric as vf
-    >>> law = vf.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
+    >>> law = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "shear")  # synthetic
     >>> strain = np.geomspace(1e-4, 0.5, 30)
     >>> G = law.complex_modulus(strain)
-    >>> fit = vf.fit_kraus(vf.AmplitudeSweep(strain, G.real, G.imag, "10 Hz", "60 degC", "shear"))
+    >>> fit = vf.rheology.fit_kraus(vf.readers.AmplitudeSweep(strain, G.real, G.imag, "10 Hz", "60 degC", "shear"))
     >>> f"{fit.law.critical_strain:.4f}, {fit.law.exponent:.3f}"
     '0.0200, 0.600'
     """

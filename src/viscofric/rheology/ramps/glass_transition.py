@@ -120,8 +120,8 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     >>> kelvin = np.arange(253.0, 323.0, 2.0)
     >>> rubber = vf.synthetic_fluoroelastomer()
     >>> modulus = rubber.spectrum.complex_modulus(2 * np.pi * 1.0 * rubber.shift(kelvin))  # at 1 Hz
-    >>> ramp = vf.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
-    >>> print(vf.glass_transition(ramp, "loss modulus"))
+    >>> ramp = vf.readers.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
+    >>> print(vf.rheology.glass_transition(ramp, "loss modulus"))
     loss modulus at 1 Hz: −12.9 ± 0.14 °C
     """
     insist_on(ramp, "ramp", TemperatureRamp)

@@ -107,8 +107,8 @@ def superpose_ramps(
     >>> rubber = vf.synthetic_fluoroelastomer()
     >>> omega = {hertz: 2 * np.pi * hertz * rubber.shift(kelvin) for hertz in (1.0, 10.0)}  # reduced
     >>> moduli = {hertz: rubber.spectrum.complex_modulus(omega[hertz]) for hertz in omega}  # synthetic
-    >>> found = vf.TemperatureRamps(
-    ...     tuple(vf.TemperatureRamp(f"{hertz} Hz", kelvin, E.real, E.imag) for hertz, E in moduli.items())
+    >>> found = vf.readers.TemperatureRamps(
+    ...     tuple(vf.readers.TemperatureRamp(f"{hertz} Hz", kelvin, E.real, E.imag) for hertz, E in moduli.items())
     ... )
     >>> fit = vf.superpose_ramps(found, "30 degC")
     >>> truth = rubber.shift.at_reference("30 degC")

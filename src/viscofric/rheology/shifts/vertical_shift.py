@@ -97,7 +97,7 @@ class DensityShift(VerticalShift):
     Examples
     --------
     >>> import viscofric as vf
-    >>> round(float(vf.DensityShift(303.15)(333.15)), 4)  # ρT/ρ₀T₀
+    >>> round(float(vf.rheology.DensityShift(303.15)(333.15)), 4)  # ρT/ρ₀T₀
     1.0774
     """
 
@@ -164,7 +164,7 @@ class VerticalShiftFactors(VerticalShift):
     Examples
     --------
     >>> import viscofric as vf
-    >>> b = vf.VerticalShiftFactors(["30 degC", "60 degC"], [0.0, 0.04], "30 degC")
+    >>> b = vf.rheology.VerticalShiftFactors(["30 degC", "60 degC"], [0.0, 0.04], "30 degC")
     >>> round(float(b("60 degC")), 4)
     1.0965
     """

@@ -70,7 +70,7 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
     Examples
     --------
     >>> import viscofric as vf
-    >>> table = vf.ModulusTable([0.1, 1.0, 10.0], [3.0e6, 3.4e6, 4.0e6], [0.30e6, 0.41e6, 0.62e6])
+    >>> table = vf.rheology.ModulusTable([0.1, 1.0, 10.0], [3.0e6, 3.4e6, 4.0e6], [0.30e6, 0.41e6, 0.62e6])
     >>> complex(table.complex_modulus(1.0).round(3))
     (3400000+410000j)
     """

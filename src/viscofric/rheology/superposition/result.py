@@ -169,7 +169,7 @@ def check_superposition(fit: Superposition | StepSuperposition) -> Superposition
     >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
     >>> sweeps = vf.read_dma(path, deformation="tension")
     >>> fit = vf.superpose(sweeps, reference="30 degC")
-    >>> vf.check_superposition(fit).holds
+    >>> vf.rheology.check_superposition(fit).holds
     True
     """
     insist_on(fit, "fit", Superposition, StepSuperposition, right="what superpose(…) returned")

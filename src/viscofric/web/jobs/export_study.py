@@ -16,7 +16,7 @@ from viscofric.web.study_text import study_of
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from viscofric.study import StudyResults
+    from viscofric.study.results.results import StudyResults
     from viscofric.study.running.running import Event
     from viscofric.web.jobs.context import Context
 
@@ -63,7 +63,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """
     from viscofric.report import write_figures_and_report
     from viscofric.report.texts.study import grouped_failures
-    from viscofric.study import run_study
+    from viscofric.study.execution import run_study
 
     text, checked = study_of(study, context.files)
     folder = context.cache / "study"

@@ -107,7 +107,7 @@ def _of_curves(table: MeasurementTable, path: Path, folders: Folders) -> Measure
 
 
 def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
-    from viscofric.readers import read_mtm
+    from viscofric.readers.mtm.read import read_mtm
     from viscofric.report.texts.friction import runs_lines
 
     runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)

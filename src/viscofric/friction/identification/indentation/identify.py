@@ -140,7 +140,7 @@ def identify_from_indentation(
     >>> J = rubber.at("30 degC").creep_compliance(time)
     >>> scatter = 1.0 + 0.005 * np.random.default_rng(1).standard_normal(60)
     >>> depth = (0.75 * 0.75 / np.sqrt(0.01) * J * 2.0) ** (2 / 3) * scatter  # 2 N, R = 10 mm
-    >>> creep = vf.IndentationRecord(time, np.full(60, 2.0), depth, "30 degC", control="load", start=0.0)
+    >>> creep = vf.friction.IndentationRecord(time, np.full(60, 2.0), depth, "30 degC", control="load", start=0.0)
     >>> found = vf.identify_from_indentation(creep, vf.Ball("10 mm"), samples=20)
     >>> ratio = found.material.complex_modulus(1.0) / rubber.complex_modulus(1.0, "30 degC")
     >>> bool(abs(ratio - 1.0) < 0.05)

@@ -106,7 +106,7 @@ def read_rebound(
     >>> with Path("rebound.csv").open("w") as file:
     ...     for row in ("speed (m/s),restitution (1),contact time (ms)", "1,0.62,2.1", "2,0.58,1.9"):
     ...         print(row, file=file)
-    >>> vf.read_rebound("rebound.csv", mass="33 g", error=0.01, temperature="23 degC")[0]
+    >>> vf.friction.read_rebound("rebound.csv", mass="33 g", error=0.01, temperature="23 degC")[0]
     ReboundRecord
       speed         2 from 1 to 2 m/s
       restitution   2 from 0.58 to 0.62
@@ -169,7 +169,9 @@ def read_oscillation(
     >>> with Path("dma.csv").open("w") as file:
     ...     for row in ("frequency (Hz),storage stiffness (N/m),loss stiffness (N/m)", "1,9e3,1e3", "10,1e4,2e3"):
     ...         print(row, file=file)
-    >>> vf.read_oscillation("dma.csv", indentation="100 um", amplitude="3 um", error=0.01, temperature="23 degC")[0]
+    >>> vf.friction.read_oscillation(
+    ...     "dma.csv", indentation="100 um", amplitude="3 um", error=0.01, temperature="23 degC"
+    ... )[0]
     OscillationRecord
       angular frequency  2 from 6.283 to 62.83 rad/s
       storage stiffness  2 from 9 to 10 kN/m

@@ -75,7 +75,7 @@ class IndentationRecord(Plotted):
     >>> import viscofric as vf
     >>> time = np.geomspace(0.01, 100.0, 40)
     >>> depth = 1e-4 * (1.0 + 0.2 * np.log10(time / 0.01))
-    >>> creep = vf.IndentationRecord(time, np.ones(40), depth, "23 degC", control="load", start=0.0)
+    >>> creep = vf.friction.IndentationRecord(time, np.ones(40), depth, "23 degC", control="load", start=0.0)
     >>> len(creep)
     40
     """
@@ -231,7 +231,7 @@ def read_indentation(
     >>> with Path("creep.csv").open("w") as file:
     ...     for row in ("time (s),load (N),indentation (um)", "1,1,100", "2,1,105", "4,1,110", "8,1,114", "16,1,117"):
     ...         print(row, file=file)
-    >>> vf.read_indentation("creep.csv", control="load", temperature="23 degC", start=0.0)
+    >>> vf.friction.read_indentation("creep.csv", control="load", temperature="23 degC", start=0.0)
     IndentationRecord
       time         5 from 1 to 16 s
       load         5 of 1 N

@@ -75,7 +75,7 @@ class ReboundRecord(Plotted):
     Examples
     --------
     >>> import viscofric as vf
-    >>> rebounds = vf.ReboundRecord(
+    >>> rebounds = vf.friction.ReboundRecord(
     ...     ["1 m/s", "2 m/s"],
     ...     "23 degC",
     ...     mass="33 g",
@@ -205,7 +205,7 @@ class OscillationRecord(Plotted):
     Examples
     --------
     >>> import viscofric as vf
-    >>> record = vf.OscillationRecord(
+    >>> record = vf.friction.OscillationRecord(
     ...     ["1 Hz", "10 Hz"],
     ...     [9e3, 1.1e4],
     ...     [1.1e3, 1.8e3],

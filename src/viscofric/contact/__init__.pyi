@@ -1,0 +1,14 @@
+from viscofric.contact.arrays.backend import Backend as Backend
+from viscofric.contact.derivatives.friction import FrictionDerivatives as FrictionDerivatives
+from viscofric.contact.fields import highest_von_mises as highest_von_mises
+from viscofric.contact.fields import line_stress as line_stress
+from viscofric.contact.fields import stress_at as stress_at
+from viscofric.contact.fields import stress_layer as stress_layer
+from viscofric.contact.fields import stress_plane as stress_plane
+from viscofric.contact.fields import surface_displacement as surface_displacement
+from viscofric.contact.fields import surface_power as surface_power
+from viscofric.contact.periodic.solution import PeriodicDiagnostics as PeriodicDiagnostics
+from viscofric.contact.periodic.solution import PeriodicSolution as PeriodicSolution
+from viscofric.contact.periodic.surface import PeriodicSurface as PeriodicSurface
+from viscofric.contact.solution import ContactSolution as ContactSolution
+from viscofric.contact.solution import Diagnostics as Diagnostics

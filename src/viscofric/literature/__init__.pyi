@@ -1,0 +1,1 @@
+from viscofric.literature.citations import Citations as Citations

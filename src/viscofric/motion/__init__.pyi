@@ -1,0 +1,12 @@
+from viscofric.motion.cycle import solve_cycle as solve_cycle
+from viscofric.motion.cycle_solution import CycleSolution as CycleSolution
+from viscofric.motion.history import History as History
+from viscofric.motion.history_files import read_history as read_history
+from viscofric.motion.impact import restitution_curve as restitution_curve
+from viscofric.motion.impact import solve_impact as solve_impact
+from viscofric.motion.impact_solution import ImpactContact as ImpactContact
+from viscofric.motion.impact_solution import ImpactSolution as ImpactSolution
+from viscofric.motion.impact_solution import RestitutionCurve as RestitutionCurve
+from viscofric.motion.solution import TransientErrors as TransientErrors
+from viscofric.motion.solution import TransientSolution as TransientSolution
+from viscofric.motion.solve import solve_transient as solve_transient

@@ -1,0 +1,9 @@
+from viscofric.amplitudes import AmplitudeSweep as AmplitudeSweep
+from viscofric.data import MasterCurve as MasterCurve
+from viscofric.ramps import TemperatureRamp as TemperatureRamp
+from viscofric.ramps import TemperatureRamps as TemperatureRamps
+from viscofric.step_tests import StepMasterCurve as StepMasterCurve
+from viscofric.step_tests import StepTest as StepTest
+from viscofric.step_tests import StepTests as StepTests
+from viscofric.traction import TractionRuns as TractionRuns
+from viscofric.traction import TractionStep as TractionStep
