@@ -36,7 +36,7 @@ for name, spectrum in spectra.items():
 rubber = vf.Material(spectra["12 modes"], shift=fit.shift_factors, poisson_ratio=0.49, name="example rubber")
 with tempfile.TemporaryDirectory() as folder:
     card = Path(folder) / "rubber.inp"
-    vf.write_card(rubber, card, format="abaqus", unit_system="MPa", law="best")
+    vf.write_card(rubber, card, format="abaqus", modulus_unit="MPa", law="best")
     lines = card.read_text(encoding="utf-8").splitlines()
     again = vf.read_card(card)
 print(*[line for line in lines if line.startswith("*") and not line.startswith("**")], sep="\n")

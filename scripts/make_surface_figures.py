@@ -91,13 +91,15 @@ def main() -> None:
     np.set_printoptions(precision=3, suppress=True)
     for name, theory in theories.items():
         # Interpolated where it was not asked for: 60 speeds in five decades.
-        ratio = np.interp(np.log(speeds), np.log(fine), theory.friction_coefficient[0]) / found.mean_friction[0]
+        ratio = (
+            np.interp(np.log(speeds), np.log(fine), theory.friction_coefficient[0]) / found.mean_friction_coefficient[0]
+        )
         print(f"{name}: friction over that solved {ratio}")
     area = (
         np.interp(np.log(speeds), np.log(fine), next(iter(theories.values())).contact_area_fraction[0])
         / found.mean_area[0]
     )
-    print(f"speeds {speeds}; solved {found.mean_friction[0]}, areas {found.mean_area[0]}")
+    print(f"speeds {speeds}; solved {found.mean_friction_coefficient[0]}, areas {found.mean_area[0]}")
     print(f"area over that solved {area}; stretch {found.stretch.mean(axis=-1)[0]}")
 
 

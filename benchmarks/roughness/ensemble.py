@@ -47,7 +47,8 @@ def main(arguments: list[str] | None = None) -> None:
     print("speed (m/s)   solved   theory  area solved   theory  stretch")
     for place, speed in enumerate(speeds):
         print(
-            f"{speed:11.3g} {found.mean_friction[0, place]:8.4f} {theory.friction_coefficient[0, place]:8.4f} "
+            f"{speed:11.3g} {found.mean_friction_coefficient[0, place]:8.4f} "
+            f"{theory.friction_coefficient[0, place]:8.4f} "
             f"{found.mean_area[0, place]:12.4f} {theory.contact_area_fraction[0, place]:8.4f} "
             f"{found.stretch[0, place].mean():8.3f}"
         )

@@ -41,11 +41,11 @@ def compare(shortest: float, seeds: int) -> list[dict[str, Any]]:
             "slope": slope,
             "speed": speed,
             "area": float(solved.mean_area[0, place]),
-            "friction": float(solved.mean_friction[0, place]),
-            "grid": float(np.mean(solved.friction_error[0, place]) / solved.mean_friction[0, place]),
+            "friction": float(solved.mean_friction_coefficient[0, place]),
+            "grid": float(np.mean(solved.friction_error[0, place]) / solved.mean_friction_coefficient[0, place]),
             "area_ratio": float(half.contact_area_fraction[0, place] / solved.mean_area[0, place]),
-            "half_ratio": float(half.friction_coefficient[0, place] / solved.mean_friction[0, place]),
-            "full_ratio": float(full.friction_coefficient[0, place] / solved.mean_friction[0, place]),
+            "half_ratio": float(half.friction_coefficient[0, place] / solved.mean_friction_coefficient[0, place]),
+            "full_ratio": float(full.friction_coefficient[0, place] / solved.mean_friction_coefficient[0, place]),
         }
         for place, speed in enumerate(SPEEDS)
     ]

@@ -1,21 +1,22 @@
-"""Public names, imported at first use: importing one part does not load the rest.
+"""Public names, imported at first use, so that importing one part does not load the rest; and names of before.
 
 A package's public names are written once, as imports in its stub ``__init__.pyi``, which type checkers read, too.
 """
 
 from __future__ import annotations
 
+import functools
 import importlib
 import sys
 import warnings
 from collections.abc import Callable
-from functools import cache
-from typing import Any
+from typing import Any, TypeVar
 
 FRONT_DOOR = "viscofric"
+_Named = TypeVar("_Named", bound=Callable[..., Any])
 
 
-@cache
+@functools.cache
 def public_names(package: str) -> dict[str, str]:
     """Return ``{name: module}`` of a package's stub; submodules lie in the package itself."""
     module = sys.modules.get(package) or importlib.import_module(package)
@@ -58,3 +59,38 @@ def loaded_when_used(package: str) -> tuple[Callable[[str], Any], Callable[[], l
         return getattr(importlib.import_module(full.rpartition(".")[0]), name)
 
     return fetch, lambda: sorted(names), names
+
+
+def renamed(**names: str) -> Callable[[_Named], _Named]:
+    """Return a decorator, ``old="new"``, for a class whose attributes or a function whose arguments had other names.
+
+    The old names still work, with a warning that says what to write.
+    """
+
+    def decorated(named: Any) -> Any:
+        if isinstance(named, type):
+            for old, new in names.items():
+                setattr(named, old, property(functools.partial(_attribute, old=old, new=new)))
+            return named
+
+        @functools.wraps(named)
+        def call(*arguments: Any, **settings: Any) -> Any:
+            for old, new in names.items():
+                if old not in settings:
+                    continue
+                if new in settings:
+                    raise TypeError(f"{named.__name__}() takes {new}= or its old name {old}=, not both")
+                text = f"viscofric: {old}= of {named.__name__}() is deprecated; write {new}=."
+                warnings.warn(text, DeprecationWarning, stacklevel=2)
+                settings[new] = settings.pop(old)
+            return named(*arguments, **settings)
+
+        return call
+
+    return decorated
+
+
+def _attribute(owner: Any, old: str, new: str) -> Any:
+    text = f"viscofric: {type(owner).__name__}.{old} is deprecated; write {new}."
+    warnings.warn(text, DeprecationWarning, stacklevel=2)
+    return getattr(owner, new)

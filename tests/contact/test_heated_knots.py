@@ -92,4 +92,4 @@ def test_resistances_between_knots_are_those_of_rough_contacts(
     assert each.temperature_rise.max() > 0.5
     assert found.face_rise == pytest.approx(each.face_rise, rel=2e-2)
     assert found.loss_weighted_rise == pytest.approx(each.loss_weighted_rise, rel=3e-2)
-    assert found.mean_friction == pytest.approx(each.mean_friction, rel=5e-3)
+    assert found.mean_friction_coefficient == pytest.approx(each.mean_friction_coefficient, rel=5e-3)

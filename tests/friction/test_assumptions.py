@@ -231,7 +231,7 @@ def test_curves_predicted_with_heating_hold_their_coulomb_friction_and_its_effec
     assert cold.coulomb is None
     included = checks(RUBBER, BALL, hot)["one temperature"]
     assert (included.code, included.holds) == ("warming-included", True)
-    assert included.values["change"] == pytest.approx(abs(hot.viscoelastic[0] / hot.isothermal[0] - 1.0))
+    assert included.values["change"] == pytest.approx(abs(hot.viscoelastic[0] / hot.isothermal_friction[0] - 1.0))
     assert included.values["rise"] == hot.temperature_rise[0]
     rubbed = replace(cold, coulomb=hot.coulomb, slip=hot.slip)
     settings = {"contact_radius": "2.5 mm", "rubber": body}

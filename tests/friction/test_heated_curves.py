@@ -40,20 +40,20 @@ def test_a_curve_has_the_states_of_its_contacts(curves: vf.friction.HeatedFricti
     )
     assert rise > 0.2
     assert curves.viscoelastic[1] == pytest.approx(one.friction_coefficient, rel=1e-12)
-    assert curves.isothermal[1] == cold.friction_coefficient
+    assert curves.isothermal_friction[1] == cold.friction_coefficient
     assert curves.temperature == pytest.approx(300.0)
     assert curves.coulomb_rise + curves.loss_rise == pytest.approx(curves.temperature_rise, rel=1e-2)
 
 
 def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.friction.HeatedFrictionCurves) -> None:
-    assert np.array_equal(curves.cold_viscoelastic, curves.hot_viscoelastic)
-    assert np.array_equal(curves.cold_viscoelastic, curves.viscoelastic)
+    assert np.array_equal(curves.cold_friction, curves.hot_friction)
+    assert np.array_equal(curves.cold_friction, curves.viscoelastic)
     second = curves.select([1])
     assert isinstance(second, vf.friction.HeatedFrictionCurves)
     assert second.face_rise == curves.face_rise[1]
     data = curves.to_dataset()
     assert data.hot_rise.attrs["units"] == "K"
-    assert data.isothermal.dims == data.viscoelastic.dims
+    assert data.isothermal_friction.dims == data.viscoelastic.dims
 
 
 @pytest.mark.parametrize("average", ["contact", "loss"])
@@ -98,7 +98,7 @@ def test_many_speeds_are_interpolated_as_accurately_as_asked(average: Literal["c
     assert not np.array_equal(found.viscoelastic, each.viscoelastic)
     assert np.all(np.abs(found.viscoelastic - each.viscoelastic) <= found.viscoelastic_error + each.viscoelastic_error)
     assert np.all(found.viscoelastic_error <= 1.01e-2 * found.viscoelastic)
-    assert found.isothermal == pytest.approx(each.isothermal, rel=2e-2)
+    assert found.isothermal_friction == pytest.approx(each.isothermal_friction, rel=2e-2)
     assert found.temperature_rise == pytest.approx(each.temperature_rise, rel=1e-2)
     assert found.mean_pressure == pytest.approx(each.mean_pressure, rel=1e-2)
     assert found.temperature == pytest.approx(300.0)
@@ -151,6 +151,6 @@ def test_a_ramp_of_speed_shows_hysteresis() -> None:
     assert isinstance(found, vf.friction.HeatedFrictionCurves)
     hotter = found.hot_rise > found.cold_rise + 1.0
     assert hotter.tolist() == [False, True, True]
-    assert np.all(found.hot_viscoelastic[1:] > 100.0 * found.cold_viscoelastic[1:])
+    assert np.all(found.hot_friction[1:] > 100.0 * found.cold_friction[1:])
     assert np.all(found.track_rise <= found.temperature_rise)
-    assert found.cold_viscoelastic == pytest.approx(found.isothermal, rel=0.05)
+    assert found.cold_friction == pytest.approx(found.isothermal_friction, rel=0.05)

@@ -46,7 +46,7 @@ def shifted_curves(temperatures: Array = TEMPERATURES, noise: float = 0.0, seed:
 def test_shifted_friction_collapses_onto_one_curve() -> None:
     """Eq. 10: every point of μ(v, T) = f(α(T) v) lies on f at its reduced speed, to rounding."""
     master = shift_friction(shifted_curves(), shift=LAW)
-    np.testing.assert_allclose(master.friction, friction(master.reduced_speed), rtol=1e-12)
+    np.testing.assert_allclose(master.friction_coefficient, friction(master.reduced_speed), rtol=1e-12)
     assert np.all(np.diff(master.reduced_speed) > 0)
     assert master.reference == 323.15
     warmest = master.temperature == 329.15

@@ -21,10 +21,11 @@ COLD, HOT = np.array([0.3, 0.2, 0.1]), np.array([0.25, 0.2, 0.1])
 def curves() -> vf.friction.HeatedFrictionCurves:
     rise, none = np.array([20.0, 2.0, 50.0]), np.zeros(3)
     heat = {"temperature_rise": rise, "coulomb_rise": 0.75 * rise, "loss_rise": 0.25 * rise, "track_rise": none}
-    states = {"cold_viscoelastic": COLD, "cold_rise": rise, "hot_viscoelastic": HOT, "hot_rise": rise + 10.0}
+    states = {"cold_friction": COLD, "cold_rise": rise, "hot_friction": HOT, "hot_rise": rise + 10.0}
     return vf.friction.HeatedFrictionCurves(
         SPEED, np.full(3, 303.15), np.full(3, 5.0), COLD, none, none, np.ones(3), source="predicted",
-        isothermal=1.1 * COLD, face_rise=1.001 * rise, loss_weighted_rise=0.1 * rise, skin=none, **heat, **states,
+        isothermal_friction=1.1 * COLD, face_rise=1.001 * rise, loss_weighted_rise=0.1 * rise, skin=none,
+        **heat, **states,
     )  # fmt: skip
 
 
@@ -45,7 +46,7 @@ def test_both_states_stand_beside_the_isothermal_curve(curves):
 
 def test_one_state_is_drawn_once(curves):
     axes = Figure().subplots()
-    report.plot_heated_friction(axes, replace(curves, hot_viscoelastic=COLD))
+    report.plot_heated_friction(axes, replace(curves, hot_friction=COLD))
     assert set(lines(axes)) == {"isothermal", "heated"}
 
 

@@ -77,7 +77,7 @@ def test_friction_curves_stand_beside_the_theory(road):
     axes = new_figure().subplots()
     figures.plot_rough_friction(axes, found, {"Persson": theory})
     solved, beside = axes.lines
-    np.testing.assert_array_equal(solved.get_ydata(), found.mean_friction[0])
+    np.testing.assert_array_equal(solved.get_ydata(), found.mean_friction_coefficient[0])
     np.testing.assert_array_equal(beside.get_ydata(), theory.friction_coefficient[0])
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["solved, 2 surfaces", "Persson"]
     axes = new_figure().subplots()

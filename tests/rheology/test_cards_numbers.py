@@ -85,7 +85,7 @@ def test_abaqus_numbers_have_at_most_twenty_characters(tmp_path):
     )
     for law in (WLF(8.860000000000001, 101.60000000000001, 298.1500000000001), Arrhenius(123456.78901234567, 303.15)):
         material = Material(series.to_retardation(), law, 0.48999999999999994)
-        text = written(tmp_path, material, "abaqus", density=1.1e3 / 3, unit_system="MPa")
+        text = written(tmp_path, material, "abaqus", density=1.1e3 / 3, modulus_unit="MPa")
         cells = [cell.strip() for line in text.splitlines() if not line.startswith("*") for cell in line.split(",")]
         assert max(map(len, cells)) == 20
         assert read_card(tmp_path / "card").complex_modulus(OMEGA) == pytest.approx(
@@ -223,7 +223,7 @@ def test_ls_dyna_leaves_its_second_card_blank_and_its_numbers_are_those_of_the_m
 @pytest.mark.parametrize("law", [WLF(8.86, 101.6, 298.15), Arrhenius(123456.789, 303.15), None])
 @pytest.mark.parametrize("domain", ["time", "frequency"])
 def test_cards_in_megapascal_come_back_in_pascal(tmp_path, program, law, domain):
-    path = write_card(rubber(law), tmp_path / "card", program, density=1100.0, unit_system="MPa", domain=domain)
+    path = write_card(rubber(law), tmp_path / "card", program, density=1100.0, modulus_unit="MPa", domain=domain)
     assert "Units: MPa, s, mm, tonne" in path.read_text()
     back = read_card(path)  # no warning: its comments say its units
     assert back.complex_modulus(OMEGA) == pytest.approx(rubber().complex_modulus(OMEGA), rel=1e-12)
@@ -237,7 +237,7 @@ def test_cards_in_megapascal_come_back_in_pascal(tmp_path, program, law, domain)
 
 
 def test_megapascal_and_tonnes_by_hand(tmp_path):
-    wish = {"density": 1100.0, "unit_system": "MPa"}
+    wish = {"density": 1100.0, "modulus_unit": "MPa"}
     abaqus = written(tmp_path, rubber(Arrhenius(1e5, 298.0)), "abaqus", **wish)
     assert numbers(lines_after(abaqus, "*ELASTIC, MODULI=INSTANTANEOUS")[0]) == pytest.approx([1000, 0.49], rel=DIGITS)
     assert lines_after(abaqus, "*DENSITY")[0] == "1.1e-9,"  # t/mm³
@@ -257,13 +257,13 @@ def test_megapascal_and_tonnes_by_hand(tmp_path):
 @pytest.mark.parametrize("program", ["comsol", "comsol-branches", "csv", "json"])
 def test_formats_that_state_their_units_are_in_si_only(tmp_path, program):
     with refused("unit-system"):
-        write_card(rubber(), tmp_path / "card", program, unit_system="MPa")
-    with refused("wrong-choice", naming="unit_system = 'psi'"):
-        write_card(rubber(), tmp_path / "card", "abaqus", unit_system="psi")
+        write_card(rubber(), tmp_path / "card", program, modulus_unit="MPa")
+    with refused("wrong-choice", naming="modulus_unit = 'psi'"):
+        write_card(rubber(), tmp_path / "card", "abaqus", modulus_unit="psi")
 
 
 def test_damaged_units_of_a_card_are_reported(tmp_path):
-    text = written(tmp_path, rubber(), "abaqus", unit_system="MPa")
+    text = written(tmp_path, rubber(), "abaqus", modulus_unit="MPa")
     pieces = re.findall(r"viscofric> \|(.*)\|", text)
     whole = "".join(pieces).replace('"unit_system":"MPa"', '"unit_system":"ksi"')
     kept = [line for line in text.splitlines() if "viscofric>" not in line]

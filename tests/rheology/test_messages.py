@@ -223,9 +223,9 @@ SAID = [
         "LS-DYNA needs a density, such as write_card(…, density=1100) for 1100 kg/m³.",
     ),
     (
-        lambda: vf.write_card(SOLID, "card", "comsol", unit_system="MPa"),
+        lambda: vf.write_card(SOLID, "card", "comsol", modulus_unit="MPa"),
         "unit-system",
-        ("unit_system = 'MPa': comsol holds SI units; leave unit_system out (it is for abaqus, ansys, ls-dyna)."),
+        ("modulus_unit = 'MPa': comsol holds SI units; leave modulus_unit out (it is for abaqus, ansys, ls-dyna)."),
     ),
     (
         lambda: vf.write_card(vf.Material(TABLE), "card", "abaqus"),

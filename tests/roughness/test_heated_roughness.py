@@ -43,7 +43,7 @@ def test_every_contact_is_that_at_its_own_temperature() -> None:
     """Temperature, speed and surface belong together: the second surface at the second speed, by itself."""
     found, seen = friction()
     cold = vf.predict_rough_friction(WARM, roads(), **ASKED)
-    assert found.isothermal == pytest.approx(cold.friction_coefficient, rel=1e-12)
+    assert found.isothermal_friction == pytest.approx(cold.friction_coefficient, rel=1e-12)
     rise = found.temperature_rise
     assert rise.shape == found.friction_coefficient.shape == (1, 2, 2)
     assert np.all(rise > 0.1)
@@ -78,13 +78,13 @@ def test_contact_spots_may_be_colder_than_the_mean_of_the_surface() -> None:
 @pytest.mark.slow
 def test_one_state_is_cold_and_hot_and_a_data_set_holds_all() -> None:
     found, _ = friction()
-    assert np.array_equal(found.cold_viscoelastic, found.friction_coefficient)
+    assert np.array_equal(found.cold_friction, found.friction_coefficient)
     assert np.array_equal(found.hot_rise, found.temperature_rise)
     data = found.to_dataset()
     assert data.temperature_rise.dims == data.friction_coefficient.dims
-    assert data.isothermal.attrs["units"] == "1"
+    assert data.isothermal_friction.attrs["units"] == "1"
     assert found.notes == ()
-    assert found.mean_friction == pytest.approx(found.friction_coefficient.mean(-1))
+    assert found.mean_friction_coefficient == pytest.approx(found.friction_coefficient.mean(-1))
 
 
 @pytest.mark.slow

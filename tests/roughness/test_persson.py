@@ -270,13 +270,13 @@ def test_the_theory_has_a_cold_and_a_hot_state_on_the_glassy_side_of_its_peak():
     assert isinstance(cold, vf.roughness.HeatedPerssonTheory)
     assert isinstance(hot, vf.roughness.HeatedPerssonTheory)
     assert (cold.hot_rise > cold.cold_rise + 1.0).tolist() == [[False, True, True]]
-    assert np.all(cold.hot_viscoelastic[0, 1:] > 2.0 * cold.cold_viscoelastic[0, 1:])
-    assert cold.friction_coefficient == pytest.approx(cold.cold_viscoelastic)
-    assert hot.friction_coefficient == pytest.approx(cold.hot_viscoelastic, rel=1e-3)
+    assert np.all(cold.hot_friction[0, 1:] > 2.0 * cold.cold_friction[0, 1:])
+    assert cold.friction_coefficient == pytest.approx(cold.cold_friction)
+    assert hot.friction_coefficient == pytest.approx(cold.hot_friction, rel=1e-3)
     assert hot.temperature_rise == pytest.approx(hot.loss_rise)
     assert np.all(hot.face_rise >= hot.temperature_rise)
     alone = vf.persson_theory(rubber, road, **asked)
-    assert cold.isothermal == pytest.approx(alone.friction_coefficient, rel=1e-12)
+    assert cold.isothermal_friction == pytest.approx(alone.friction_coefficient, rel=1e-12)
     assert cold.to_dataset().hot_rise.dims == ("temperature", "speed")
     with refused("not-with-heating"):
         vf.persson_theory(rubber, road, **asked, heating=replace(heating, nominal_radius="5 mm"))

@@ -34,9 +34,9 @@ def test_what_wavelengths_add_sums_to_the_friction(solutions, edges):
     for speed, solution in solutions.items():
         found = vf.roughness.friction_by_wavelength(solution, edges)
         # The waves that the displacement is made of dissipate all there is: rounding only.
-        assert found.total == pytest.approx(solution.friction_coefficient, rel=1e-12, abs=1e-15)
+        assert found.friction_coefficient == pytest.approx(solution.friction_coefficient, rel=1e-12, abs=1e-15)
         assert np.all(np.diff(found.edges) < 0.0)
-        assert found.cumulative[-1] == pytest.approx(found.total, rel=1e-12, abs=1e-15)
+        assert found.cumulative[-1] == pytest.approx(found.friction_coefficient, rel=1e-12, abs=1e-15)
         if speed > 0.0:
             assert np.all(found.contribution > -1e-15)  # no wave gives energy
 
@@ -136,7 +136,7 @@ def test_an_ensemble_is_solved_surface_by_surface_and_says_how_they_scatter():
     one = found.friction_coefficient[0, 0]
     # Student's t for three degrees of freedom and 95 %: 3.182.
     assert upper[0, 0] - lower[0, 0] == pytest.approx(2.0 * 3.18245 * one.std(ddof=1) / 2.0, rel=1e-5)
-    assert 0.5 * (lower + upper) == pytest.approx(found.mean_friction, rel=1e-12)
+    assert 0.5 * (lower + upper) == pytest.approx(found.mean_friction_coefficient, rel=1e-12)
     assert found.to_dataset()["friction_coefficient"].dims == ("temperature", "speed", "surface")
     with refused("one-surface"):
         vf.predict_rough_friction(RUBBER, roads[0], speeds=0.01, pressure="20 kPa").interval()

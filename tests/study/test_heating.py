@@ -96,7 +96,7 @@ def test_every_case_is_heated_by_each_coulomb_friction(results: vf.study.StudyRe
     found = data.isel(temperature=1, coulomb=1)
     np.testing.assert_array_equal(found["friction_coefficient"], direct.viscoelastic)
     np.testing.assert_array_equal(found["temperature_rise"], direct.temperature_rise)
-    np.testing.assert_array_equal(found["isothermal_friction"], direct.isothermal)
+    np.testing.assert_array_equal(found["isothermal_friction"], direct.isothermal_friction)
     np.testing.assert_array_equal(found["isothermal_friction"], results.dataset["friction_coefficient"][1])
     np.testing.assert_allclose(data["total_friction"], data["friction_coefficient"] + data["coulomb"])
     assert np.all(data["temperature_rise"].diff("coulomb") > 0.0)

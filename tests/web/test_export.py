@@ -132,7 +132,7 @@ def test_run_file_that_was_taken_away_can_be_brought_back(desk: Desk) -> None:
 
 @pytest.mark.parametrize("form", ["abaqus", "ansys", "comsol", "json", "csv"])
 def test_card_holds_the_rubber_of_the_page(form: str, desk: Desk) -> None:
-    found = desk.run(export_card, BALL, format=form, poisson_ratio=0.499, unit_system="MPa")
+    found = desk.run(export_card, BALL, format=form, poisson_ratio=0.499, modulus_unit="MPa")
     path = desk.context.downloads / found["download"]["name"]
     assert path.read_text(encoding="utf-8") == found["text"]
     assert found["download"]["size"] == path.stat().st_size

@@ -174,10 +174,10 @@ def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:
 
     if not isinstance(curves, HeatedFrictionCurves):
         return []
-    assert curves.isothermal is not None
+    assert curves.isothermal_friction is not None
     assert curves.temperature_rise is not None
     return [
-        ["isothermal", *(significant(value, 4) for value in curves.isothermal[rows].tolist())],
+        ["isothermal", *(significant(value, 4) for value in curves.isothermal_friction[rows].tolist())],
         ["rise (K)", *(significant(value, 3) for value in curves.temperature_rise[rows].tolist())],
     ]
 

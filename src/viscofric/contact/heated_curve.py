@@ -182,10 +182,10 @@ class _Solver(NamedTuple):
 def heat_columns(states: Sequence[States]) -> dict[str, Array]:
     """Return the columns of `SolvedHeatColumns`, (n,) each, of contacts."""
     values: dict[str, list[float]] = {name: [getattr(one.heating, name) for one in states] for name in OF_CONTACT} | {
-        "isothermal": [abs(one.isothermal.friction) for one in states],
-        "cold_viscoelastic": [abs(one.cold.friction) for one in states],
+        "isothermal_friction": [abs(one.isothermal.friction) for one in states],
+        "cold_friction": [abs(one.cold.friction) for one in states],
         "cold_rise": [one.cold.rise for one in states],
-        "hot_viscoelastic": [abs(one.hot.friction) for one in states],
+        "hot_friction": [abs(one.hot.friction) for one in states],
         "hot_rise": [one.hot.rise for one in states],
     }
     return {name: np.array(column) for name, column in values.items()}

@@ -306,6 +306,11 @@ class ContactSolution(Plotted):
         return self.friction_coefficient * self.load
 
     @property
+    def friction_error(self) -> float:
+        """Error estimate of the friction coefficient, that of the `diagnostics`."""
+        return self.diagnostics.friction_error
+
+    @property
     def mean_pressure(self) -> float:
         """Load over contact area, Pa."""
         return self.load / self.contact_area

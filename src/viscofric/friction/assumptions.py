@@ -195,7 +195,7 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
 def _heated(curves: HeatColumns) -> AssumptionCheck:
     """Return the check of curves that hold friction at the temperature to which it heats the contacts."""
     assert isinstance(curves, FrictionCurves)
-    change = np.abs(curves.viscoelastic / curves.isothermal - 1.0)
+    change = np.abs(curves.viscoelastic / curves.isothermal_friction - 1.0)
     row = int(np.argmax(change))
     rise, where = float(curves.temperature_rise[row]), Place.of(curves, row)
     sentence = Note(

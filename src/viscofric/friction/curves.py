@@ -15,6 +15,7 @@ from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
 from viscofric.friction.solved_columns import columns_of
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
+from viscofric.rheology.interface.friction import total_error
 from viscofric.showing import Plotted
 from viscofric.units import Quantity, positive, share, shown_celsius
 
@@ -233,11 +234,8 @@ class FrictionCurves(Plotted):
     @property
     def total_error(self) -> Array | None:
         """Standard error of `total`, (n,), from those of both parts and of the material; None where not known."""
-        if self.coulomb is None or self.coulomb_error is None:
-            return None
-        parts = [self.viscoelastic_error, self.coulomb_error]
-        parts += [] if self.material_error is None else [self.material_error]
-        return np.asarray(np.sqrt(sum(part**2 for part in parts)))
+        by_material = [] if self.material_error is None else [self.material_error]
+        return total_error(self.viscoelastic_error, self.coulomb_error, *by_material)
 
     @property
     def consistency_check(self) -> Check | None:

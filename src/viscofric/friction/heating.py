@@ -38,7 +38,7 @@ class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
 
     Attributes
     ----------
-    isothermal : (n,) array
+    isothermal_friction : (n,) array
         Viscoelastic friction coefficient without heating.
     temperature_rise, coulomb_rise, loss_rise, track_rise : (n,) array
         Rise of temperature that the rubber responds to, its parts due to Coulomb friction and to the loss, and the part
@@ -47,7 +47,7 @@ class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
         Both mean rises, over the face and where the loss is released, K; see `Heating`.
     skin : array
         Depth to which heat spreads while the contact passes; see `ContactHeating`.
-    cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : (n,) array
+    cold_friction, cold_rise, hot_friction, hot_rise : (n,) array
         Friction and rise of the coldest and of the hottest stable state, equal where there is one only.  A speed that
         rises slowly follows the cold states, one that falls slowly the hot ones: the difference is the hysteresis.
 

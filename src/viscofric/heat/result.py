@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.data import read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
+from viscofric.lazy import renamed
 from viscofric.showing import Shown
 
 if TYPE_CHECKING:
@@ -34,43 +35,44 @@ OF_CONTACT = RISES | {
 }
 #: Columns of friction with heating, `skin` of solved contacts only.
 COLUMNS = {
-    "isothermal": ("1", "viscoelastic friction coefficient without heating"),
+    "isothermal_friction": ("1", "viscoelastic friction coefficient without heating"),
     **OF_CONTACT,
-    "cold_viscoelastic": ("1", "viscoelastic friction coefficient as the speed rises"),
+    "cold_friction": ("1", "viscoelastic friction coefficient as the speed rises"),
     "cold_rise": ("K", "rise of temperature as the speed rises"),
-    "hot_viscoelastic": ("1", "viscoelastic friction coefficient as the speed falls"),
+    "hot_friction": ("1", "viscoelastic friction coefficient as the speed falls"),
     "hot_rise": ("K", "rise of temperature as the speed falls"),
 }
 
 
+@renamed(isothermal="isothermal_friction", cold_viscoelastic="cold_friction", hot_viscoelastic="hot_friction")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeatColumns:
     """Friction without heating, rises of temperature and both thermal states, an array each.
 
     Attributes
     ----------
-    isothermal : array
+    isothermal_friction : array
         Viscoelastic friction coefficient without heating.
     temperature_rise, coulomb_rise, loss_rise, track_rise : array
         Rise of temperature that the rubber responds to, its parts due to Coulomb friction and to the loss, and the part
         left by earlier passes, K.
     face_rise, loss_weighted_rise : array
         Both mean rises, over the face and where the loss is released, K; see `Heating`.
-    cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : array
+    cold_friction, cold_rise, hot_friction, hot_rise : array
         Friction and rise of the coldest and of the hottest stable state, equal where there is one only.  A speed that
         rises slowly follows the cold states, one that falls slowly the hot ones: the difference is the hysteresis.
     """
 
-    isothermal: Array
+    isothermal_friction: Array
     temperature_rise: Array
     coulomb_rise: Array
     loss_rise: Array
     track_rise: Array
     face_rise: Array
     loss_weighted_rise: Array
-    cold_viscoelastic: Array
+    cold_friction: Array
     cold_rise: Array
-    hot_viscoelastic: Array
+    hot_friction: Array
     hot_rise: Array
 
     def keep_heat(self, shape: tuple[int, ...]) -> None:

@@ -164,9 +164,17 @@ class TransientSolution(Plotted):
 
     @property
     def friction_coefficient(self) -> Array:
-        """Friction force over load; zero where there is no load."""
+        """Friction force over load, (n,) array; zero where there is no load."""
+        return self._over_load(self.friction_force)
+
+    @property
+    def friction_error(self) -> Array:
+        """Error estimate of the friction coefficient, (n,) array, that of the force over the load."""
+        return self._over_load(self.errors.friction_force)
+
+    def _over_load(self, force: Array) -> Array:
         loaded = self.load > 0.0
-        return np.where(loaded, self.friction_force / np.where(loaded, self.load, 1.0), 0.0)
+        return np.where(loaded, force / np.where(loaded, self.load, 1.0), 0.0)
 
     @property
     def energy_imbalance(self) -> float:

@@ -223,7 +223,7 @@ def predict_rough_friction(
     ... ]
     >>> found = vf.predict_rough_friction(rubber, roads, speeds="0.1 m/s", pressure="20 kPa")
     >>> lower, upper = found.interval()
-    >>> bool(lower[0, 0] < found.mean_friction[0, 0] < upper[0, 0])
+    >>> bool(lower[0, 0] < found.mean_friction_coefficient[0, 0] < upper[0, 0])
     True
     """
     insist_on_material(material)

@@ -233,7 +233,7 @@ def _columns(isothermal: Found, cold: Found, hot: Found, branch: str) -> dict[st
     mean = np.array([one.mean_rise for one in chosen])
     by_coulomb = np.array([one.coulomb_rise for one in chosen])
     columns = {
-        "isothermal": np.array([float(one.friction[-1]) for one in isothermal.cases]),
+        "isothermal_friction": np.array([float(one.friction[-1]) for one in isothermal.cases]),
         "temperature_rise": mean,
         "coulomb_rise": by_coulomb,
         "loss_rise": mean - by_coulomb,
@@ -242,7 +242,7 @@ def _columns(isothermal: Found, cold: Found, hot: Found, branch: str) -> dict[st
         "loss_weighted_rise": mean,
     }
     for name, states in (("cold", [one for one, _ in ends]), ("hot", [one for _, one in ends])):
-        columns[f"{name}_viscoelastic"] = np.array([float(one.friction[-1]) for one in states])
+        columns[f"{name}_friction"] = np.array([float(one.friction[-1]) for one in states])
         columns[f"{name}_rise"] = np.array([one.mean_rise for one in states])
     return columns
 

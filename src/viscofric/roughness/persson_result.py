@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.heat.result import HeatColumns
-from viscofric.rheology.interface.friction import total_friction
+from viscofric.rheology.interface.friction import total_error, total_friction
 from viscofric.showing import Plotted
 
 if TYPE_CHECKING:
@@ -88,6 +88,11 @@ class PerssonTheory(Plotted):
         return total_friction(self.friction_coefficient, self.interface_friction, "persson_theory")
 
     @property
+    def total_error(self) -> Array | None:
+        """Standard error of `total`, (m, n) array, from those of both parts; None without an interface."""
+        return total_error(self.friction_error, self.interface_error)
+
+    @property
     def friction_error(self) -> Array:
         """Largest error of the friction coefficient by the integrals, (m, n) array, the same everywhere."""
         return np.full(self.friction_coefficient.shape, self.error * float(np.abs(self.friction_coefficient).max()))
@@ -127,7 +132,7 @@ class HeatedPerssonTheory(HeatColumns, PerssonTheory):
 
     Attributes
     ----------
-    isothermal : (m, n) array
+    isothermal_friction : (m, n) array
         Friction coefficient without heating.
     temperature_rise, loss_weighted_rise : (m, n) array
         Mean of the rise over all scales, weighted with what each loses, K.
@@ -137,7 +142,7 @@ class HeatedPerssonTheory(HeatColumns, PerssonTheory):
         Zero.
     face_rise : (m, n) array
         Rise of the surface of the macroasperity contacts, K.
-    cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : (m, n) array
+    cold_friction, cold_rise, hot_friction, hot_rise : (m, n) array
         Friction and rise of the states reached from a cold and from a hot start, equal where there is one only.
     """
 

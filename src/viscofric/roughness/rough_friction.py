@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Literal
@@ -12,7 +13,8 @@ import numpy as np
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.result import SolvedHeatColumns
-from viscofric.rheology.interface.friction import total_friction
+from viscofric.lazy import renamed
+from viscofric.rheology.interface.friction import total_error, total_friction
 from viscofric.showing import Plotted
 from viscofric.units import share
 
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from viscofric.showing import Rows
 
 
+@renamed(mean_friction="mean_friction_coefficient")
 @dataclass(frozen=True, eq=False)
 class RoughFriction(Plotted):
     """Friction and contact area on several rough surfaces, over temperatures and speeds.
@@ -85,7 +88,12 @@ class RoughFriction(Plotted):
         return total_friction(self.friction_coefficient, self.interface_friction, "predict_rough_friction")
 
     @property
-    def mean_friction(self) -> Array:
+    def total_error(self) -> Array | None:
+        """Standard error of `total`, (m, n, k) array, from those of both parts; None without an interface."""
+        return total_error(self.friction_error, self.interface_error)
+
+    @property
+    def mean_friction_coefficient(self) -> Array:
         """Mean friction coefficient over the surfaces, (m, n) array."""
         return np.asarray(self.friction_coefficient.mean(axis=-1))
 
@@ -94,8 +102,9 @@ class RoughFriction(Plotted):
         """Mean corrected contact area fraction over the surfaces, (m, n) array."""
         return np.asarray(self.corrected_area_fraction.mean(axis=-1))
 
+    @renamed(probability="level")
     def interval(
-        self, probability: float = 0.95, *, of: Literal["hysteresis", "total"] = "hysteresis"
+        self, level: float = 0.95, *, of: Literal["viscoelastic", "total"] = "viscoelastic"
     ) -> tuple[Array, Array]:
         """Return the confidence interval of the mean friction of all such surfaces.
 
@@ -104,9 +113,9 @@ class RoughFriction(Plotted):
 
         Parameters
         ----------
-        probability : float
-            Between 0 and 1.
-        of : {"hysteresis", "total"}
+        level : float
+            Probability between the limits, between 0 and 1.
+        of : {"viscoelastic", "total"}
 
         Returns
         -------
@@ -115,15 +124,20 @@ class RoughFriction(Plotted):
         Raises
         ------
         InputError
-            If there is one surface only, the probability is out of range, or there is no interface.
+            If there is one surface only, the level is out of range, or there is no interface.
         """
-        check_choice(of, "of", "hysteresis", "total")
-        if of == "hysteresis":
-            return interval_of_mean(self.friction_coefficient, probability)
-        mean, (lower, _) = self.total.mean(axis=-1), interval_of_mean(self.total, probability)
+        if str(of) == "hysteresis":
+            warnings.warn(
+                'viscofric: of="hysteresis" is deprecated; write of="viscoelastic".', DeprecationWarning, stacklevel=3
+            )
+            of = "viscoelastic"
+        check_choice(of, "of", "viscoelastic", "total")
+        if of == "viscoelastic":
+            return interval_of_mean(self.friction_coefficient, level)
+        mean, (lower, _) = self.total.mean(axis=-1), interval_of_mean(self.total, level)
         assert self.interface_error is not None
-        shared = NormalDist().inv_cdf(0.5 + 0.5 * probability) * self.interface_error.mean(axis=-1)
-        half = np.hypot(mean - lower, shared)
+        shared = NormalDist().inv_cdf(0.5 + 0.5 * share(level, "level", example=0.95))
+        half = np.hypot(mean - lower, shared * self.interface_error.mean(axis=-1))
         return mean - half, mean + half
 
     def to_dataset(self) -> xarray.Dataset:
@@ -161,7 +175,7 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
 
     Attributes
     ----------
-    isothermal : (m, n, k) array
+    isothermal_friction : (m, n, k) array
         Viscoelastic friction coefficient without heating.
     temperature_rise, coulomb_rise, loss_rise, track_rise : (m, n, k) array
         Rise of temperature that the rubber responds to, its parts due to Coulomb friction and to the loss, and the part
@@ -170,7 +184,7 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
         Both mean rises, over the contact spots and where the loss is released, K; see `Heating`.
     skin : array
         Depth to which heat spreads while the contact passes; see `ContactHeating`.
-    cold_viscoelastic, cold_rise, hot_viscoelastic, hot_rise : (m, n, k) array
+    cold_friction, cold_rise, hot_friction, hot_rise : (m, n, k) array
         Friction and rise of the coldest and of the hottest stable state, equal where there is one only.
     """
 
@@ -188,15 +202,15 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
         return super().to_dataset().assign(self.heat_variables("temperature", "speed", "surface"))
 
 
-def interval_of_mean(found: Array, probability: float = 0.95) -> tuple[Array, Array]:
+def interval_of_mean(found: Array, level: float = 0.95) -> tuple[Array, Array]:
     """Return lower and upper limit (...) of the confidence interval of the mean over all surfaces of a kind.
 
     By Student's t, for values `found` (..., k) on k surfaces that scatter normally.  Raises InputError if there is one
-    surface only, or the probability is not between 0 and 1.
+    surface only, or the level is not between 0 and 1.
     """
     from scipy.special import stdtrit
 
-    wanted, count = share(probability, "probability", example=0.95), found.shape[-1]
+    wanted, count = share(level, "level", example=0.95), found.shape[-1]
     if count < 2:
         raise InputError(
             "interval: needs two surfaces at least, since it rests on the scatter from surface to surface.",

@@ -14,6 +14,7 @@ from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
+from viscofric.lazy import renamed
 from viscofric.showing import Plotted
 from viscofric.units import Quantities, to_si_array
 
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-9
 
 
+@renamed(total="friction_coefficient")
 @dataclass(frozen=True, eq=False)
 class FrictionByWavelength(Plotted):
     """Friction coefficient of a contact, by wavelengths of the pressure.
@@ -45,14 +47,14 @@ class FrictionByWavelength(Plotted):
 
     def _shown(self) -> Rows:
         return (
-            ("friction coefficient", self.total),
+            ("friction coefficient", self.friction_coefficient),
             ("wavelengths", self.edges, "m"),
             ("contributions", self.contribution),
         )
 
     @property
-    def total(self) -> float:
-        """Sum of the contributions: the friction coefficient, if the edges hold all waves."""
+    def friction_coefficient(self) -> float:
+        """Sum of the contributions: that of the contact, if the edges hold all waves."""
         return float(self.cumulative[-1])
 
     @property
@@ -109,7 +111,7 @@ def friction_by_wavelength(
     >>> road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
     >>> solution = vf.solve_periodic(rubber, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
     >>> parts = vf.roughness.friction_by_wavelength(solution)
-    >>> bool(abs(parts.cumulative[-1] / parts.total - 1.0) < 1e-9)
+    >>> bool(abs(parts.cumulative[-1] / parts.friction_coefficient - 1.0) < 1e-9)
     True
     """
     if not isinstance(solution, PeriodicSolution):

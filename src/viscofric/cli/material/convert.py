@@ -30,7 +30,9 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
     help="Poisson's ratio of the card instead of the material's; ANSYS and LS-DYNA do not accept 0.5.",
 )
 @click.option(
+    "--modulus-unit",
     "--unit-system",
+    "modulus_unit",
     type=click.Choice(["Pa", "MPa"]),
     default="Pa",
     show_default=True,
@@ -49,7 +51,7 @@ def command(
     as_json: bool,
     form: CardFormat,
     poisson_ratio: float | None,
-    unit_system: Literal["Pa", "MPa"],
+    modulus_unit: Literal["Pa", "MPa"],
     density: str | None,
     card_law: CardLaw | None,
 ) -> None:
@@ -74,7 +76,7 @@ def command(
                 format=form,
                 poisson_ratio=poisson_ratio,
                 density=density,
-                unit_system=unit_system,
+                modulus_unit=modulus_unit,
                 law=card_law,
             )
     if as_json:

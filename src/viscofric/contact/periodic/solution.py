@@ -171,6 +171,11 @@ class PeriodicSolution(Plotted):
         )
 
     @property
+    def friction_error(self) -> float:
+        """Error estimate of the friction coefficient, that of the `diagnostics`."""
+        return self.diagnostics.friction_error
+
+    @property
     def temperature_rise(self) -> float:
         """Rise of temperature by friction at which the contact was solved, K; zero without `heating`."""
         return 0.0 if self.heating is None else self.heating.temperature_rise

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.friction.shifting.smoothing import SmoothedPoints
+from viscofric.lazy import renamed
 from viscofric.nominal import SAME_LOAD
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.showing import Plotted
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from viscofric.showing import Rows
 
 
+@renamed(friction="friction_coefficient", error="friction_error", scatter="friction_scatter")
 @dataclass(frozen=True, eq=False)
 class FrictionMasterCurve(Plotted):
     """Viscoelastic friction against reduced speed, μ(v, T) = μ(α(T) v, reference).
@@ -48,7 +50,7 @@ class FrictionMasterCurve(Plotted):
         α(T) v, or α(T) v/f^p with a load rule; ascending, m/s.
     temperature : (n,) array
         At which the point was measured or predicted, K.
-    friction, error, scatter : (n,) array
+    friction_coefficient, friction_error, friction_scatter : (n,) array
         Viscoelastic friction coefficient, its standard error, its standard deviation over the replicates; with a load
         rule divided by f^q.
     reference : float
@@ -73,9 +75,9 @@ class FrictionMasterCurve(Plotted):
 
     reduced_speed: Array
     temperature: Array
-    friction: Array
-    error: Array
-    scatter: Array
+    friction_coefficient: Array
+    friction_error: Array
+    friction_scatter: Array
     reference: float
     shift: ShiftLaw
     curves: FrictionCurves
@@ -92,8 +94,8 @@ class FrictionMasterCurve(Plotted):
     def _shown(self) -> Rows:
         return (
             ("reduced speed", self.reduced_speed, "m/s"),
-            ("friction", self.friction),
-            ("its error", self.error),
+            ("friction coefficient", self.friction_coefficient),
+            ("its error", self.friction_error),
             ("temperature", np.unique(self.temperature), "°C"),
             ("reference", self.reference, "°C"),
             ("load", self.load, self.curves.load_unit),
@@ -139,30 +141,20 @@ class FrictionMasterCurve(Plotted):
             {
                 "reduced_speed": (self.reduced_speed, "m/s", "speed times shift factor"),
                 "temperature": (self.temperature, "K", "temperature"),
-                "viscoelastic": (self.friction, "1", "viscoelastic friction coefficient"),
+                "viscoelastic": (self.friction_coefficient, "1", "viscoelastic friction coefficient"),
                 "viscoelastic_error": (
-                    self.error,
+                    self.friction_error,
                     "1",
                     "standard error of the viscoelastic friction coefficient",
                 ),
                 "viscoelastic_scatter": (
-                    self.scatter,
+                    self.friction_scatter,
                     "1",
                     "standard deviation of the viscoelastic friction coefficient",
                 ),
             },
             attributes={"reference_temperature": self.reference, "load": self.load},
         )
-
-    @property
-    def friction_coefficient(self) -> Array:
-        """`friction`, (n,), under the name that it has in single contacts."""
-        return self.friction
-
-    @property
-    def friction_error(self) -> Array:
-        """`error`, (n,), under the name that it has in single contacts."""
-        return self.error
 
     @property
     def reduced_range(self) -> tuple[float, float]:
@@ -176,7 +168,7 @@ class FrictionMasterCurve(Plotted):
 
     @property
     def _smoothed(self) -> SmoothedPoints:
-        return SmoothedPoints(np.log10(self.reduced_speed), self.friction, self.error)
+        return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, self.friction_error)
 
     @property
     def overlap_rms(self) -> float | None:

@@ -141,9 +141,9 @@ def shift_friction(
     return FrictionMasterCurve(
         reduced_speed=_frozen(10.0 ** decades[order]),
         temperature=_frozen(curves.temperature[order]),
-        friction=_frozen(points.viscoelastic[order]),
-        error=_frozen(points.viscoelastic_error[order]),
-        scatter=_frozen(points.viscoelastic_scatter[order]),
+        friction_coefficient=_frozen(points.viscoelastic[order]),
+        friction_error=_frozen(points.viscoelastic_error[order]),
+        friction_scatter=_frozen(points.viscoelastic_scatter[order]),
         reference=float(shift.reference),
         shift=shift,
         curves=curves,

@@ -154,10 +154,10 @@ def _one_curve(curves: HeatedFrictionCurves | xr.Dataset) -> tuple[xr.Dataset, f
 
 
 def _friction(data: xr.Dataset) -> _Friction:
-    of_study = "isothermal_friction" in data
-    names = ("friction_coefficient", "isothermal_friction", "cold_friction", "hot_friction")
-    names = names if of_study else ("viscoelastic", "isothermal", "cold_viscoelastic", "hot_viscoelastic")
-    return _Friction(*(values(data, name) for name in ("speed", *names)))
+    mu = "friction_coefficient" if "friction_coefficient" in data else "viscoelastic"  # of a study, or of curves
+    return _Friction(
+        *(values(data, name) for name in ("speed", mu, "isothermal_friction", "cold_friction", "hot_friction"))
+    )
 
 
 def heated_curves_figure(curves: HeatedFrictionCurves) -> Figure:

@@ -198,7 +198,7 @@ def _parts_of_mean(found: RoughFriction) -> _Parts:
         assert found.interface_error is not None
         error = np.hypot(found.friction_error, found.interface_error)[..., 0]
     kelvin, speed = np.meshgrid(found.temperature, found.speed, indexing="ij")
-    mean = np.ravel(found.mean_friction)
+    mean = np.ravel(found.mean_friction_coefficient)
     return _Parts(np.ravel(speed), np.ravel(kelvin), mean, np.ravel(total) - mean, np.ravel(error))
 
 

@@ -218,7 +218,7 @@ def _plot_solved(axes: Axes, found: RoughFriction, row: int, look: Look, name: s
     """Draw the mean over the surfaces at one temperature, of friction with its 95 % interval."""
     count = len(found.surfaces)
     label = f"solved{name}" + (f", {count} surfaces" if count > 1 else "") + _where(found.temperature[row])
-    mean = (found.mean_area if area else found.mean_friction)[row]
+    mean = (found.mean_area if area else found.mean_friction_coefficient)[row]
     axes.plot(found.speed, mean, marker=look.marker, color=look.colour, linestyle="none", label=label)
     if count > 1 and not area:
         lower, upper = found.interval()

@@ -95,7 +95,7 @@ def shift_words(
         ("reference", degrees(master.reference)),
         ("reduced speed", f"{significant(low)} to {significant(high)} mm/s"),
     ]
-    if master.found and not np.any(master.error > 0.0):
+    if master.found and not np.any(master.friction_error > 0.0):
         lines.append(
             ("errors", "of log10 α: from the scatter of the points about one curve; the points have no errors")
         )

@@ -35,20 +35,20 @@ class Writing:
     temperature_unit: Literal["K", "degC"] = "K"  # of the card's temperatures
     domain: Literal["time", "frequency"] = "time"  # of an Abaqus card
     material_id: int = 1  # number of the material in ANSYS and LS-DYNA
-    unit_system: UnitSystem = "Pa"  # "Pa": SI; "MPa": tonne, mm, s
+    modulus_unit: UnitSystem = "Pa"  # "Pa": SI; "MPa": tonne, mm, s
 
     def modulus(self, pascal: float) -> float:
         """Return a modulus in the card's unit."""
-        return pascal / _PASCAL[self.unit_system]
+        return pascal / _PASCAL[self.modulus_unit]
 
     def energy(self, joule: float) -> float:
         """Return an energy in the card's unit."""
-        return joule / _ENERGY[self.unit_system]
+        return joule / _ENERGY[self.modulus_unit]
 
     @property
     def written_density(self) -> float | None:
         """Density in the card's unit."""
-        return None if self.density is None else self.density / _DENSITY[self.unit_system]
+        return None if self.density is None else self.density / _DENSITY[self.modulus_unit]
 
     def temperature(self, kelvin: float) -> float:
         """Return a temperature in the card's unit."""

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arguments import insist_on, whole_number
 from viscofric.errors import DataFileError, InputError, check_choice, not_written, short_notes
 from viscofric.files import file_path, read_text
+from viscofric.lazy import renamed
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
 from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
@@ -60,6 +61,7 @@ _PROGRAMS: dict[str, _Program] = {
 LARGEST_CARD = 20_000_000
 
 
+@renamed(unit_system="modulus_unit")
 def write_card(
     material: Material,
     path: str | PathLike[str],
@@ -70,7 +72,7 @@ def write_card(
     temperature_unit: Literal["K", "degC"] = "K",
     domain: Literal["time", "frequency"] = "time",
     material_id: int = 1,
-    unit_system: UnitSystem = "Pa",
+    modulus_unit: UnitSystem = "Pa",
     law: CardLaw | None = None,
 ) -> Path:
     """Write a material for another program, in Pa, s, m and kg or in MPa, s, mm and tonnes.
@@ -105,7 +107,7 @@ def write_card(
         Of Abaqus: ``*VISCOELASTIC, TIME=PRONY`` or ``FREQUENCY=PRONY`` (which takes no ``*TRS``).
     material_id : int
         Number of the material in ANSYS and LS-DYNA.
-    unit_system : {"Pa", "MPa"}
+    modulus_unit : {"Pa", "MPa"}
         Of cards for Abaqus, ANSYS and LS-DYNA: SI, or mm, s, tonne and N, with moduli in MPa and density in t/mm³.
         The card's comments name it, and `read_card` reads it there.
     law : {"best", "wlf", "vft", "arrhenius"}, optional
@@ -142,10 +144,10 @@ def write_card(
     check_choice(format, "format", *get_args(CardFormat))
     check_choice(temperature_unit, "temperature_unit", "K", "degC")
     check_choice(domain, "domain", "time", "frequency")
-    check_choice(unit_system, "unit_system", *get_args(UnitSystem))
-    if unit_system != "Pa" and format not in _WITHOUT_UNITS:
+    check_choice(modulus_unit, "modulus_unit", *get_args(UnitSystem))
+    if modulus_unit != "Pa" and format not in _WITHOUT_UNITS:
         raise InputError(
-            f"unit_system = {unit_system!r}: {format} holds SI units; leave unit_system out (it is for "
+            f"modulus_unit = {modulus_unit!r}: {format} holds SI units; leave modulus_unit out (it is for "
             f"{', '.join(_WITHOUT_UNITS)}).",
             code="unit-system",
         )
@@ -159,7 +161,7 @@ def write_card(
         temperature_unit,
         domain,
         material_id,
-        unit_system,
+        modulus_unit,
     )
     if format == "json":
         text = native.write_json(material)
@@ -174,7 +176,7 @@ def write_card(
     except (OSError, ValueError) as error:
         raise not_written(path, error) from None
     for note in notes:
-        warnings.warn(note, stacklevel=2)
+        warnings.warn(note, stacklevel=3)  # `renamed` lies between
     return file
 
 

@@ -29,7 +29,7 @@ def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_wr
     temperatures = "K" if writing.temperature_unit == "K" else "degrees Celsius"
     sentences = [
         "Linear viscoelastic material, a Prony series; written by viscofric.",
-        f"Units: {_UNITS[writing.unit_system]}; temperatures in {temperatures}.",
+        f"Units: {_UNITS[writing.modulus_unit]}; temperatures in {temperatures}.",
     ]
     if material.name:
         sentences.insert(0, material.name)
@@ -64,7 +64,7 @@ def stored(
         "E_inf": relaxation.E_inf,
         "shift": shift_written,
         "absolute_zero": zero,
-        "unit_system": writing.unit_system,
+        "unit_system": writing.modulus_unit,
     }
     return {"version": VERSION, **about(material), "card": card}
 

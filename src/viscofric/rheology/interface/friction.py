@@ -49,6 +49,12 @@ def total_friction(hysteresis: Array, interface: Array | None, predictor: str) -
     return hysteresis + interface
 
 
+def total_error(*parts: Array | None) -> Array | None:
+    """Return the standard error of a friction coefficient from those of its parts; None where one is not known."""
+    known = [part for part in parts if part is not None]
+    return np.sqrt(np.sum(np.square(known), axis=0)) if len(known) == len(parts) else None
+
+
 def interface_friction(
     law: InterfaceLaw, speed: Array, kelvin: Array | None, pressure: Array, pressure_error: Array
 ) -> tuple[Array, Array]:

@@ -24,17 +24,11 @@ if TYPE_CHECKING:
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
 
-#: Names in the results of columns that are called otherwise in heated friction curves.
-_OWN_NAMES = {
-    "isothermal": "isothermal_friction",
-    "cold_viscoelastic": "cold_friction",
-    "hot_viscoelastic": "hot_friction",
-}
 #: Column of the results -> that of heated friction curves, unit, and meaning.
 COLUMNS = {
     "friction_coefficient": ("viscoelastic", "1", "viscoelastic friction coefficient with heating"),
     "friction_error": ("viscoelastic_error", "1", "numerical error estimate of the friction coefficient"),
-    **{_OWN_NAMES.get(name, name): (name, *meaning) for name, meaning in HEAT_COLUMNS.items()},
+    **{name: (name, *meaning) for name, meaning in HEAT_COLUMNS.items()},
     "mean_pressure": ("mean_pressure", "Pa", "load over contact area"),
     "interface_friction": ("coulomb", "1", "friction coefficient of the interface with heating"),
     "interface_error": ("coulomb_error", "1", "standard error of the friction coefficient of the interface"),

@@ -310,7 +310,7 @@ CARD = [
     ),
     *when(
         {"@card.format": _UNITS},
-        choice("@card.unit_system", "Units of the model", [["Pa", "Pa, m, s, kg"], ["MPa", "MPa, mm, s, t"]], "Pa"),
+        choice("@card.modulus_unit", "Units of the model", [["Pa", "Pa, m, s, kg"], ["MPa", "MPa, mm, s, t"]], "Pa"),
     ),
     *when(
         {"@card.format": _PROGRAMS},

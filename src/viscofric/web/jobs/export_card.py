@@ -27,7 +27,7 @@ class Options(BaseModel):
     poisson_ratio: float | None = Field(None, ge=0.0, le=0.5)
     density: str | None = Field(None, max_length=100)
     temperature_unit: Literal["K", "degC"] = "K"
-    unit_system: Literal["Pa", "MPa"] = "Pa"
+    modulus_unit: Literal["Pa", "MPa"] = "Pa"
     domain: Literal["time", "frequency"] = "time"
     #: Fitted where the rubber has a table of shift factors; a rubber with a law keeps it.
     law: Literal["best", "wlf", "vft", "arrhenius"] | None = None
@@ -67,7 +67,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             poisson_ratio=options.poisson_ratio,
             density=options.density or None,
             temperature_unit=options.temperature_unit,
-            unit_system=options.unit_system if form in _WITHOUT_UNITS else "Pa",
+            modulus_unit=options.modulus_unit if form in _WITHOUT_UNITS else "Pa",
             domain=options.domain,
             law=options.law if form not in _OWN and isinstance(rubber.material.shift, ShiftFactors) else None,
         )

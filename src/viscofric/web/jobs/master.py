@@ -123,7 +123,11 @@ def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
     from viscofric.report.data import measured_line
     from viscofric.web.jobs.friction_data import by_temperature, drawn_line
 
-    columns = {"friction": master.friction, "error": master.error, "scatter": master.scatter}
+    columns = {
+        "friction": master.friction_coefficient,
+        "error": master.friction_error,
+        "scatter": master.friction_scatter,
+    }
     return {
         "reference": master.reference,
         "points": by_temperature(master.temperature, master.reduced_speed, **columns),
