@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
+import viscofric as vf
 from readers.refusal import noted, refused
-from viscofric import read_mtm, readers
+from viscofric import read_mtm
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
 from viscofric.readers.dma.read import trace_dma
@@ -174,7 +175,7 @@ def test_without_a_word_in_the_file_the_deformation_is_asked_for(tmp_path):
     assert read_dma(path, deformation="shear").deformation == "shear"
     assert read_dma(path, deformation="tension").deformation == "tension"
     with pytest.raises(DataFileError, check=lambda error: error.code == "no-deformation"):
-        readers.read_dma(path)
+        vf.read_dma(path)
     assert not trace_dma(path).deformation_known  # shown with the question
     assert trace_dma(path, deformation="shear").deformation_known
     with refused("wrong-choice", None, "'tension'", "'shear'"):
