@@ -7,18 +7,19 @@ import json
 import re
 import socket
 import time
-from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from contextlib import asynccontextmanager, contextmanager
+from typing import TYPE_CHECKING, Any
 
 import httpx
 import pytest
 
+from viscofric.web import connections
 from viscofric.web.access import Door
 from viscofric.web.limits import Limits
 from web.own_loop import run_apart
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import AsyncIterator, Iterator
 
     from web.served_page import Server
 
@@ -236,15 +237,27 @@ def test_slow_and_partial_requests_keep_nobody_waiting(server: Server) -> None:
             connection.close()
 
 
-def test_connections_whose_head_does_not_come_are_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+@asynccontextmanager
+async def served_at(application: object) -> AsyncIterator[tuple[tuple[str, int], set[Any]]]:
+    """Serve an application with the page's protocol; give its address and the connections that it has."""
     import asyncio
 
     from uvicorn import Config
     from uvicorn.server import ServerState
 
-    from viscofric.web import server as serving
+    config = Config(application, http=connections.Connection, lifespan="off", ws="none", log_level="error")  # type: ignore[arg-type]
+    config.load()
+    loop = asyncio.get_running_loop()
+    state = ServerState()
+    made = await loop.create_server(lambda: config.http_protocol_class(config, state, {}), "127.0.0.1", 0)  # type: ignore[union-attr, call-arg]
+    async with made:
+        yield made.sockets[0].getsockname(), state.connections
 
-    monkeypatch.setattr(serving, "_HEAD_WAIT", 0.3)
+
+def test_connections_whose_head_does_not_come_are_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    import asyncio
+
+    monkeypatch.setattr(connections, "HEAD_WAIT", 0.3)
 
     async def application(scope: object, receive: object, send: object) -> None:
         await asyncio.sleep(0.6)  # a reply that takes longer than a head may
@@ -253,12 +266,9 @@ def test_connections_whose_head_does_not_come_are_closed(monkeypatch: pytest.Mon
 
     async def ended(*parts: bytes) -> tuple[bytes, float]:
         """Send parts of a request, one each tenth of a second, and return the reply and when the connection ended."""
-        config = Config(application, http=serving._protocol(), lifespan="off", ws="none", log_level="error")  # type: ignore[arg-type]
-        config.load()
         loop = asyncio.get_running_loop()
-        made = await loop.create_server(lambda: config.http_protocol_class(config, ServerState(), {}), "127.0.0.1", 0)  # type: ignore[union-attr, call-arg]
-        async with made:
-            reading, writing = await asyncio.open_connection(*made.sockets[0].getsockname())
+        async with served_at(application) as (address, _):
+            reading, writing = await asyncio.open_connection(*address)
             begun, found = loop.time(), b""
             for part in parts:
                 writing.write(part)
@@ -273,6 +283,84 @@ def test_connections_whose_head_does_not_come_are_closed(monkeypatch: pytest.Mon
     assert 0.2 < silent[1] < 2.0
     assert dripped[1] < 2.0
     assert run_apart(ended(b"GET / HTTP/1.1\r\n", b"Host: a\r\n\r\n"))[0].startswith(b"HTTP/1.1 204")
+
+
+@pytest.mark.parametrize("pieces", [1, 200])
+@pytest.mark.parametrize("taken", [0, 1, 400_000])
+def test_reader_who_does_not_take_the_reply_is_disconnected(
+    monkeypatch: pytest.MonkeyPatch, taken: int, pieces: int
+) -> None:
+    """Of a reader that takes so many bytes a few times a second; the third is slow, yet gets all."""
+    import asyncio
+
+    monkeypatch.setattr(connections, "REPLY_WAIT", 1.5)
+    size = 8_000_000
+
+    async def application(scope: object, receive: object, send: object) -> None:
+        await send({"type": "http.response.start", "status": 200, "headers": []})  # type: ignore[operator]
+        for _ in range(pieces):
+            await send({"type": "http.response.body", "body": bytes(size // pieces), "more_body": True})  # type: ignore[operator]
+        await send({"type": "http.response.body"})  # type: ignore[operator]
+
+    async def reading() -> tuple[int, float]:
+        """Return how much came, and how long the connection was kept, at most until all came."""
+        loop = asyncio.get_running_loop()
+        async with served_at(application) as (address, open_ones):
+            with socket.socket() as connection:
+                connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 500_000)
+                connection.setblocking(False)
+                await loop.sock_connect(connection, address)
+                await loop.sock_sendall(connection, b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+                begun, came = loop.time(), 0
+                await asyncio.sleep(0.1)
+                while open_ones and came < size and loop.time() - begun < 20.0:
+                    if taken:
+                        came += len(await loop.sock_recv(connection, taken))
+                    await asyncio.sleep(0.15)
+                return came, loop.time() - begun
+
+    came, kept = run_apart(reading())
+    if taken > 1:
+        assert came >= size
+        assert kept > connections.REPLY_WAIT
+    else:
+        assert came < 1_000
+        assert kept < 20.0
+
+
+def test_job_that_ended_is_not_kept_by_its_reader() -> None:
+    import asyncio
+    from functools import partial
+
+    from viscofric.web.app import JobStream
+
+    async def work() -> list[dict[str, object]]:
+        ended, gone = asyncio.Event(), asyncio.Event()
+        sent: list[dict[str, object]] = []
+
+        async def lines() -> AsyncIterator[bytes]:
+            for number in range(3):
+                yield b"%d\n" % number
+            ended.set()
+
+        async def send(message: dict[str, object]) -> None:
+            if message["type"] == "http.response.body":
+                await gone.wait()  # the reader takes nothing yet
+            sent.append(message)
+
+        async def receive() -> dict[str, object]:
+            await asyncio.sleep(60.0)
+            return {"type": "http.disconnect"}
+
+        replying = asyncio.create_task(partial(JobStream(lines()), {}, receive)(send))  # type: ignore[arg-type]
+        await asyncio.wait_for(ended.wait(), 10.0)
+        gone.set()
+        await replying
+        return sent
+
+    _, *bodies = run_apart(work())
+    assert [one["body"] for one in bodies] == [b"0\n", b"1\n", b"2\n", b""]
+    assert not bodies[-1].get("more_body")
 
 
 def test_body_that_comes_byte_by_byte_is_given_up() -> None:

@@ -310,21 +310,33 @@ class JobStream(Response):
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Send the lines; stop the job as soon as the other end is gone."""
         await send({"type": "http.response.start", "status": 200, "headers": self.raw_headers})
-        tasks = [asyncio.create_task(self._send_all(send)), asyncio.create_task(_gone(receive))]
+        # a reader that is slower than the job must not keep the job's process from the next one
+        lines: asyncio.Queue[bytes] = asyncio.Queue()
+        job = asyncio.create_task(self._collect(lines))
+        tasks = [asyncio.create_task(_send_all(lines, job, send)), asyncio.create_task(_gone(receive))]
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            for task in tasks:
+            for task in (*tasks, job):
                 task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            await asyncio.gather(*tasks, job, return_exceptions=True)
         if not tasks[0].cancelled() and (error := tasks[0].exception()) is not None and not isinstance(error, OSError):
             raise error
 
-    async def _send_all(self, send: Send) -> None:
-        async with aclosing(self._lines) as lines:  # type: ignore[type-var]
-            async for line in lines:
-                await send({"type": "http.response.body", "body": line, "more_body": True})
-        await send({"type": "http.response.body", "body": b""})
+    async def _collect(self, lines: asyncio.Queue[bytes]) -> None:
+        try:
+            async with aclosing(self._lines) as found:  # type: ignore[type-var]
+                async for line in found:
+                    lines.put_nowait(line)
+        finally:
+            lines.put_nowait(b"")
+
+
+async def _send_all(lines: asyncio.Queue[bytes], job: asyncio.Task[None], send: Send) -> None:
+    while line := await lines.get():
+        await send({"type": "http.response.body", "body": line, "more_body": True})
+    await job  # raises its error
+    await send({"type": "http.response.body", "body": b""})
 
 
 async def _gone(receive: Receive) -> None:

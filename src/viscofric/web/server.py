@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 from viscofric.errors import ViscofricError
 
 if TYPE_CHECKING:
-    import asyncio
     from collections.abc import Callable, Iterator
     from pathlib import Path
     from types import FrameType
@@ -130,6 +129,7 @@ def _server(door: Door, children: Children, study: dict[str, Any] | None, worksp
     import uvicorn
 
     from viscofric.web.app import make_app
+    from viscofric.web.connections import HEAD_WAIT, Connection
     from viscofric.web.start import start
 
     class Server(uvicorn.Server):
@@ -144,7 +144,7 @@ def _server(door: Door, children: Children, study: dict[str, Any] | None, worksp
 
     config = uvicorn.Config(
         make_app(door, workspaces, children, study),
-        http=_protocol(),
+        http=Connection,
         loop="asyncio",
         ws="none",
         lifespan="off",
@@ -152,51 +152,10 @@ def _server(door: Door, children: Children, study: dict[str, Any] | None, worksp
         access_log=False,
         server_header=False,
         proxy_headers=False,
-        timeout_keep_alive=int(_HEAD_WAIT),
+        timeout_keep_alive=int(HEAD_WAIT),
         timeout_graceful_shutdown=2,
     )
     return Server(config)
-
-
-_HEAD_WAIT = 30.0  # s
-
-
-def _protocol() -> type[asyncio.Protocol]:
-    """Return the protocol of a connection, which is closed if the head of a request does not come in time.
-
-    uvicorn waits without end for a first request, and for the rest of one that began.
-    """
-    from uvicorn.protocols.http.h11_impl import H11Protocol
-
-    class Protocol(H11Protocol):
-        _waiting: asyncio.TimerHandle | None = None
-
-        def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-            super().connection_made(transport)
-            self._wait()
-
-        def data_received(self, data: bytes) -> None:
-            super().data_received(data)
-            self._wait()
-
-        def connection_lost(self, exc: Exception | None) -> None:
-            self._stop_waiting()
-            super().connection_lost(exc)
-
-        def _wait(self) -> None:
-            """Wait for a head from its first byte on, not from each."""
-            cycle: Any = self.cycle  # None before a first request
-            if cycle is not None and not cycle.response_complete:
-                self._stop_waiting()
-            elif self._waiting is None and not self.transport.is_closing():
-                self._waiting = self.loop.call_later(_HEAD_WAIT, self.transport.abort)
-
-        def _stop_waiting(self) -> None:
-            if self._waiting is not None:
-                self._waiting.cancel()
-                self._waiting = None
-
-    return Protocol
 
 
 class _Stopping(list["Callable[[], object]"]):
