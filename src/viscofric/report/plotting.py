@@ -162,7 +162,7 @@ def _agreement(axes: Axes, found: Any) -> None:
     error = np.where(np.isfinite(found.bias_error_at), found.bias_error_at, 0.0)
     axes.errorbar(found.temperature - CELSIUS_ZERO, 100.0 * found.bias_at, 100.0 * error, fmt="o")
     axes.axhline(0.0, color="black", linewidth=0.8)
-    axes.set(xlabel="temperature (°C)", ylabel="predicted less measured friction (%)")
+    axes.set(xlabel="temperature (°C)", ylabel="predicted minus measured friction (%)")
 
 
 def _topography(axes: Axes, topography: Any) -> None:
