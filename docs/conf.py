@@ -28,6 +28,7 @@ extensions = [
     "docstrings",
     "generated_pages",
     "offline",
+    "search_words",
 ]
 exclude_patterns = ["_build", "_generated", "_extensions", "_templates", "README.md"]
 templates_path = ["_templates"]

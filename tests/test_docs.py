@@ -41,9 +41,10 @@ def extensions() -> dict[str, ModuleType]:
         import page_parts
         import results_pages
         import run_file_pages
+        import search_words
     finally:
         sys.path.remove(str(DOCS / "_extensions"))
-    modules = (command_pages, curve_file_pages, offline, page_parts, results_pages, run_file_pages)
+    modules = (command_pages, curve_file_pages, offline, page_parts, results_pages, run_file_pages, search_words)
     return {module.__name__: module for module in modules}
 
 
@@ -208,6 +209,16 @@ def test_requests_to_other_hosts_are_found(extensions: dict[str, ModuleType], tm
     (tmp_path / "page.html").write_text(followed, encoding="utf-8")
     (tmp_path / "style.css").write_text('/* https://a.org */ @import "https://a.org/x.css";', encoding="utf-8")
     assert list(offline.requests_of_site(tmp_path)) == ["style.css: https://a.org/x.css"]
+
+
+def test_a_search_finds_pages_that_have_all_its_words(extensions: dict[str, ModuleType]) -> None:
+    tables = {"terms": {"roll": [0, 1], "resist": 1}, "titleterms": {"payn": [2], "resist": 2}}
+    index = {"docnames": ["a", "b", "c"], **tables}
+    results = extensions["search_words"].results
+    assert results(index, "Rolling resistance") == {"b"}
+    assert results(index, "Payne") == {"c"}
+    assert results(index, "resistances") == {"b", "c"}
+    assert results(index, "rolling hysteresis") == set()
 
 
 def test_run_shows_the_site() -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import command_pages
 import curve_file_pages
+import literature_pages
 import overview_figure
 import results_pages
 import run_file_pages
@@ -25,6 +26,7 @@ def generate(app: Sphinx) -> None:
     log.info("tables and figures from the code ...")
     write("command_line.md", command_pages.page())
     write("friction_curves.md", curve_file_pages.page())
+    write("literature.md", literature_pages.page())
     write("run_file.md", run_file_pages.page())
     overview_figure.generate()
     results_pages.generate()

@@ -255,6 +255,8 @@ _TABLE = (
         1974,
         "Solving Least Squares Problems",
         publisher="Prentice-Hall",
+        doi="10.1137/1.9781611971217",
+        note="reprinted by SIAM (1995)",
     ),
     Reference(
         "lee1960",
@@ -397,9 +399,10 @@ _TABLE = (
         "yastrebov2017",
         ("V. A. Yastrebov", "G. Anciaux", "J.-F. Molinari"),
         2017,
-        journal="Tribol. Int.",
-        volume="114",
-        pages="161",
+        "On the accurate computation of the true contact-area in mechanical contact of random rough surfaces",
+        "Tribol. Int.",
+        "114",
+        "161--171",
         doi="10.1016/j.triboint.2017.04.023",
     ),
 )
