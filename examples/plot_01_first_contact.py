@@ -14,7 +14,7 @@ ball's axis, and this lever arm causes the friction force.
 import matplotlib.pyplot as plt
 
 import viscofric as vf
-from viscofric.report.figures.contact import plot_pressure_map, plot_pressure_profile, plot_surface_profile
+from viscofric import report
 
 rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 ball = vf.Ball(radius="10 mm")
@@ -34,16 +34,16 @@ print(f"contact              {1e3 * solution.front:.3f} mm ahead of the axis, {1
 # its distance from the axis divided by the radius of the ball is the friction coefficient.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained", width_ratios=[1.15, 1.0])
-colours = plot_pressure_map(left, solution)
+colours = report.plot_pressure_map(left, solution)
 figure.colorbar(colours, ax=left, label="pressure (kPa)", shrink=0.85)
-plot_pressure_profile(right, solution)
+report.plot_pressure_profile(right, solution)
 
 # %%
 # The same line, seen from the side (heights are exaggerated): behind the ball the rubber lies lower than at the same
 # distance ahead of it. It recovers in the trail.
 
 figure, axes = plt.subplots(figsize=(7.0, 3.6), layout="constrained")
-plot_surface_profile(axes, solution, ball)
+report.plot_surface_profile(axes, solution, ball)
 
 # %%
 # Friction is also computed from the energy that the rubber dissipates. The agreement of both is a check that every

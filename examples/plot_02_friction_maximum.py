@@ -14,7 +14,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.figures.style import BLUE, GREEN, VERMILION
 
 rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 ball = vf.Ball(radius="10 mm")
@@ -39,12 +38,12 @@ loss_tangent = modulus.imag / modulus.real
 # at the modulus :math:`E_0` to Hertz's at :math:`E_\infty`, smaller by :math:`(E_\infty/E_0)^{2/3} = 4.64`.
 
 figure, (above, below) = plt.subplots(2, 1, figsize=(7.0, 6.4), sharex=True, layout="constrained")
-above.plot(speeds, friction, "o-", color=BLUE, label=r"friction coefficient $\mu$ of the ball")
-above.plot(speeds, 0.1 * loss_tangent, "--", color=VERMILION, label=r"$\tan\delta(v/a)$ of the rubber, divided by 10")
+above.plot(speeds, friction, "o-", color="C0", label=r"friction coefficient $\mu$ of the ball")
+above.plot(speeds, 0.1 * loss_tangent, "--", color="C1", label=r"$\tan\delta(v/a)$ of the rubber, divided by 10")
 above.set_ylabel("friction coefficient")
 above.set_ylim(0.0, 0.19)
 above.legend(loc="upper right", frameon=False)
-below.plot(speeds, 1e6 * area, "s-", color=GREEN)
+below.plot(speeds, 1e6 * area, "s-", color="C2")
 below.set_xscale("log")
 below.set_xlabel("speed (m/s)")
 below.set_ylabel("contact area (mm²)")

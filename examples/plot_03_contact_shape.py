@@ -15,7 +15,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.figures.style import sequential_looks
 
 rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="1 ms")
 ball = vf.Ball(radius="10 mm")
@@ -34,11 +33,12 @@ for name, one in solutions.items():
 # pressure is a lower bound.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained")
-for (name, one), look in zip(solutions.items(), sequential_looks(len(solutions)), strict=True):
+colours = plt.cm.viridis(np.linspace(0.0, 0.85, len(solutions)))
+for (name, one), colour in zip(solutions.items(), colours, strict=True):
     edge = 0.05 * one.load / one.contact_area
-    left.contour(1e3 * one.x, 1e3 * one.y, one.pressure.T, levels=[edge], colors=[look.colour])
+    left.contour(1e3 * one.x, 1e3 * one.y, one.pressure.T, levels=[edge], colors=[colour])
     middle = one.pressure.shape[1] // 2
-    right.plot(1e3 * one.x, 1e-3 * one.pressure[:, middle], color=look.colour, label=name)
+    right.plot(1e3 * one.x, 1e-3 * one.pressure[:, middle], color=colour, label=name)
 left.plot(0.0, 0.0, "k+")
 left.set_aspect("equal")
 left.set_ylabel("across the motion (mm)")

@@ -15,7 +15,6 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.contact.reference import hunter_line
-from viscofric.report.figures.style import BLUE, VERMILION
 
 E0, E_inf, tau = "1 MPa", "10 MPa", "1 ms"
 radius, load = "10 mm", "1 N/mm"
@@ -37,16 +36,16 @@ def exact(speed):
 fine = np.geomspace(speeds[0], speeds[-1], 60)
 one = solutions[3]
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
-left.semilogx(fine, [exact(speed).friction_coefficient for speed in fine], color=VERMILION, label="Hunter, exact")
-left.semilogx(speeds, [each.friction_coefficient for each in solutions], "o", color=BLUE, label="numerical")
+left.semilogx(fine, [exact(speed).friction_coefficient for speed in fine], color="C1", label="Hunter, exact")
+left.semilogx(speeds, [each.friction_coefficient for each in solutions], "o", color="C0", label="numerical")
 left.set_xlabel("speed (m/s)")
 left.set_ylabel("friction coefficient")
 left.set_ylim(bottom=0.0)
 left.legend(frameon=False)
 x = np.linspace(-5e-3, 5e-3, 600)
 every = slice(None, None, max(1, len(one.x) // 60))
-right.plot(1e3 * x, 1e-3 * exact(speeds[3]).pressure(x), color=VERMILION, label="Hunter, exact")
-right.plot(1e3 * one.x[every], 1e-3 * one.pressure[every, 0], "o", markersize=3.5, color=BLUE, label="numerical")
+right.plot(1e3 * x, 1e-3 * exact(speeds[3]).pressure(x), color="C1", label="Hunter, exact")
+right.plot(1e3 * one.x[every], 1e-3 * one.pressure[every, 0], "o", markersize=3.5, color="C0", label="numerical")
 right.set_xlim(-5.0, 5.0)
 right.set_xlabel("along the motion (mm)")
 right.set_ylabel(f"pressure at {speeds[3]:.0f} m/s (kPa)")

@@ -14,7 +14,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.figures.style import BLUE, GREEN, GREY
 
 rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 ball = vf.Ball(radius="10 mm")
@@ -35,12 +34,12 @@ layers = [vf.solve_steady(rubber, ball, layer=vf.Layer(one, bonded=True), **cont
 
 figure, axes = plt.subplots(figsize=(7.0, 4.3), layout="constrained")
 for name, colour, marker, values, limit in (
-    ("friction coefficient", BLUE, "o", [one.friction_coefficient for one in layers], half_space.friction_coefficient),
-    ("indentation", GREEN, "s", [one.indentation for one in layers], half_space.indentation),
+    ("friction coefficient", "C0", "o", [one.friction_coefficient for one in layers], half_space.friction_coefficient),
+    ("indentation", "C2", "s", [one.indentation for one in layers], half_space.indentation),
 ):
     axes.semilogx(relative, np.array(values) / limit, marker=marker, color=colour, label=name)
-axes.axhline(1.0, color=GREY, linewidth=0.8)
-axes.axvline(4.0, color=GREY, linewidth=0.8, linestyle="--")
+axes.axhline(1.0, color="0.5", linewidth=0.8)
+axes.axvline(4.0, color="0.5", linewidth=0.8, linestyle="--")
 axes.set_xticks(relative, [f"{one:g}" for one in relative], minor=False)
 axes.set_xticks([], minor=True)
 axes.set_ylim(0.0, 1.05)

@@ -14,7 +14,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.figures.style import looks
 
 rubber = vf.synthetic_fluoroelastomer()
 frequency = np.geomspace(1e-4, 1e12, 400)  # rad/s
@@ -25,11 +24,11 @@ temperatures = ["0 degC", "30 degC", "60 degC", "90 degC"]
 # right, by less at higher temperatures.
 
 figure, panels = plt.subplots(1, 2, figsize=(10.0, 4.0), layout="constrained")
-for temperature, look in zip(temperatures, looks(len(temperatures)), strict=True):
+for temperature, colour in zip(temperatures, plt.cm.viridis(np.linspace(0.0, 0.85, len(temperatures))), strict=True):
     modulus = rubber.complex_modulus(frequency, temperature)
     for axes, part in zip(panels, (modulus.real, modulus.imag), strict=True):
         name = temperature.replace("deg", "°")
-        axes.loglog(frequency, 1e-6 * part, color=look.colour, linestyle=look.dashes, label=name)
+        axes.loglog(frequency, 1e-6 * part, color=colour, label=name)
 for axes, name in zip(panels, ("storage modulus $E'$ (MPa)", "loss modulus $E''$ (MPa)"), strict=True):
     axes.set_xlabel(r"angular frequency $\omega$ (rad/s)")
     axes.set_ylabel(name)

@@ -17,7 +17,6 @@ import matplotlib.pyplot as plt
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import mark_synthetic, temperature_bar
 
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 print(sweeps.format, len(sweeps), "isotherms")
@@ -25,7 +24,7 @@ print(sweeps.format, len(sweeps), "isotherms")
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained")
 report.plot_isotherms(left, sweeps, "storage")
 colours = report.plot_isotherms(right, sweeps, "loss")
-temperature_bar(figure, colours, [right])
+figure.colorbar(colours, ax=right, label="temperature (°C)")
 
 # %%
 # All isotherms are fitted by one common curve at once, E' and E'' together, and every factor has a standard error.
@@ -48,7 +47,7 @@ print(laws.explanation)
 
 figure, axes = plt.subplots(figsize=(7.0, 4.6), layout="constrained")
 report.plot_shift_factors(axes, factors, laws.best)
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 # %%
 # As the data are synthetic, the truth is known:

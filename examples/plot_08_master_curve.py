@@ -17,7 +17,6 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import mark_synthetic
 
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 fit = vf.superpose(sweeps, reference="30 degC")
@@ -39,7 +38,7 @@ figure, (above, below) = plt.subplots(
 report.plot_master_curve(above, fit.master_curve, spectrum)
 report.plot_residuals(below, fit.master_curve, spectrum)
 above.set_xlabel("")
-mark_synthetic([above])
+report.mark_synthetic([above])
 
 # %%
 # The spectrum. The modes on the left, at short times, belong to the glass transition, the steep end

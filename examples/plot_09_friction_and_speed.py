@@ -18,7 +18,6 @@ import matplotlib.pyplot as plt
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import mark_synthetic
 
 example = files("viscofric") / "example"
 measured = vf.separate(vf.read_mtm(example / "mtm.csv"))
@@ -48,7 +47,7 @@ predicted = vf.predict_friction(
 
 figure, axes = plt.subplots(figsize=(7.5, 5.2), layout="constrained")
 report.plot_friction_curves(axes, predicted, measured)
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 # %%
 # Agreement in numbers:
@@ -64,7 +63,7 @@ print(f"within twice the standard error: {100 * agreement.share_within_error:.0f
 figure, axes = plt.subplots(figsize=(7.5, 3.6), layout="constrained")
 report.plot_coulomb_friction(axes, measured)
 axes.set_ylim(0.0, 0.04)
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 friction = float(predicted.at_temperature("65 degC").viscoelastic[0])
 print(f"predicted at 65 °C and {1e3 * predicted.speed[0]:.0f} mm/s: {friction:.5f}")

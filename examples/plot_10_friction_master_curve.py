@@ -18,7 +18,6 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import mark_synthetic
 
 example = files("viscofric") / "example"
 measured = vf.separate(vf.read_mtm(example / "mtm.csv"))
@@ -42,7 +41,7 @@ predicted = vf.predict_friction(
 )
 figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
 report.plot_friction_master_curve(axes, predicted, master)
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 # %%
 # Friction is thus known where it was not measured. At 75 °C, which was not tested, the measured curve gives friction at

@@ -15,7 +15,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.figures.style import BLUE, VERMILION
 
 rubber = vf.synthetic_fluoroelastomer()
 ball = vf.Ball(radius="20 mm")
@@ -33,11 +32,11 @@ marks = np.linspace(263.15, 373.15, 8)
 solved = vf.predict_friction(rubber, ball, speeds=speed, temperatures=marks, load="10 N", accuracy=1e-2)
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.0, 4.0), sharey=True, layout="constrained")
-left.loglog(curve.speed, curve.viscoelastic, color=BLUE)
+left.loglog(curve.speed, curve.viscoelastic, color="C0")
 left.set_xlabel("speed at 30 °C (m/s)")
 left.set_ylabel("friction coefficient")
-right.plot(temperatures - 273.15, np.exp(log_friction), color=BLUE, label="from the curve on the left")
-right.plot(marks - 273.15, solved.viscoelastic, "o", color=VERMILION, label="computed at each temperature")
+right.plot(temperatures - 273.15, np.exp(log_friction), color="C0", label="from the curve on the left")
+right.plot(marks - 273.15, solved.viscoelastic, "o", color="C1", label="computed at each temperature")
 right.set_xlabel("temperature (°C), at 0.1 m/s")
 right.legend(frameon=False)
 left.set_ylim(1e-3, 1e-1)

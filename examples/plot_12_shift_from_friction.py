@@ -15,7 +15,6 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import mark_synthetic
 
 rubber = vf.synthetic_fluoroelastomer()
 exact = vf.predict_friction(
@@ -48,8 +47,8 @@ print(master.overlap_sentence)
 figure, (above, below) = plt.subplots(2, 1, figsize=(7.5, 7.4), layout="constrained")
 report.plot_friction_curves(above, measurement=measured)
 report.plot_friction_master_curve(below, measurement=master)
-mark_synthetic([above])
-mark_synthetic([below])
+report.mark_synthetic([above])
+report.mark_synthetic([below])
 
 # %%
 # The comparison with the law of the modulus from which the friction was computed tests the agreement within the errors.

@@ -18,7 +18,6 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import BLUE, GREY, VERMILION, mark_synthetic
 
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 few = vf.IsothermalSweeps(tuple(one for one in sweeps.isotherms if 290.0 < one.temperature < 400.0), "tension")
@@ -44,12 +43,12 @@ measured = middle.half_width * fit.master_curve.angular_frequency[[0, -1]]  # m/
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11.0, 4.4), layout="constrained")
 report.plot_master_curve(left, fit.master_curve, spectrum, band=samples)
-mark_synthetic([left])
-right.axvspan(*measured, color=GREY, alpha=0.15, linewidth=0.0, label="frequencies of the sweeps")
+report.mark_synthetic([left])
+right.axvspan(*measured, color="0.5", alpha=0.15, linewidth=0.0, label="frequencies of the sweeps")
 band = friction.viscoelastic_lower, friction.viscoelastic_upper
-right.fill_between(friction.speed, *band, color=BLUE, alpha=0.4, linewidth=0.0, label="95 % band")
-right.semilogx(friction.speed, friction.viscoelastic, color=BLUE, label="predicted from the sweeps")
-right.semilogx(truth.speed, truth.viscoelastic, "o", color=VERMILION, markersize=4, label="true material")
+right.fill_between(friction.speed, *band, color="C0", alpha=0.4, linewidth=0.0, label="95 % band")
+right.semilogx(friction.speed, friction.viscoelastic, color="C0", label="predicted from the sweeps")
+right.semilogx(truth.speed, truth.viscoelastic, "o", color="C1", markersize=4, label="true material")
 right.set_xlabel("speed at 30 °C (m/s)")
 right.set_ylabel("friction coefficient")
 right.set_ylim(0.0, 0.036)

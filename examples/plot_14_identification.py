@@ -15,7 +15,6 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import mark_synthetic
 
 planted = vf.synthetic_fluoroelastomer()
 ball = vf.Ball(radius="15 mm")
@@ -54,14 +53,14 @@ print(found)
 
 figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
 report.plot_identified_modulus(axes, found, vf.Material(planted.modes_at("60 degC"), name="planted"))
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 # %%
 # The identified material can be used like any other. Its friction, at the measured points and between them:
 
 figure, axes = plt.subplots(figsize=(7.5, 4.6), layout="constrained")
 report.plot_friction_curves(axes, found.friction, measured)
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 middle = np.sqrt(found.identified.low * found.identified.high)
 ratio = float(abs(found.material.complex_modulus(middle)) / abs(planted.complex_modulus(middle, "60 degC")))

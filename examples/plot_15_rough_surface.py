@@ -37,7 +37,7 @@ figure.colorbar(colours, ax=right, label=label)
 # shorter than the shortest of the track are those of the pressure: the edges of the contact patches.
 
 figure, axes = plt.subplots(figsize=(7.5, 4.3), layout="constrained")
-plot_friction_by_wavelength(axes, {name: vf.roughness.friction_by_wavelength(one) for name, one in solutions.items()})
+report.plot_friction_by_wavelength(axes, {name: vf.roughness.friction_by_wavelength(one) for name, one in solutions.items()})
 
 # %%
 # At high speed the rubber is stiff, and the contact area is smaller. The errors are estimated discretisation

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscofric as vf
-from viscofric.report.figures.rough import plot_rough_friction
+from viscofric import report
 
 rubber = vf.synthetic_fluoroelastomer()
 waves = {"shortest": "64 um", "rolloff": "250 um", "rms_slope": 0.2}
@@ -39,8 +39,8 @@ theories = {
 # shape of the curve, and its magnitude within a factor of about two. The contact area is a fifth to a third too small.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11.0, 4.3), layout="constrained")
-plot_rough_friction(left, solved, theories)
-plot_rough_friction(right, solved, {"Persson": theories["Persson, γ = 1"]}, area=True)
+report.plot_rough_friction(left, solved, theories)
+report.plot_rough_friction(right, solved, {"Persson": theories["Persson, γ = 1"]}, area=True)
 
 # %%
 # Eight points in the shortest wave are few at small contact areas; ``friction_error`` is the estimated error.

@@ -18,7 +18,6 @@ from tempfile import TemporaryDirectory
 import matplotlib.pyplot as plt
 
 import viscofric as vf
-from viscofric.report.figures.style import looks
 
 RUN_FILE = """
 title = "Two balls under two loads"
@@ -57,11 +56,11 @@ print("axes:", ", ".join(f"{name} ({size})" for name, size in cases.sizes.items(
 
 figure, panels = plt.subplots(1, 2, figsize=(10.0, 4.2), sharey=True, layout="constrained")
 for axes, radius in zip(panels, cases["radius"].values, strict=True):
-    for temperature, look in zip(cases["temperature"].values, looks(3), strict=True):
+    for temperature, colour in zip(cases["temperature"].values, ("C0", "C1", "C2"), strict=True):
         for load, style in ((2.0, "--"), (10.0, "-")):
             mu = cases["friction_coefficient"].sel(radius=radius, load=load, temperature=temperature)
             name = f"{temperature - 273.15:.0f} °C, {load:.0f} N"
-            axes.semilogx(1e3 * mu["speed"], mu, color=look.colour, linestyle=style, label=name)
+            axes.semilogx(1e3 * mu["speed"], mu, color=colour, linestyle=style, label=name)
     axes.set_title(f"ball of radius {1e3 * radius:g} mm", fontsize=10)
     axes.set_xlabel("speed (mm/s)")
 panels[0].set_ylabel("friction coefficient")

@@ -18,7 +18,6 @@ import numpy as np
 
 import viscofric as vf
 from viscofric import report
-from viscofric.report.figures.style import mark_synthetic
 
 rubber, ball = vf.synthetic_fluoroelastomer(), vf.Ball(radius="9.525 mm")
 planted = vf.friction.GaussianShearStress(
@@ -54,7 +53,7 @@ print(laws.best)
 figure, axes = plt.subplots(figsize=(7.5, 4.6), layout="constrained")
 fitted = [row.law for row in laws.rows if row.law is not None]
 report.plot_shear_stress(axes, stress, sorted(fitted, key=lambda law: law is not laws.best), synthetic=True)
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 # %%
 # Total friction of a cylinder in pure sliding, with its parts. The error bars have the errors of the law and of the
@@ -67,7 +66,7 @@ print(*friction.notes, sep="\n")
 
 figure, axes = plt.subplots(figsize=(7.5, 4.2), layout="constrained")
 report.plot_friction_parts(axes, friction)
-mark_synthetic([axes])
+report.mark_synthetic([axes])
 
 truth = vf.predict_friction(rubber, cylinder, speeds=friction.speed[[-1]], **case, interface=planted)
 ratio = float(friction.total[-1] / truth.total[0])

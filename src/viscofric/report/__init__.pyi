@@ -1,4 +1,7 @@
 from viscofric.report.figures.animation import save_animation as save_animation
+from viscofric.report.figures.contact import plot_pressure_map as plot_pressure_map
+from viscofric.report.figures.contact import plot_pressure_profile as plot_pressure_profile
+from viscofric.report.figures.contact import plot_surface_profile as plot_surface_profile
 from viscofric.report.figures.friction import plot_coulomb_friction as plot_coulomb_friction
 from viscofric.report.figures.friction import plot_friction_curves as plot_friction_curves
 from viscofric.report.figures.friction import plot_friction_master_curve as plot_friction_master_curve
@@ -17,6 +20,10 @@ from viscofric.report.figures.pressures import pressure_strip as pressure_strip
 from viscofric.report.figures.pressures import transient_figure as transient_figure
 from viscofric.report.figures.ramps import plot_amplitude_sweep as plot_amplitude_sweep
 from viscofric.report.figures.ramps import plot_temperature_ramps as plot_temperature_ramps
+from viscofric.report.figures.rough import plot_contact_map as plot_contact_map
+from viscofric.report.figures.rough import plot_friction_by_wavelength as plot_friction_by_wavelength
+from viscofric.report.figures.rough import plot_rough_friction as plot_rough_friction
+from viscofric.report.figures.rough import plot_topography as plot_topography
 from viscofric.report.figures.rubber import plot_isotherms as plot_isotherms
 from viscofric.report.figures.rubber import plot_master_curve as plot_master_curve
 from viscofric.report.figures.rubber import plot_relaxation_spectrum as plot_relaxation_spectrum
@@ -27,6 +34,7 @@ from viscofric.report.figures.shift_factors import plot_shift_comparison as plot
 from viscofric.report.figures.shift_factors import plot_shift_factors as plot_shift_factors
 from viscofric.report.figures.shift_factors import plot_vertical_shift as plot_vertical_shift
 from viscofric.report.figures.study import draw_figures as draw_figures
+from viscofric.report.figures.style import mark_synthetic as mark_synthetic
 from viscofric.report.figures.superposition import plot_booij_thoone_palmen as plot_booij_thoone_palmen
 from viscofric.report.figures.superposition import plot_cole_cole as plot_cole_cole
 from viscofric.report.figures.superposition import plot_kramers_kronig as plot_kramers_kronig

@@ -42,7 +42,19 @@ def _label_along(solution: ContactSolution) -> str:
 
 
 def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
-    """Draw the pressure of a point contact seen from above, with the outline of the contact."""
+    """Draw the pressure of a point contact seen from above, with the outline of the contact.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : ContactSolution
+        Of a ball or another indenter of finite size across the motion.
+
+    Returns
+    -------
+    matplotlib.collections.QuadMesh
+        For a colour bar, in Pa with the prefix that suits the largest pressure.
+    """
     unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
     every = math.ceil(max(solution.pressure.shape) / _MOST_CELLS)
     x, y = solution.x[::every] / unit.size, solution.y[::every] / unit.size
@@ -82,7 +94,13 @@ def _draw_motion(axes: Axes, solution: ContactSolution) -> None:
 
 
 def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
-    """Draw the pressure along the centre line of a contact."""
+    """Draw the pressure along the centre line of a contact.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : ContactSolution
+    """
     unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
     x, pressure = solution.x / unit.size, _centre(solution.pressure) / pressure_unit.size
     axes.fill_between(x, pressure, color=BLUE, alpha=0.15, linewidth=0.0)
@@ -100,6 +118,13 @@ def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indent
     """Draw the deformed surface along the centre line, with the indenter that presses on it.
 
     Heights are counted from the level of the indentation, upwards.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : ContactSolution
+    indenter : Indenter
+        The one that was solved.
     """
     unit = _along(solution)
     surface = -_centre(solution.displacement)

@@ -43,7 +43,19 @@ def _axes_of_map(axes: Axes, unit: Unit) -> None:
 
 
 def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
-    """Draw the heights of a surface seen from above; points without a reading stay blank."""
+    """Draw the heights of a surface seen from above; points without a reading stay blank.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    topography : Topography
+
+    Returns
+    -------
+    mesh : matplotlib.collections.QuadMesh
+    label : str
+        For the colour bar of the mesh.
+    """
     every = math.ceil(max(topography.shape) / _MOST_POINTS)
     z = topography.heights[::every, ::every] - np.nanmean(topography.heights)
     unit, depth = unit_for(max(topography.size)), unit_for(float(np.nanmax(np.abs(z))) or 1.0)
@@ -70,7 +82,19 @@ def plot_line_scan(axes: Axes, topography: Topography) -> None:
 
 
 def plot_contact_map(axes: Axes, solution: PeriodicSolution) -> tuple[QuadMesh, str]:
-    """Draw where a rough surface touches, and with which pressure; an arrow shows where it goes."""
+    """Draw where a rough surface touches, and with which pressure; an arrow shows where it goes.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    solution : PeriodicSolution
+
+    Returns
+    -------
+    mesh : matplotlib.collections.QuadMesh
+    label : str
+        For the colour bar of the mesh.
+    """
     mesh, label = plot_pressure_of_period(axes, solution.x, solution.y, solution.pressure)
     if solution.speed != 0.0:
         sense = math.copysign(1.0, solution.speed)
@@ -163,7 +187,14 @@ def _turned(value: Any) -> Any:
 
 
 def plot_friction_by_wavelength(axes: Axes, parts: Mapping[str, FrictionByWavelength]) -> None:
-    """Draw what the waves of each length add to the friction coefficient, per decade of wavelength."""
+    """Draw what the waves of each length add to the friction coefficient, per decade of wavelength.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    parts : mapping of str to FrictionByWavelength
+        By what the legend calls them.
+    """
     for look, (name, part) in zip(looks(len(parts)), parts.items(), strict=True):
         per_decade = part.contribution / np.log10(part.edges[:-1] / part.edges[1:])
         axes.stairs(per_decade[::-1], part.edges[::-1], color=look.colour, linestyle=look.dashes, label=name)

@@ -228,7 +228,12 @@ def origin(synthetic: bool) -> str:
 
 
 def mark_synthetic(panels: Sequence[Axes]) -> None:
-    """Write beside the last panel that the data are synthetic."""
+    """Write beside the last panel that the data are synthetic.
+
+    Parameters
+    ----------
+    panels : sequence of matplotlib.axes.Axes
+    """
     last = panels[-1]
     figure = last.get_figure(root=True)
     if last.get_title() and figure is not None and figure.get_supxlabel():  # small multiples: their titles are above
