@@ -52,7 +52,7 @@ autodoc_default_options = {
     "inherited-members": "BaseModel,Exception,str,tuple",
     "member-order": "bysource",
 }
-autodoc_typehints = "none"  # docstrings tell types with shapes and units
+autodoc_typehints = "none"  # docstrings have the types, with shapes and units
 autosummary_generate = True
 napoleon_google_docstring = False
 napoleon_custom_sections = [("Attributes", "params_style")]
