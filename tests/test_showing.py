@@ -25,7 +25,7 @@ CLASSES = {
 #: Results that are single numbers, or parts of others: there is nothing to draw.
 NOTHING_TO_DRAW = {
     "AssumptionCheck", "ContactHeating", "ContactStatistics", "Diagnostics", "GlassTransition", "ImpactContact",
-    "LawComparison", "LinearRange", "OverlapQuality", "PeriodicDiagnostics", "RampCheck", "ResultsComparison",
+    "LinearRange", "OverlapQuality", "PeriodicDiagnostics", "RampCheck", "ResultsComparison",
     "SpectrumFit", "StepCheck", "StepTest", "TractionStep", "TransientErrors", "TransientHeating",
 }  # fmt: skip
 INPUTS = {

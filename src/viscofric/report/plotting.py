@@ -137,6 +137,15 @@ def _law(axes: Axes, law: ShiftLaw) -> None:
     axes.legend(handles=handles)
 
 
+def _laws(axes: Axes, comparison: Any) -> None:
+    data = comparison.to_dataset()
+    chosen = data["law"].values == data.attrs["chosen"]
+    bars = axes.barh(data["law"].values, data["information_criterion"].values, color=np.where(chosen, BLUE, "0.7"))
+    axes.bar_label(bars, [f"weight {100.0 * weight:.0f} %" for weight in data["akaike_weight"].values], padding=3)
+    axes.set(xlabel="AIC above the lowest", xmargin=0.25)
+    axes.invert_yaxis()
+
+
 def _samples(axes: Axes, samples: Any) -> None:
     bounds = modulus_band(samples, np.geomspace(*samples.frequency_range))
     for name, limits, colour in (("$E'$", bounds.storage, BLUE), ("$E''$", bounds.loss, VERMILION)):
@@ -205,6 +214,7 @@ PLOTS: dict[str, Drawing] = {
     "IsothermalSweeps": plot_isotherms,
     "JointSuperposition": _part(plot_shift_factors, lambda found: found.shift_factors),
     "KrausLaw": _columns("storage_modulus", "loss_modulus", along="strain_amplitude", log="xy"),
+    "LawComparison": _laws,
     "MasterCurve": plot_master_curve,
     "Material": _part(_spectrum, lambda found: found.spectrum),
     "MaterialSamples": _samples,

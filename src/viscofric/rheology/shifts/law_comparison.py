@@ -14,7 +14,7 @@ from viscofric.notes import Note
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial
-from viscofric.showing import Shown
+from viscofric.showing import Plotted
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -74,7 +74,7 @@ class LawRow(Generic[Law]):
 
 
 @dataclass(frozen=True)
-class LawComparison(Shown, Generic[Law]):
+class LawComparison(Plotted, Generic[Law]):
     """Laws fitted to one table of shift factors or of shear stress, the best supported one, and why.
 
     Parameters
