@@ -13,7 +13,7 @@ own frequency, short waves at high ones, and contributes to friction.
 import matplotlib.pyplot as plt
 
 import viscofric as vf
-from viscofric.report.figures.rough import plot_contact_map, plot_friction_by_wavelength, plot_topography
+from viscofric import report
 
 rubber = vf.synthetic_fluoroelastomer()
 track = vf.self_affine(0.8, shape=(128, 128), spacing="8 um", shortest="64 um", rolloff="250 um", rms_slope=0.2, seed=7)
@@ -27,9 +27,9 @@ solutions = {
 # higher on the leading flanks.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(10.5, 4.2), layout="constrained")
-colours, label = plot_topography(left, track)
+colours, label = report.plot_topography(left, track)
 figure.colorbar(colours, ax=left, label=label)
-colours, label = plot_contact_map(right, solutions["0.1 m/s"])
+colours, label = report.plot_contact_map(right, solutions["0.1 m/s"])
 figure.colorbar(colours, ax=right, label=label)
 
 # %%
@@ -37,7 +37,9 @@ figure.colorbar(colours, ax=right, label=label)
 # shorter than the shortest of the track are those of the pressure: the edges of the contact patches.
 
 figure, axes = plt.subplots(figsize=(7.5, 4.3), layout="constrained")
-report.plot_friction_by_wavelength(axes, {name: vf.roughness.friction_by_wavelength(one) for name, one in solutions.items()})
+report.plot_friction_by_wavelength(
+    axes, {name: vf.roughness.friction_by_wavelength(one) for name, one in solutions.items()}
+)
 
 # %%
 # At high speed the rubber is stiff, and the contact area is smaller. The errors are estimated discretisation

@@ -62,7 +62,7 @@ def test_every_public_name_is_in_the_reference_once() -> None:
 def test_every_function_of_figures_has_an_example_that_is_run() -> None:
     scripts = [*(DOCS / name for name in pages()), *(ROOT / "examples").glob("*.py")]
     shown = "\n".join(path.read_text(encoding="utf-8") for path in scripts)
-    assert {name for name in report.__all__ if not re.search(rf"\b{name}\(", shown)} == set()
+    assert {name for name in vf.report.__all__ if not re.search(rf"\b{name}\(", shown)} == set()
 
 
 def test_modules_that_pages_name_exist() -> None:
