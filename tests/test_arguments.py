@@ -846,6 +846,8 @@ def bad_values(name, key, good, parameter, *, everything):
     perhaps = PERHAPS if kind == "number" else {}
     if kind == "numbers" and isinstance(good, np.ndarray) and good.ndim:
         refused = refused | spoiled(good, key in WITH_GAPS)
+        if "strain" in key:  # a pure number may be text, such as "0.5 %"
+            del refused["words"]
         perhaps = resized(good)
     if key in WITH_GAPS:
         refused = {place: one for place, one in refused.items() if "NaN" not in place}
@@ -915,6 +917,61 @@ def test_bad_arguments_are_refused_in_one_sentence(name):
 @pytest.mark.parametrize("name", CALLS)
 def test_no_bad_argument_ends_in_nonsense(name):
     assert defects(name, everything=True)[1] == []
+
+
+#: Units that some number of the public names has, and percent of pure numbers.
+UNITS = (
+    *("%", "m", "N", "N/m", "m/s", "K", "Pa", "s", "rad/s", "rad", "delta_degC", "J/mol", "kg", "m/s**2", "W/m/K"),
+    *("kg/m**3", "J/kg/K", "1/m", "m**3", "m**4", "1/Pa", "K/s", "W", "W/m**2", "m**2", "1/K", "percent/K"),
+)
+#: Counts and places, directions, and rows and matrices of pure numbers or of several units; the response of a step test
+#: is a compliance or a modulus, by the kind that the tests together have.
+WITHOUT_UNIT = {
+    "threads", "most_products", "finest", "most_periods", "rebounds", "replicate", "replicates", "step", "rows",
+    "steps", "modes", "samples", "seed", "workers", "material_id", "per_decade", "shape", "passes of track_temperature",
+    "direction", "covariance", "coefficients", "parameters", "log10_values", "weights", "response", *MORE_COLUMNS[:-2],
+    "viscoelastic", "viscoelastic_error", "viscoelastic_scatter", "coulomb of FrictionCurves",
+}  # fmt: skip
+
+
+def with_unit(value, unit):
+    """Return numbers as text with a unit, in their shape."""
+    if isinstance(value, (np.ndarray, list, tuple)):
+        return [with_unit(one, unit) for one in value]
+    return f"{float(100.0 * value if unit == '%' else value)!r} {unit}"
+
+
+def is_number(value):
+    """Tell whether a value is one plain number or several."""
+    if isinstance(value, (list, tuple)):
+        return bool(value) and all(map(is_number, value))
+    if isinstance(value, np.ndarray):
+        return value.size > 0 and value.dtype.kind in "fi"
+    return isinstance(value, (float, int)) and not isinstance(value, bool)
+
+
+def taken(function, arguments):
+    """Return whether a call takes its arguments; any error but viscofric's own ends the test."""
+    try:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", category=UserWarning)
+            call(function, arguments)
+    except AcceptedError:
+        return True
+    except vf.ViscofricError:
+        return False
+    return True
+
+
+@pytest.mark.parametrize("name", [name for name in CALLS if name not in SLOW])
+def test_text_with_a_unit_is_taken_wherever_a_number_is(name):
+    function, good = good_call(name)
+    numbers = [key for key, value in good.items() if is_number(value)]
+    for key in numbers:
+        if {key, f"{key} of {name}"} & WITHOUT_UNIT:
+            continue
+        texts = (with_unit(good[key], unit) for unit in UNITS)
+        assert any(taken(function, {**good, key: text}) for text in texts), f"{key} = {good[key]!r}"
 
 
 def test_every_public_name_is_attacked():

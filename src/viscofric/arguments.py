@@ -92,17 +92,6 @@ def _float(value: object) -> float:
         raise ValueError("a number too large for a float") from None
 
 
-def number(value: object, name: str) -> float:
-    """Return one real, finite number as a float; text is refused."""
-    try:
-        found = real(value)
-    except ValueError as error:
-        raise wrong_argument(name, value, f"must be a number, not {error}.", "not-a-number") from None
-    if found.ndim or not math.isfinite(float(found)):
-        raise wrong_argument(name, value, "must be a number, finite and only one.", "not-a-number")
-    return float(found)
-
-
 def whole_number(value: object, name: str, least: int, most: int | None = None, right: str = "") -> int:
     """Return a whole number that is neither too small nor too large; `right` says in words what it must be."""
     whole = isinstance(value, Integral) and not isinstance(value, (bool, np.bool_, np.timedelta64))

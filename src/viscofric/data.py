@@ -30,9 +30,9 @@ DEFORMATIONS: tuple[Deformation, ...] = ("tension", "compression", "bending", "s
 
 def tensile_from_shear(poisson_ratio: float, what: str = "moduli", more: str = "") -> tuple[float, Note]:
     """Return the factor from a shear modulus to a tensile one, 2(1+ν), and the note that says so; `more` ends it."""
-    factor = 2.0 * (1.0 + checked_poisson_ratio(poisson_ratio, above=-1.0))
-    said = f"Shear {what} converted to tensile ones by E = 2(1+ν)G with ν = {poisson_ratio:g}{more}."
-    return factor, Note("tensile-from-shear", said)
+    ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
+    said = f"Shear {what} converted to tensile ones by E = 2(1+ν)G with ν = {ratio:g}{more}."
+    return 2.0 * (1.0 + ratio), Note("tensile-from-shear", said)
 
 
 #: Larger whole numbers are not exact as floats.
@@ -56,6 +56,8 @@ _UNITS = {
     "offset": "N",
     "track_radius": "m",
     "mean_pressure": "Pa",
+    "mean_pressure_error": "Pa",
+    "strain_amplitude": "dimensionless",
 }
 
 

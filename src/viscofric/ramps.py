@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import number
 from viscofric.data import Deformation, Moduli, Origin, set_columns, set_members, tensile_from_shear
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.showing import Items, Plotted
-from viscofric.units import angular_frequency, positive, shown_celsius
+from viscofric.units import angular_frequency, positive, shown_celsius, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -138,7 +137,7 @@ class TemperatureRamps(Origin, Plotted, Items[TemperatureRamp]):
         if not self.ramps:
             raise InputError("ramps must hold at least one TemperatureRamp.", code="empty-list")
         if self.heating_rate is not None:
-            object.__setattr__(self, "heating_rate", number(self.heating_rate, "heating_rate"))
+            object.__setattr__(self, "heating_rate", to_si(self.heating_rate, "K/s", "heating_rate"))
         if np.any(np.diff(self.angular_frequencies) <= 0.0):
             raise InputError("two ramps have the same frequency; join them to one.", code="given-twice")
 

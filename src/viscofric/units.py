@@ -121,8 +121,8 @@ def _quantity(number: float, text: str, shown: str, unit: str, name: str) -> pin
 
 
 def _plain(text: str) -> str:
-    """Replace the degree, micro and product signs of instruments by those that pint reads."""
-    text = text.strip().replace("µ", "u").replace("μ", "u").replace("·", "*").replace("℃", "°C")
+    """Replace the degree, micro, product and percent signs of instruments by those that pint reads."""
+    text = text.strip().replace("µ", "u").replace("μ", "u").replace("·", "*").replace("℃", "°C").replace("%", "percent")
     text = re.sub(r"(?<=[^\W\d])\.(?=[^\W\d])", "*", text)
     return text.replace("°C", "degC").replace("°F", "degF").replace("°K", "K")
 
@@ -300,21 +300,26 @@ def positive(value: Quantity, unit: str, name: str) -> float:
     return number
 
 
+def number(value: Quantity, name: str) -> float:
+    """Convert like `to_si` a pure number, such as 0.05 or "5 %"."""
+    return to_si(value, "dimensionless", name)
+
+
 def share(value: Quantity, name: str, *, example: float) -> float:
     """Convert like `to_si` and insist on a pure number between 0 and 1, such as the example."""
-    number = to_si(value, "dimensionless", name)
-    if not 0.0 < number < 1.0:
+    found = number(value, name)
+    if not 0.0 < found < 1.0:
         raise wrong_argument(name, value, f"must lie between 0 and 1, such as {example:g}.", "out-of-range")
-    return number
+    return found
 
 
 def checked_poisson_ratio(value: Quantity, name: str = "poisson_ratio", *, above: float | None = None) -> float:
     """Convert like `to_si` and insist on a Poisson ratio from 0 to 0.5, or from above another least value."""
-    number = to_si(value, "dimensionless", name)
-    if not (number >= 0.0 if above is None else number > above) or number > 0.5:
+    found = number(value, name)
+    if not (found >= 0.0 if above is None else found > above) or found > 0.5:
         limits = "lie between 0 and 0.5" if above is None else f"be above {above:g} and at most 0.5"
         raise wrong_argument(name, value, f"must {limits}.", "poisson-ratio")
-    return number
+    return found
 
 
 def angular_frequency(value: Quantity, name: str) -> float:

@@ -78,7 +78,7 @@ def test_settings_of_the_separation_stay_and_count(context: Context) -> None:
 def test_what_is_read_once_is_not_read_again(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     study = {"measurement": {"mtm": "mtm.csv"}}
     first = done("measured", context, study)
-    monkeypatch.setattr("viscofric.readers.read_mtm", lambda *_: pytest.fail("read again"))
+    monkeypatch.setattr("viscofric.readers.mtm.read.read_mtm", lambda *_: pytest.fail("read again"))
     assert done("measured", context, study) == first
 
 

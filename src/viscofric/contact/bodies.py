@@ -48,11 +48,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import flag, number, numbers, real
+from viscofric.arguments import flag, real
 from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.notes import Note
 from viscofric.showing import Shown
-from viscofric.units import Quantity, checked_poisson_ratio, positive
+from viscofric.units import Quantity, checked_poisson_ratio, in_si, number, positive
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -127,7 +127,7 @@ class Layer(Shown):
         array
             In the shape of `wave_number`, to rounding from qH = 1e-6 to 1e6 and beyond.
         """
-        depth = numbers(wave_number, "wave_number") * float(self.thickness)
+        depth = in_si(wave_number, "1/m", "wave_number") * float(self.thickness)
         return _bonded(depth, checked_poisson_ratio(poisson_ratio)) if self.bonded else _sliding(depth)
 
     def coupling(self, wave_number: ArrayLike, poisson_ratio: float) -> Array:
@@ -135,7 +135,7 @@ class Layer(Shown):
 
         Parameters and shape as of `yielding`.
         """
-        depth = numbers(wave_number, "wave_number") * float(self.thickness)
+        depth = in_si(wave_number, "1/m", "wave_number") * float(self.thickness)
         nu, decay = checked_poisson_ratio(poisson_ratio), np.exp(-2.0 * depth)
         if not self.bonded:
             sinh, linear = -0.5 * np.expm1(-4.0 * depth), 2.0 * depth * decay  # over exp(2Q)
@@ -217,14 +217,14 @@ def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float
 
 def checked_coulomb(coulomb: float) -> float:
     """Return a signed coefficient of Coulomb friction; InputError if it is not finite or implausible."""
-    if not abs(number(coulomb, "coulomb")) <= MOST_COULOMB:
+    if not abs(found := number(coulomb, "coulomb")) <= MOST_COULOMB:
         raise InputError(
             f"coulomb = {brief(coulomb)}: must be a friction coefficient from {-MOST_COULOMB:g} to {MOST_COULOMB:g}, "
             "negative where the indenter slips against its motion.",
             code="out-of-range",
             values={"argument": "coulomb"},
         )
-    return coulomb
+    return found
 
 
 def unit_direction(direction: Sequence[float]) -> tuple[float, float]:

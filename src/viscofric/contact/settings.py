@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypedDict
 
-from viscofric.arguments import number, whole_number
+from viscofric.arguments import whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import Layer, checked_coulomb, half_space_coupling, indenter_compliance, unit_direction
 from viscofric.errors import InputError, brief, wrong_argument
+from viscofric.units import checked_poisson_ratio, number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,12 +56,16 @@ class ContactSettings:
     coulomb: float = 0.0
 
     def __post_init__(self) -> None:
-        least, loosest = TIGHTEST / LOOSEST, LOOSEST * number(self.accuracy, "accuracy")
+        for name in ("accuracy", "tolerance"):
+            object.__setattr__(self, name, number(getattr(self, name), name))
+        ratio = checked_poisson_ratio(self.indenter_poisson_ratio, "indenter_poisson_ratio", above=-1.0)
+        object.__setattr__(self, "indenter_poisson_ratio", ratio)
+        least, loosest = TIGHTEST / LOOSEST, LOOSEST * self.accuracy
         if not least <= self.accuracy < 1.0:
             raise wrong_argument(
                 "accuracy", self.accuracy, f"must be a number from {least:g} to below 1, such as 1e-3.", "out-of-range"
             )
-        if not TIGHTEST <= number(self.tolerance, "tolerance") <= loosest:
+        if not TIGHTEST <= self.tolerance <= loosest:
             raise InputError(
                 f"tolerance = {brief(self.tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the "
                 f"accuracy, which is {loosest:g} for accuracy = {self.accuracy:g}.",
@@ -73,7 +78,7 @@ class ContactSettings:
             right = f"the number of cells along the window's longer edge, {LEAST_FINEST} or more"
             whole_number(self.grid, "grid", LEAST_FINEST, right=right)
         object.__setattr__(self, "layer", Layer.of(self.layer))
-        checked_coulomb(self.coulomb)
+        object.__setattr__(self, "coulomb", checked_coulomb(self.coulomb))
         self._derived  # noqa: B018  raises where indenter, direction or backend cannot be used
 
     @property

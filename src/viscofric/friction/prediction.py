@@ -26,7 +26,7 @@ from viscofric.heat.heating import Heating
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.material import insist_on_material
-from viscofric.units import Quantities, Quantity, positive, shown_number, to_si_array
+from viscofric.units import Quantities, Quantity, number, positive, shown_number, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -144,6 +144,7 @@ def predict_friction(
         settings["layer"] = layer
     unit = indenter.geometry.load_unit
     exactly_one(load=load, loads=loads)
+    accuracy = number(accuracy, "accuracy")
     if load is None:
         assert loads is not None
         forces = to_si_array(loads, unit, "loads")

@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
-from viscofric.arguments import insist_on, number
+from viscofric.arguments import insist_on
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.means import disc_mean, face_resistance
 from viscofric.heat.track import track_temperature
 from viscofric.showing import Rows, Shown
 from viscofric.thermal import ThermalProperties
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, number, positive, to_si
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import flag, insist_on, numbers
+from viscofric.arguments import flag, insist_on
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.influence import Diffusion
 from viscofric.thermal import ThermalProperties
-from viscofric.units import Quantity, positive, to_si, two_lengths
+from viscofric.units import Quantity, in_si, positive, to_si, two_lengths
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -80,7 +80,7 @@ def surface_temperature(
     >>> f"{rise.mean():.2f} K, at most {rise.max():.2f} K"
     '0.96 K, at most 1.46 K'
     """
-    flux = numbers(heat, "heat")
+    flux = in_si(heat, "W/m**2", "heat")
     if flux.ndim != 2 or not flux.size:
         raise InputError(f"heat must have one value for each cell of a grid; its shape is {flux.shape}.", code="shape")
     cell = two_lengths(spacing)

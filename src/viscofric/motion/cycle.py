@@ -26,6 +26,7 @@ from viscofric.motion.shear import shear_notes
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
 from viscofric.motion.watch import Watch
 from viscofric.threads import one_blas_thread
+from viscofric.units import number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -132,7 +133,7 @@ def solve_cycle(
     if progress is not None:
         insist_on_function(progress, "progress")
     whole_number(most_periods, "most_periods", 1)
-    checked_coulomb(coulomb)
+    coulomb, accuracy = checked_coulomb(coulomb), number(accuracy, "accuracy")
     problem = checked_problem(material, indenter, one_period, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     _insist_on_period(one_period, problem.kind)
     asked = checked_times(times, problem.schedule)

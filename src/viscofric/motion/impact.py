@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.arguments import number, whole_number
+from viscofric.arguments import whole_number
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
@@ -20,7 +20,7 @@ from viscofric.motion.springs import impact_radius, is_body_of_revolution, profi
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, positive, to_si, to_si_array
+from viscofric.units import Quantity, number, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -120,8 +120,8 @@ def solve_impact(
             f"gravity = {brief(gravity)}: must not be below zero; it points into the half-space.", code="negative"
         )
     most = whole_number(rebounds, "rebounds", 1, _MOST_CONTACTS)
-    _check_accuracy(accuracy)
-    falling = _Falling.of(material, indenter, kilograms, pull, indenter_modulus, indenter_poisson_ratio, accuracy)
+    wanted = _checked_accuracy(accuracy)
+    falling = _Falling.of(material, indenter, kilograms, pull, indenter_modulus, indenter_poisson_ratio, wanted)
     return falling.solve(touching, most, temperature)
 
 
@@ -209,13 +209,14 @@ def restitution_curve(
     )  # fmt: skip
 
 
-def _check_accuracy(accuracy: float) -> None:
-    if not TIGHTEST <= number(accuracy, "accuracy") <= LOOSEST:
+def _checked_accuracy(accuracy: Quantity) -> float:
+    if not TIGHTEST <= (found := number(accuracy, "accuracy")) <= LOOSEST:
         raise InputError(
             f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-4.",
             code="out-of-range",
             values={"argument": "accuracy"},
         )
+    return found
 
 
 class _Falling(NamedTuple):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.arguments import insist_on_function, number
+from viscofric.arguments import insist_on_function
 from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
@@ -24,7 +24,7 @@ from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, to_si_array
+from viscofric.units import Quantity, number, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -142,6 +142,7 @@ def solve_transient(
     [1.015, 1.555, 1.778]
     """
     insist_on_function(progress, "progress")
+    accuracy = number(accuracy, "accuracy")
     problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     asked = checked_times(times, problem.schedule)
     if heating is not None:
@@ -246,7 +247,7 @@ def checked_problem(
             f"history = {brief(history)}: must be a History, such as History(time=[0, 1], load='1 N').",
             code="wrong-type",
         )
-    if not TIGHTEST <= number(accuracy, "accuracy") <= LOOSEST:
+    if not TIGHTEST <= accuracy <= LOOSEST:
         raise InputError(
             f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-3.",
             code="out-of-range",

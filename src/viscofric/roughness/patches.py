@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import numbers, whole_number
+from viscofric.arguments import whole_number
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.showing import Shown
+from viscofric.units import in_si
 
 if TYPE_CHECKING:
     import xarray
@@ -186,7 +187,7 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
         whole_number(edges, "edges", 1, MOST_CLASSES, "a number of classes above zero, or their edges")
         limits = np.linspace(0.0, solution.max_pressure, edges + 1)
     else:
-        limits = numbers(edges, "edges", infinite=True)
+        limits = in_si(edges, "Pa", "edges", infinite=True)
         if limits.ndim != 1 or len(limits) < 2 or not np.all(np.diff(limits) > 0.0):
             raise InputError(
                 f"edges = {brief(edges)}: must be two pressures at least, Pa, that increase.", code="not-ascending"

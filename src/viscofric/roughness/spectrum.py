@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from viscofric.arguments import exactly_one, numbers
+from viscofric.arguments import exactly_one
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, in_si, positive, to_si
 
 if TYPE_CHECKING:
     import xarray
@@ -36,7 +36,7 @@ class Density(Plotted):
     density: Array
 
     def __post_init__(self) -> None:
-        q, density = _checked(self.wave_number, self.density)
+        q, density = _checked(self.wave_number, self.density, self._unit)
         object.__setattr__(self, "wave_number", q)
         object.__setattr__(self, "density", density)
 
@@ -253,11 +253,11 @@ def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[fl
     return positive(rms_slope, "dimensionless", "rms_slope"), 2.0  # type: ignore[arg-type]
 
 
-def _checked(q: ArrayLike, density: ArrayLike) -> tuple[Array, Array]:
+def _checked(q: ArrayLike, density: ArrayLike, unit: str) -> tuple[Array, Array]:
     """Return wave numbers and densities as read-only rows: positive, finite, increasing; two at least."""
     found = (
-        np.atleast_1d(np.array(numbers(q, "wave_number", infinite=True))),
-        np.atleast_1d(np.array(numbers(density, "density", infinite=True))),
+        np.atleast_1d(np.array(in_si(q, "1/m", "wave_number", infinite=True))),
+        np.atleast_1d(np.array(in_si(density, unit, "density", infinite=True))),
     )
     if found[0].ndim != 1 or found[0].shape != found[1].shape or found[0].size < 2:
         raise InputError(
@@ -276,7 +276,7 @@ def _checked(q: ArrayLike, density: ArrayLike) -> tuple[Array, Array]:
 
 def density_at(q: Array, density: Array, at: ArrayLike) -> Array:
     """Return the density at any wave numbers; zero outside the points (up to rounding)."""
-    where = numbers(at, "wave_number")
+    where = in_si(at, "1/m", "wave_number")
     inside = (where >= q[0] * (1.0 - 1e-12)) & (where <= q[-1] * (1.0 + 1e-12))
     logs = np.interp(np.log(np.where(inside, where, q[0])), np.log(q), np.log(density))
     return np.asarray(np.where(inside, np.exp(logs), 0.0))

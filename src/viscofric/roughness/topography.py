@@ -14,7 +14,7 @@ from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.roughness import preparation, waves
 from viscofric.showing import Plotted
-from viscofric.units import Quantity, in_si, two_lengths
+from viscofric.units import Quantity, in_si, number, two_lengths
 
 if TYPE_CHECKING:
     import xarray
@@ -234,6 +234,7 @@ class Topography(Plotted):
         Roughness is weaker near the edges, by which rms height and slope fall a little: contacts then lie mostly
         within.  `mirror` leaves the statistics as they are.
         """
+        edge = number(edge, "edge")
         heights = preparation.tapered(self.complete(), edge)
         said = f"windowed: heights fall to their mean over {edge:g} of each length"
         return self._with(heights, Note("windowed", said, values={"edge": edge}), periodic=True)

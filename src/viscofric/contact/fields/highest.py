@@ -11,6 +11,7 @@ from viscofric.contact.fields.stress import pressure_on, spacing
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
+from viscofric.units import in_si
 
 if TYPE_CHECKING:
     import xarray
@@ -90,6 +91,7 @@ def highest_von_mises(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, poisson_r
     """
     from scipy.optimize import minimize_scalar
 
+    x, y = in_si(x, "m", "x"), in_si(y, "m", "y")
     load = pressure_on(x, y, pressure)
     loaded = np.count_nonzero(load > 0.0)
     if loaded == 0:

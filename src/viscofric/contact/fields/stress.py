@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import numbers
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
+from viscofric.units import in_si
 
 if TYPE_CHECKING:
     import xarray
@@ -54,7 +54,7 @@ class Stress:
         One coordinate (m) for each axis of the components, in their order, such as ``x=contact.x, depth=depths``;
         InputError if their number or a length differs.
         """
-        places = {name: numbers(values, name) for name, values in coordinates.items()}
+        places = {name: in_si(values, "m", name) for name, values in coordinates.items()}
         if tuple(values.shape for values in places.values()) != tuple((count,) for count in self.xx.shape):
             raise InputError(
                 f"coordinates: must be one row for each axis of the stress, of {self.xx.shape} points, not "
@@ -121,7 +121,7 @@ _UNEVEN = 1e-6
 
 def spacing(position: ArrayLike, name: str) -> float:
     """Return the distance of cell centres, m; InputError unless they are two or more, ascending in equal steps."""
-    centres = numbers(position, name)
+    centres = in_si(position, "m", name)
     if centres.ndim != 1 or len(centres) < 2:
         raise InputError(
             f"{name} must be an array of at least two cell centres; its shape is {centres.shape}.",
@@ -133,9 +133,9 @@ def spacing(position: ArrayLike, name: str) -> float:
     return float(step)
 
 
-def on_cells(values: ArrayLike, shape: tuple[int, ...], name: str) -> Array:
+def on_cells(values: ArrayLike, shape: tuple[int, ...], name: str, unit: str = "Pa") -> Array:
     """Return values of each cell as floats; InputError if their shape differs or some are not finite."""
-    array = numbers(values, name)
+    array = in_si(values, unit, name)
     if array.shape != shape:
         raise InputError(
             f"{name} must have one value for each cell, {shape}; its shape is {array.shape}.", code="wrong-length"
@@ -145,4 +145,4 @@ def on_cells(values: ArrayLike, shape: tuple[int, ...], name: str) -> Array:
 
 def pressure_on(x: ArrayLike, y: ArrayLike, pressure: ArrayLike) -> Array:
     """Return a pressure that is given for each cell of x and y; errors as in `on_cells`."""
-    return on_cells(pressure, (numbers(x, "x").size, numbers(y, "y").size), "pressure")
+    return on_cells(pressure, (in_si(x, "m", "x").size, in_si(y, "m", "y").size), "pressure")

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import numbers
 from viscofric.contact.fields.stress import Stress, on_cells, pressure_on, rectangle_corners, spacing, strip_ends
 from viscofric.errors import InputError
-from viscofric.units import checked_poisson_ratio, positive, to_si, to_si_array
+from viscofric.units import checked_poisson_ratio, in_si, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -127,7 +126,7 @@ def stress_plane(
     nx = len(load)
     offsets_x = _ends(nx, x, "x")
     step_y = spacing(y, "y")
-    starts = to_si(across, "m", "across") - (numbers(y, "y") + 0.5 * step_y)
+    starts = to_si(across, "m", "across") - (in_si(y, "m", "y") + 0.5 * step_y)
     offsets_y = np.stack([starts, starts + step_y], axis=-1)
 
     def influence(depth: float) -> Array:
@@ -170,7 +169,7 @@ def line_stress(x: ArrayLike, pressure: ArrayLike, depths: ArrayLike, poisson_ra
     '0.30'
     """
     ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
-    load = on_cells(numbers(pressure, "pressure").reshape(-1), numbers(x, "x").shape, "pressure")
+    load = on_cells(in_si(pressure, "Pa", "pressure").reshape(-1), in_si(x, "m", "x").shape, "pressure")
     ends = _ends(len(load), x, "x")
     return _planes(load[:, None], depths, lambda z: np.diff(strip_ends(ends, z, ratio), axis=1)[..., None])
 
@@ -209,14 +208,14 @@ def stress_at(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, points: ArrayLike
     """
     ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     load = pressure_on(x, y, pressure)
-    where = numbers(points, "points")
+    where = in_si(points, "m", "points")
     if where.ndim != 2 or where.shape[1] != 3:
         raise InputError(
             f"points must have three columns, x, y and depth; their shape is {where.shape}.", code="not-on-points"
         )
     half_x, half_y = 0.5 * spacing(x, "x"), 0.5 * spacing(y, "y")
     i, j = np.nonzero(load)
-    cell_x, cell_y, loads = numbers(x, "x")[i], numbers(y, "y")[j], load[i, j]
+    cell_x, cell_y, loads = in_si(x, "m", "x")[i], in_si(y, "m", "y")[j], load[i, j]
     result = np.zeros((6, len(where)))
     for number, (px, py, pz) in enumerate(where):
         depth = _depth(pz)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import insist_on, numbers
+from viscofric.arguments import insist_on
 from viscofric.contact.bodies import Layer
 from viscofric.contact.fields.stress import on_cells, spacing
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
@@ -18,7 +18,7 @@ from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
-from viscofric.units import checked_poisson_ratio, positive, to_si, velocity
+from viscofric.units import checked_poisson_ratio, in_si, positive, to_si, velocity
 
 if TYPE_CHECKING:
     import xarray
@@ -140,7 +140,7 @@ def surface_displacement(
     >>> bool(trail.x[0] < contact.x[0] - 1.9e-3)
     True
     """
-    along, across = numbers(x, "x"), numbers(y, "y")
+    along, across = in_si(x, "m", "x"), in_si(y, "m", "y")
     ratio = checked_poisson_ratio(poisson_ratio, above=-1.0)
     insist_on(layer, "layer", Layer, type(None), right="a Layer or None")
     step = spacing(along, "x")
@@ -191,7 +191,7 @@ class _Modes:
 
     @classmethod
     def at(cls, speed: float, E_inf: float, C: ArrayLike, tau: ArrayLike, step: float) -> _Modes:
-        compliances, times = numbers(C, "C"), numbers(tau, "tau")
+        compliances, times = in_si(C, "1/Pa", "C"), in_si(tau, "s", "tau")
         if compliances.ndim != 1 or compliances.shape != times.shape:
             raise InputError(
                 f"C and tau must be as many: their shapes are {compliances.shape} and {times.shape}.",
@@ -294,8 +294,8 @@ def surface_power(x: ArrayLike, pressure: ArrayLike, displacement: ArrayLike, sp
     True
     """
     step = spacing(x, "x")
-    shape = (numbers(x, "x").size, *numbers(pressure, "pressure").shape[1:])
-    load, depth = on_cells(pressure, shape, "pressure"), on_cells(displacement, shape, "displacement")
+    shape = (in_si(x, "m", "x").size, *in_si(pressure, "Pa", "pressure").shape[1:])
+    load, depth = on_cells(pressure, shape, "pressure"), on_cells(displacement, shape, "displacement", "m")
     return np.asarray(-to_si(speed, "m/s", "speed") * load * _slope_in_contact(depth, load > 0.0) / step)
 
 

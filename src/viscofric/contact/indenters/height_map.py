@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from viscofric.arguments import numbers
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
-from viscofric.units import Quantity, positive
+from viscofric.units import Quantity, in_si, positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -237,7 +236,7 @@ class Profile(Indenter):
 
 def _heights(z: ArrayLike, dimensions: int) -> Array:
     """Return heights as a finite array of so many dimensions, or refuse them."""
-    heights = np.array(numbers(z, "z"))
+    heights = np.array(in_si(z, "m", "z"))
     if heights.ndim != dimensions or min(heights.shape, default=0) < _FEWEST:
         shape = " x ".join(str(count) for count in heights.shape) or "a single number"
         raise InputError(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import exactly_one, number, whole_number
+from viscofric.arguments import exactly_one, whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import (
     Layer,
@@ -28,7 +28,7 @@ from viscofric.contact.periodic.surface import PeriodicSurface, Topographic
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, positive, to_si, velocity
+from viscofric.units import Quantity, checked_poisson_ratio, number, positive, to_si, velocity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -150,10 +150,12 @@ def solve_periodic(
         raise wrong_argument("surface", surface, "must be a Topography or a PeriodicSurface.", "wrong-type")
     sliding, toward = velocity(speed), unit_direction(direction)
     exactly_one(pressure=pressure, gap=gap)
-    if not TIGHTEST <= number(tolerance, "tolerance") <= LOOSEST:
+    if not TIGHTEST <= (tolerance := number(tolerance, "tolerance")) <= LOOSEST:
         raise InputError(
-            f"tolerance = {tolerance!r}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.", code="out-of-range"
+            f"tolerance = {tolerance:g}: must be a number from {TIGHTEST:g} to {LOOSEST:g}.", code="out-of-range"
         )
+    coulomb = checked_coulomb(coulomb)
+    indenter_poisson_ratio = checked_poisson_ratio(indenter_poisson_ratio, "indenter_poisson_ratio", above=-1.0)
     layer = Layer.of(layer)
     where = Backend.of(backend)
     modulus = material.at(temperature)
@@ -175,7 +177,7 @@ def solve_periodic(
         layer,
         indenter_compliance(indenter_modulus, indenter_poisson_ratio),
         toward,
-        math.copysign(1.0, sliding) * checked_coulomb(coulomb),
+        math.copysign(1.0, sliding) * coulomb,
         half_space_coupling(indenter_poisson_ratio),
     )
     given = _Given.of(surface, pressure, gap)
@@ -197,7 +199,7 @@ def solve_periodic(
     same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
     motion = sliding, toward, kelvin
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
-    return replace(solution, coulomb=float(coulomb), warnings=_large_strains(solution, steepness, layer))
+    return replace(solution, coulomb=coulomb, warnings=_large_strains(solution, steepness, layer))
 
 
 def _isothermal(material: Material, call: dict[str, Any], speed: float, kelvin: float, _: float) -> PeriodicSolution:

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import numbers
 from viscofric.errors import InputError
 from viscofric.showing import Shown
-from viscofric.units import Quantity, two_lengths
+from viscofric.units import Quantity, in_si, two_lengths
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -72,7 +71,7 @@ class PeriodicSurface(Shown):
     spacing: tuple[float, float]
 
     def __init__(self, z: ArrayLike, spacing: Quantity | tuple[Quantity, Quantity]) -> None:
-        heights = np.array(numbers(z, "z of a periodic surface"))
+        heights = np.array(in_si(z, "m", "z of a periodic surface"))
         if heights.ndim == 1:
             heights = heights[:, None]
         if heights.ndim != 2 or heights.size < 2:

@@ -155,9 +155,11 @@ def identify_material(
     >>> found.anchored
     True
     """
-    _check(curves, indenter, poisson_ratio)
+    _check(curves, indenter)
+    poisson_ratio = checked_poisson_ratio(poisson_ratio)
     _check_numbers(modes=modes, samples=samples, seed=seed)
-    _check_parts(levels, limit=limit, prior_error=prior_error, accuracy=accuracy)
+    limit, prior_error, accuracy = _checked_parts(limit=limit, prior_error=prior_error, accuracy=accuracy)
+    levels = _checked_levels(levels)
     text(name, "name")
     insist_on_function(progress, "progress")
     anchors = alone_or_many(anchor)
@@ -175,14 +177,13 @@ def identify_material(
         problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
         fits, iterations = identify(problem, contacts, problem.start)
         outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name, bool(moduli or sizes))
-        return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=tuple(levels))
+        return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=levels)
 
 
-def _check(curves: FrictionCurves, indenter: Indenter, poisson_ratio: float) -> None:
+def _check(curves: FrictionCurves, indenter: Indenter) -> None:
     insist_on_curves(curves, "curves")
     insist_on_indenter(indenter)
     insist_on_round_edges(indenter)
-    checked_poisson_ratio(poisson_ratio)
 
 
 def _check_numbers(**numbers: int) -> None:
@@ -190,13 +191,17 @@ def _check_numbers(**numbers: int) -> None:
         whole_number(numbers[name], name, fewest, None if name == "seed" else 10**6)
 
 
-def _check_parts(levels: Sequence[float], **parts: float) -> None:
-    for name, value in parts.items():
-        if positive(value, "dimensionless", name) >= 1.0:
-            raise InputError(f"{name} = {value!r}: must be a relative error above 0 and below 1.", code="out-of-range")
+def _checked_parts(**parts: float) -> list[float]:
+    found = {name: positive(value, "dimensionless", name) for name, value in parts.items()}
+    for name, value in found.items():
+        if value >= 1.0:
+            raise InputError(f"{name} = {value:g}: must be a relative error above 0 and below 1.", code="out-of-range")
+    return list(found.values())
+
+
+def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:
     if not isinstance(levels, (tuple, list)):
         raise InputError(
             f"levels = {brief(levels)}: must be factors of the modulus, such as (0.5, 1.0, 2.0).", code="not-a-number"
         )
-    for one in levels:
-        positive(one, "dimensionless", "levels")
+    return tuple(positive(one, "dimensionless", "levels") for one in levels)

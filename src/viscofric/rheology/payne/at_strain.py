@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscofric.arguments import insist_on, number
+from viscofric.arguments import insist_on
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.material import Material
 from viscofric.rheology.payne.kraus import KrausLaw
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
-from viscofric.units import shown_celsius
+from viscofric.units import number, shown_celsius
 
 #: Beyond the measured amplitudes by more than this factor the law is extrapolated.
 BEYOND = 1.5

@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.arguments import number, numbers
 from viscofric.data import DEFORMATIONS
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.rheology.shifts.shift_law import checked_covariance
 from viscofric.showing import Plotted
-from viscofric.units import to_si
+from viscofric.units import in_si, number, to_si
 
 if TYPE_CHECKING:
     import xarray
@@ -90,7 +89,7 @@ class KrausLaw(Plotted):
     def __post_init__(self) -> None:
         for name in (*CONSTANTS, "angular_frequency", "temperature"):
             value = getattr(self, name)
-            value = to_si(value, _UNITS[name], name) if isinstance(value, str) else number(value, name)
+            value = to_si(value, _UNITS[name], name)
             if not value > 0.0:
                 raise InputError(f"{name} = {value:g}: must be above zero.", code="not-positive")
             object.__setattr__(self, name, value)
@@ -98,7 +97,7 @@ class KrausLaw(Plotted):
         if self.covariance is not None:
             object.__setattr__(self, "covariance", checked_covariance(self.covariance, len(CONSTANTS), "Kraus's law"))
         if self.strain_range is not None:
-            ends = numbers(self.strain_range, "strain_range")
+            ends = in_si(self.strain_range, "dimensionless", "strain_range")
             if ends.shape != (2,) or not 0.0 < ends[0] < ends[1]:
                 raise InputError(
                     "strain_range must be two amplitudes above zero, the smaller one first.", code="not-ascending"
@@ -143,7 +142,7 @@ class KrausLaw(Plotted):
 
     def complex_modulus(self, strain: ArrayLike) -> Any:
         """Return G' + iG'' (or E) at amplitudes above zero, Pa."""
-        amplitude = numbers(strain, "strain")
+        amplitude = in_si(strain, "dimensionless", "strain")
         if not np.all(amplitude >= 0.0):
             raise InputError("strain must hold amplitudes as fractions, none below zero.", code="negative")
         return kraus_moduli(np.log(np.maximum(self.constants, 1e-300)), amplitude)
@@ -174,7 +173,9 @@ class KrausLaw(Plotted):
             If an amplitude is below zero.
         """
         ends = self.strain_range or (1e-3 * self.critical_strain, 1e3 * self.critical_strain)
-        amplitude = np.atleast_1d(numbers(np.geomspace(*ends, _DRAWN) if strain is None else strain, "strain"))
+        amplitude = np.atleast_1d(
+            np.geomspace(*ends, _DRAWN) if strain is None else in_si(strain, "dimensionless", "strain")
+        )
         moduli = self.complex_modulus(amplitude)
         return dataset(
             "strain_amplitude",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.amplitudes import AmplitudeSweep
-from viscofric.arguments import insist_on, number
+from viscofric.arguments import insist_on
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
@@ -18,6 +18,7 @@ from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.showing import Plotted, Shown
 from viscofric.threads import one_blas_thread
+from viscofric.units import number
 
 if TYPE_CHECKING:
     import xarray

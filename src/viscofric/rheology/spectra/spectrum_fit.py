@@ -23,7 +23,7 @@ from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.step_tests import StepMasterCurve
 from viscofric.threads import one_blas_thread
-from viscofric.units import positive
+from viscofric.units import number, positive
 
 Method: TypeAlias = Literal["non-negative", "regularised", "sparse"]
 METHODS = ("non-negative", "regularised", "sparse")
@@ -106,6 +106,7 @@ def fit_retardation_spectrum(
     >>> 20 < len(spectrum) < 40, spectrum.fit.rms_storage < 0.01  # decades
     (True, True)
     """
+    tau_ratio = number(tau_ratio, "tau_ratio")
     if isinstance(master_curve, JointSuperposition):
         return _of_several(master_curve, method, tau_ratio, modes, regularisation, largest_error)
     master_curve = _curve_of(master_curve)

@@ -128,7 +128,7 @@ class MaterialSamples(Plotted, Items["Material"]):
         Where the spectrum misses what was measured by more than noise (`misfit`), this is added as another error of the
         logarithms of E' and E'', independent of those that were drawn.
         """
-        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
+        omega, level = in_si(angular_frequency, "rad/s", "angular_frequency"), share(level, "level", example=0.95)
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
         storage, loss = _limits(moduli.real, level), _limits(moduli.imag, level)
         if self.misfit is not None and np.any(self.misfit.size):
@@ -154,6 +154,7 @@ class MaterialSamples(Plotted, Items["Material"]):
             along ``angular_frequency`` (rad/s).
         """
         omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
+        level = share(level, "level", example=0.95)
         band = self.modulus_band(omega, temperature, level)
         columns = {}
         for part, take in {"storage": np.real, "loss": np.imag}.items():

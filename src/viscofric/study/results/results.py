@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arguments import number
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, note_of
@@ -22,6 +21,7 @@ from viscofric.study.results.case_table import CaseTable
 from viscofric.study.results.compare import compare_tables
 from viscofric.study.results.export import export_results
 from viscofric.study.results.file import cases_of, open_tree, rubbers_of
+from viscofric.units import number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -261,7 +261,7 @@ def compare_results(
     >>> vf.compare_results(rough, fine, tolerance=1e-2).equal
     True
     """
-    if tolerance is not None and number(tolerance, "tolerance") < 0.0:
+    if tolerance is not None and (tolerance := number(tolerance, "tolerance")) < 0.0:
         raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.", code="tolerance")
     return compare_tables(_table_of(first), _table_of(second), tolerance)
 

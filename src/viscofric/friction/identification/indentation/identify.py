@@ -159,8 +159,8 @@ def identify_from_indentation(
         ("seed", seed, 0),
     ):
         whole_number(value, label, fewest, None if label == "seed" else 10**6)
-    if positive(limit, "dimensionless", "limit") >= 1.0:
-        raise InputError(f"limit = {limit!r}: must be a relative error above 0 and below 1.", code="out-of-range")
+    if (limit := positive(limit, "dimensionless", "limit")) >= 1.0:
+        raise InputError(f"limit = {limit:g}: must be a relative error above 0 and below 1.", code="out-of-range")
     text(name, "name")
     kelvin = None if reference is None else positive(reference, "K", "reference")
     plane_strain = 1.0 - ratio**2

@@ -324,11 +324,12 @@ def _errors(error: float | Mapping[str, float], quantities: tuple[str, ...]) -> 
             code="wrong-names",
             field="error",
         )
-    for name in quantities:
-        if positive(each[name], "dimensionless", "error") >= 1.0:
+    found = {name: positive(each[name], "dimensionless", "error") for name in quantities}
+    for one in found.values():
+        if one >= 1.0:
             raise InputError(
-                f"error = {brief(each[name])}: must be a relative standard error below 1, such as 0.01.",
+                f"error = {one:g}: must be a relative standard error below 1, such as 0.01.",
                 code="out-of-range",
                 field="error",
             )
-    return {name: float(each[name]) for name in quantities}
+    return found
