@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.showing import Rows
+    from viscofric.units import Quantities, Quantity
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +63,21 @@ class AmplitudeSweep(Origin, Plotted):
     source: str = ""
     notes: tuple[str, ...] = ()
     format: str = ""
+
+    if TYPE_CHECKING:  # what is given, converted when made
+
+        def __init__(
+            self,
+            strain_amplitude: Quantities,
+            storage_modulus: Quantities,
+            loss_modulus: Quantities,
+            angular_frequency: Quantity,
+            temperature: Quantity,
+            deformation: Deformation = "tension",
+            source: str = "",
+            notes: tuple[str, ...] = (),
+            format: str = "",  # noqa: A002
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         self._check_origin("the sweep")

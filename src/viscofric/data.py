@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, ComplexArray, Integers
     from viscofric.showing import Rows
+    from viscofric.units import Quantities, Quantity
 
 
 #: How a dynamic mechanical analyser deformed its sample.
@@ -198,6 +199,17 @@ class Isotherm(Moduli, Plotted, Items[tuple[float, float, float]]):
     loss_modulus: Array
     strain_amplitude: Array | None = None
 
+    if TYPE_CHECKING:  # what is given, converted when made
+
+        def __init__(
+            self,
+            temperature: Quantity,
+            angular_frequency: Quantities,
+            storage_modulus: Quantities,
+            loss_modulus: Quantities,
+            strain_amplitude: Quantities | None = None,
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an isotherm"))
         set_columns(self, "angular_frequency", "storage_modulus", "loss_modulus", of="an isotherm", per="frequency")
@@ -372,6 +384,17 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
     loss_modulus: Array
     temperature: Array
     reference: float
+
+    if TYPE_CHECKING:  # what is given, converted when made
+
+        def __init__(
+            self,
+            angular_frequency: Quantities,
+            storage_modulus: Quantities,
+            loss_modulus: Quantities,
+            temperature: Quantities,
+            reference: Quantity,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         columns = ("angular_frequency", "storage_modulus", "loss_modulus", "temperature")

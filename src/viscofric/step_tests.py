@@ -18,9 +18,11 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import xarray
+    from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
     from viscofric.showing import Rows
+    from viscofric.units import Quantities, Quantity
 
 #: What was held: the stress (creep) or the strain (relaxation).
 StepKind: TypeAlias = Literal["creep", "relaxation"]
@@ -60,6 +62,15 @@ class StepTest(Shown):
     temperature: float
     time: Array
     response: Array
+
+    if TYPE_CHECKING:  # what is given, converted when made
+
+        def __init__(
+            self,
+            temperature: Quantity,
+            time: Quantities,
+            response: ArrayLike,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of a step test"))
@@ -228,6 +239,17 @@ class StepMasterCurve(Plotted):
     temperature: Array
     reference: float
     kind: StepKind
+
+    if TYPE_CHECKING:  # what is given, converted when made
+
+        def __init__(
+            self,
+            time: Quantities,
+            response: ArrayLike,
+            temperature: Quantities,
+            reference: Quantity,
+            kind: StepKind,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")

@@ -212,7 +212,7 @@ def test_spectra_that_are_none_are_refused():
         (([1.0], [1.0]), "wrong-length"),
         (([1.0, 2.0], [1.0, 0.0]), "not-positive"),
         (([2.0, 1.0], [1.0, 1.0]), "not-ascending"),
-        ((["a", "b"], [1.0, 1.0]), "not-a-number"),
+        ((["a", "b"], [1.0, 1.0]), "no-number"),
     ):
         with refused(code):
             vf.roughness.PowerSpectrum(*rows)

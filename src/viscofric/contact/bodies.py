@@ -215,7 +215,7 @@ def indenter_compliance(modulus: Quantity | None, poisson_ratio: float) -> float
     return (1.0 - ratio**2) / positive(modulus, "Pa", "indenter_modulus")
 
 
-def checked_coulomb(coulomb: float) -> float:
+def checked_coulomb(coulomb: Quantity) -> float:
     """Return a signed coefficient of Coulomb friction; InputError if it is not finite or implausible."""
     if not abs(found := number(coulomb, "coulomb")) <= MOST_COULOMB:
         raise InputError(

@@ -34,7 +34,7 @@ from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, positive, to_si, velocity
+from viscofric.units import Quantity, number, positive, to_si, velocity
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,17 +62,17 @@ def solve_steady(
     load: Quantity | None = None,
     indentation: Quantity | None = None,
     temperature: Quantity | None = None,
-    accuracy: float = 1e-3,
-    tolerance: float = 1e-8,
+    accuracy: Quantity = 1e-3,
+    tolerance: Quantity = 1e-8,
     finest: int | None = None,
     window: Sequence[Quantity] | None = None,
     grid: int | None = None,
     indenter_modulus: Quantity | None = None,
-    indenter_poisson_ratio: float = 0.3,
+    indenter_poisson_ratio: Quantity = 0.3,
     layer: Layer | Quantity | None = None,
     backend: Backend | str = "scipy",
     direction: Sequence[float] = (1.0, 0.0),
-    coulomb: float = 0.0,
+    coulomb: Quantity = 0.0,
     derivatives: bool = False,
     heating: Heating | None = None,
 ) -> ContactSolution:
@@ -95,10 +95,10 @@ def solve_steady(
         layer under a rigid indenter only.
     temperature : float, str or pint.Quantity, optional
         K if a plain number.  May be left out for a material without a shift law.
-    accuracy : float
+    accuracy : float or str
         Largest relative error of the friction coefficient (of 1e-6 a0/R where it is smaller, a0 the Hertz radius at
         E0): grids are refined until its changes from one to the next are small enough.
-    tolerance : float
+    tolerance : float or str
         Of the complementarity: largest gap under pressure or overlap without it over the indentation; from 1e-13
         to a thousandth of the accuracy.
     finest : int, optional
@@ -112,7 +112,7 @@ def solve_steady(
         given.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of an elastic indenter, Pa; rigid without it.
-    indenter_poisson_ratio : float
+    indenter_poisson_ratio : float or str
         Of an elastic indenter.
     layer : Layer, float, str or pint.Quantity, optional
         Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space
@@ -122,7 +122,7 @@ def solve_steady(
     direction : (float, float)
         Of the motion over the indenter's own axes x and y; its length does not matter.  A line contact moves along
         its x only.
-    coulomb : float
+    coulomb : float or str
         Coulomb friction coefficient of a contact that slips everywhere, whose shear changes the pressure; negative
         where the indenter slips over the material against its motion, as in rolling with slip.  Neglected by default.
     derivatives : bool
@@ -172,9 +172,11 @@ def solve_steady(
     0.0576
     """
     settings = ContactSettings(
-        accuracy=accuracy, tolerance=tolerance, finest=finest, window=window, grid=grid,
-        indenter_modulus=indenter_modulus, indenter_poisson_ratio=indenter_poisson_ratio, layer=Layer.of(layer),
-        backend=backend, direction=direction, coulomb=coulomb,
+        accuracy=number(accuracy, "accuracy"), tolerance=number(tolerance, "tolerance"),
+        finest=finest, window=window, grid=grid, indenter_modulus=indenter_modulus, layer=Layer.of(layer),
+        backend=backend, direction=direction,
+        indenter_poisson_ratio=number(indenter_poisson_ratio, "indenter_poisson_ratio"),
+        coulomb=number(coulomb, "coulomb"),
     )  # fmt: skip
     differentiated = flag(derivatives, "derivatives")
     if differentiated:

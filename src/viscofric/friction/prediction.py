@@ -48,7 +48,7 @@ def predict_friction(
     samples: MaterialSamples | None = None,
     interface: InterfaceLaw | None = None,
     slip: Quantities | None = None,
-    accuracy: float = 1e-3,
+    accuracy: Quantity = 1e-3,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     heating: Heating | None = None,
@@ -84,7 +84,7 @@ def predict_friction(
         of the solved area, not that of the material.
     slip : float, str, pint.Quantity, or one for each speed and temperature, optional
         Slip speed of the interface, m/s; the speed at which the rubber is deformed if left out, as in pure sliding.
-    accuracy : float
+    accuracy : float or str
         Relative error of each friction coefficient that is aimed at; see `solve_steady`.
     workers : int or Workers
         Processes that share the contacts out among them, or `viscofric.processes.Workers` that are kept for more; the

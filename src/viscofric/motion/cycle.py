@@ -61,11 +61,11 @@ def solve_cycle(
     one_period: History,
     *,
     times: Quantities | None = None,
-    accuracy: float = 1e-3,
+    accuracy: Quantity = 1e-3,
     layer: Layer | Quantity | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
-    coulomb: float = 0.0,
+    coulomb: Quantity = 0.0,
     most_periods: int = 60,
     progress: Callable[[int, float], object] | None = None,
 ) -> CycleSolution:
@@ -81,7 +81,7 @@ def solve_cycle(
         position of a periodic surface.
     times : (m,) array of float, str or pint.Quantity, optional
         Times to return, ascending, within the period, s, with their pressures.  All steps without pressures if omitted.
-    accuracy : float
+    accuracy : float or str
         As for `solve_transient`; also the accuracy of the periodic state, in stored energy.
     layer : Layer, float, str or pint.Quantity, optional
         Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space if
@@ -90,7 +90,7 @@ def solve_cycle(
         Young's modulus of an elastic indenter, Pa; rigid if omitted.
     indenter_poisson_ratio : float
         Of an elastic indenter.
-    coulomb : float
+    coulomb : float or str
         Coulomb friction coefficient of a sliding contact, where it is known.  The contact is solved without its shear;
         the note `tangential-coupling` has the change of friction by it, if above 5 %.
     most_periods : int

@@ -51,7 +51,7 @@ def solve_impact(
     gravity: Quantity = 0.0,
     rebounds: int = 1,
     temperature: Quantity | None = None,
-    accuracy: float = 1e-4,
+    accuracy: Quantity = 1e-4,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
 ) -> ImpactSolution:
@@ -76,7 +76,7 @@ def solve_impact(
         Maximum number of contacts to follow; more than one needs gravity.
     temperature : float, str or pint.Quantity, optional
         K if a plain number.  May be left out for a material without a shift law.
-    accuracy : float
+    accuracy : float or str
         Largest error of the restitution, absolute.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of an elastic indenter, Pa; rigid without it.
@@ -134,7 +134,7 @@ def restitution_curve(
     temperatures: Quantities | None = None,
     mass: Quantity,
     gravity: Quantity = 0.0,
-    accuracy: float = 1e-4,
+    accuracy: Quantity = 1e-4,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
 ) -> RestitutionCurve:
@@ -153,7 +153,7 @@ def restitution_curve(
         Of the indenter, kg.
     gravity : float, str or pint.Quantity
         Acceleration towards the half-space, not below zero, m/s².
-    accuracy : float
+    accuracy : float or str
         Largest error of the restitution, absolute.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of an elastic indenter, Pa; rigid without it.

@@ -57,7 +57,7 @@ def solve_transient(
     history: History,
     *,
     times: Quantities | None = None,
-    accuracy: float = 1e-3,
+    accuracy: Quantity = 1e-3,
     layer: Layer | Quantity | None = None,
     indenter_modulus: Quantity | None = None,
     indenter_poisson_ratio: float = 0.3,
@@ -75,7 +75,7 @@ def solve_transient(
     history : History
     times : (m,) array of float, str or pint.Quantity, optional
         Times to return, ascending, within the history (to 1e-12 of it), s; they are met exactly.  All steps if omitted.
-    accuracy : float
+    accuracy : float or str
         Largest error of load, indentation, friction force and energy in time, relative to their largest values so far.
     layer : Layer, float, str or pint.Quantity, optional
         Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space if

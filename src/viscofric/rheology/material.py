@@ -34,7 +34,7 @@ class Material(Plotted):
 
     Parameters
     ----------
-    spectrum : RetardationSpectrum or ModulusTable
+    spectrum : RetardationSpectrum, RelaxationSpectrum or ModulusTable
         At the shift's reference temperature.  A table has no modes: it has a modulus, a compliance and shifts, but no
         creep.  A free contact, which needs modes, fits them to it (`modes_at`).
     shift : ShiftLaw or ShiftFactors, optional
@@ -73,6 +73,18 @@ class Material(Plotted):
     name: str = ""
     vertical_shift: VerticalShift | None = None
     citation: str = ""
+
+    if TYPE_CHECKING:  # what is given, converted when made
+
+        def __init__(
+            self,
+            spectrum: RetardationSpectrum | RelaxationSpectrum | ModulusTable,
+            shift: ShiftLaw | None = None,
+            poisson_ratio: Quantity = 0.5,
+            name: str = "",
+            vertical_shift: VerticalShift | None = None,
+            citation: str = "",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         given: object = self.spectrum

@@ -66,11 +66,11 @@ def solve_periodic(
     gap: Quantity | None = None,
     temperature: Quantity | None = None,
     direction: Sequence[float] = (1.0, 0.0),
-    coulomb: float = 0.0,
+    coulomb: Quantity = 0.0,
     layer: Layer | Quantity | None = None,
     indenter_modulus: Quantity | None = None,
-    indenter_poisson_ratio: float = 0.3,
-    tolerance: float = 1e-8,
+    indenter_poisson_ratio: Quantity = 0.3,
+    tolerance: Quantity = 1e-8,
     most_products: int = 10_000,
     backend: Backend | str = "scipy",
     heating: Heating | None = None,
@@ -94,16 +94,16 @@ def solve_periodic(
         K if a plain number.  May be left out for a material without a shift law.
     direction : (float, float)
         Of the motion in the plane; its length does not matter.
-    coulomb : float
+    coulomb : float or str
         Coulomb friction coefficient, whose shear changes the pressure, as of `solve_steady`.
     layer : Layer, float, str or pint.Quantity, optional
         Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space
         without.
     indenter_modulus : float, str or pint.Quantity, optional
         Young's modulus of the rough body, Pa, whose compliance is added; rigid without.
-    indenter_poisson_ratio : float
+    indenter_poisson_ratio : float or str
         −1 to 0.5.
-    tolerance : float
+    tolerance : float or str
         Of the complementarity: largest gap under pressure or overlap without it over the rms height of the surface.
     most_products : int
         Products with the transfer function on the finest grid after which the solver gives up.

@@ -42,15 +42,15 @@ def identify_material(
     anchor: Anchor | Sequence[Anchor] | None = None,
     prior: Known | None = None,
     prior_band: tuple[Quantity, Quantity] | None = None,
-    prior_error: float = 0.02,
+    prior_error: Quantity = 0.02,
     reference: Quantity | None = None,
-    poisson_ratio: float = 0.5,
+    poisson_ratio: Quantity = 0.5,
     modes: int = 30,
     levels: Sequence[float] = LEVELS,
-    limit: float = 0.05,
+    limit: Quantity = 0.05,
     samples: int = 200,
     seed: int = 0,
-    accuracy: float = 1e-3,
+    accuracy: Quantity = 1e-3,
     name: str = "identified from friction",
     progress: Callable[[int, int, int], object] | None = None,
     workers: int = 1,
@@ -75,24 +75,24 @@ def identify_material(
     prior_band : (low, high), optional
         Angular frequencies at the prior's reference over which it is known, rad/s if plain numbers; by default those
         that it was measured or fitted at.
-    prior_error : float
+    prior_error : float or str
         Relative standard error of E' and E'' of the prior, four values of each per decade; samples have their own.
     reference : float, str or pint.Quantity, optional
         Temperature at which the material is described, K if a plain number; without it, that of `shift`, or of the
         shift factors that are found.
-    poisson_ratio : float
+    poisson_ratio : float or str
         Of the rubber.
     modes : int
         Retardation times; more are taken where these would be more than 0.4 decades apart.
     levels : sequence of float
         Without anchor and prior: factors of the modulus for which the best material is sought.
-    limit : float
+    limit : float or str
         Largest relative standard error of an identified modulus.
     samples : int
         Materials drawn from the posterior density.
     seed : int
         Of the draws.
-    accuracy : float
+    accuracy : float or str
         Relative error of each solved contact that is aimed at.
     name : str
         Of the material.
@@ -191,7 +191,7 @@ def _check_numbers(**numbers: int) -> None:
         whole_number(numbers[name], name, fewest, None if name == "seed" else 10**6)
 
 
-def _checked_parts(**parts: float) -> list[float]:
+def _checked_parts(**parts: Quantity) -> list[float]:
     found = {name: positive(value, "dimensionless", name) for name, value in parts.items()}
     for name, value in found.items():
         if value >= 1.0:

@@ -13,7 +13,7 @@ from viscofric.notes import Note
 from viscofric.rheology.material import Material
 from viscofric.rheology.payne.kraus import KrausLaw
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
-from viscofric.units import number, shown_celsius
+from viscofric.units import Quantity, number, shown_celsius
 
 #: Beyond the measured amplitudes by more than this factor the law is extrapolated.
 BEYOND = 1.5
@@ -23,12 +23,12 @@ TABOR = 0.2
 FADED = 1e-3
 
 
-def contact_strain(slope: float) -> float:
+def contact_strain(slope: Quantity) -> float:
     """Return the tensile strain that stands for a contact: a fifth of the slope at its edge.
 
     Parameters
     ----------
-    slope : float
+    slope : float or str
         a/R of a ball or a cylinder, with the contact radius (half-width) a; tan β of a cone whose flank has the angle β
         with the surface.
 
@@ -59,7 +59,7 @@ def contact_strain(slope: float) -> float:
 
 
 def material_at_strain(
-    material: Material, law: KrausLaw, strain: float, *, measured_at: float | None = None
+    material: Material, law: KrausLaw, strain: Quantity, *, measured_at: Quantity | None = None
 ) -> Material:
     """Return a material whose moduli are scaled from a small to a larger strain by Kraus's law: an approximation.
 
@@ -69,9 +69,9 @@ def material_at_strain(
         With a spectrum; it holds at the strain of its frequency sweeps.
     law : KrausLaw
         From `fit_kraus`, or typed in.
-    strain : float
+    strain : float or str
         Tensile strain amplitude, a fraction, such as `contact_strain` gives.
-    measured_at : float, optional
+    measured_at : float or str, optional
         Tensile strain amplitude of the frequency sweeps; the linear limit of the law without it.
 
     Returns
