@@ -42,6 +42,7 @@ LIMITS = {
 }
 _WARM_UP = 0.2  # of the samples, in which caches fill
 _MB = 1e6
+_LONGEST = 600.0  # s for a reply, on a machine that does other work
 _REST = 1.0  # s at most between two actions of a user of the page
 
 
@@ -134,7 +135,7 @@ class User:
 
     def __init__(self, served: Server, seed: int) -> None:
         self.served, self.chance, self.counts = served, random.Random(seed), dict[str, int]()
-        self.clients = [served.client(f"soak-tab-{seed}-{tab}") for tab in range(2)]
+        self.clients = [served.client(f"soak-tab-{seed}-{tab}", timeout=_LONGEST) for tab in range(2)]
         self.open: list[tuple[float, socket.socket]] = []
         host, port = served.base[7:].split(":")
         self.place = host, int(port)
@@ -250,7 +251,7 @@ class User:
         """Open a tab with a new workspace instead of one of the two."""
         client.close()
         place = self.clients.index(client)
-        self.clients[place] = self.served.client(f"soak-{self.chance.randrange(10**9):09d}")
+        self.clients[place] = self.served.client(f"soak-{self.chance.randrange(10**9):09d}", timeout=_LONGEST)
 
 
 def page(seconds: float, each: float, log: Log) -> int:

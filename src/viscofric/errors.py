@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Self
 
-from viscofric.notes import Note, Reader, Remedy, codes, note_of
+from viscofric.notes import Note, Reader, Remedy, codes, note_of, without
 
 _LONGEST = 80
 #: Limit of the message of an error, or of a note; longer ones quote a file or list many mistakes.
@@ -201,6 +201,11 @@ class DataFileError(InputError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.path, self.problem, self.row), self.__dict__
+
+
+def not_needed(path: object, name: str, code: str, problem: str, after: str = "") -> DataFileError:
+    """Return the error of an argument that a file does not need, with the advice to leave it out."""
+    return DataFileError(path, f"{problem}; ", code=code, remedy=without(name, after), values={"argument": name})
 
 
 def not_written(path: object, error: Exception) -> DataFileError:

@@ -71,6 +71,12 @@ def setting(field: str, label: str, value: str = "") -> Remedy:
     )
 
 
+def without(name: str, after: str = "") -> Remedy:
+    """Return the advice to leave out an argument, which is an option or a key of the same name."""
+    said = f"leave out {name}{after}."
+    return Remedy(said, f"leave out --{name.replace('_', '-')}{after}.", said)
+
+
 class Note(str):
     """One sentence for people, with a code for programs.
 

@@ -53,7 +53,7 @@ class Server:
     def client(self, workspace: str = "workspace-of-tests", **more: Any) -> httpx.Client:
         """Return what asks the server, as a tab would."""
         headers = {"Authorization": f"Bearer {self.token}", "X-Workspace": workspace}
-        return httpx.Client(base_url=self.base, headers=headers, timeout=60.0, trust_env=False, **more)
+        return httpx.Client(base_url=self.base, headers=headers, trust_env=False, **{"timeout": 60.0, **more})
 
 
 @contextmanager

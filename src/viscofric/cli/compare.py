@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.errors import words_of
 from viscofric.cli.files import CSV, DASH
 from viscofric.cli.output import json_option, out_option, print_json, write_rows
 
@@ -49,7 +50,7 @@ def command(first: Path, second: Path, tolerance: float | None, out: Path | None
 
             write_rows(out, [asdict(one) | {"where": shown_place(one.where)} for one in found.differences])
     except ViscofricError as error:
-        click.echo(f"Error: {error}", err=True)
+        click.echo(f"Error: {words_of(error)}", err=True)
         sys.exit(TROUBLE)
     if as_json:
         print_json(_record(first, second, found))

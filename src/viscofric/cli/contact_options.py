@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
+from viscofric.cli.errors import placed_at
 from viscofric.cli.files import FILE
 
 if TYPE_CHECKING:
@@ -126,7 +127,8 @@ def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
     steps = None if parameters["spacing"] is None else _spacing(parameters)
     topography = read_topography(path, unit=parameters["height_unit"] or "", spacing=steps)
     for words in parameters["prepare"]:
-        topography = step_of(words)(topography)
+        with placed_at("--prepare"):
+            topography = step_of(words)(topography)
     surface = topography.to_surface()
     record = {
         "shape": "surface", "file": str(path), "prepare": list(parameters["prepare"]), "points": list(surface.shape),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 import click
@@ -11,7 +12,7 @@ import click
 from viscofric.cli.files import plainly
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
 
     import xarray
 
@@ -33,8 +34,35 @@ def reported_errors(reader: Reader = "shell") -> Iterator[None]:
     try:
         yield
     except ViscofricError as error:
-        shown = _with_options(error) if reader == "shell" else error
-        raise click.ClickException(plainly(shown.listing(reader))) from error
+        raise click.ClickException(words_of(error, reader)) from error
+
+
+def words_of(error: ViscofricError, reader: Reader = "shell") -> str:
+    """Return the message of an error; for users of commands, with their options."""
+    return plainly((_with_options(error) if reader == "shell" else error).listing(reader))
+
+
+@contextmanager
+def typed_as(parameters: Mapping[str, str]) -> Iterator[None]:
+    """Have errors name the options of this command's parameters instead of arguments: argument -> parameter."""
+    from viscofric.errors import ViscofricError
+
+    try:
+        yield
+    except ViscofricError as error:
+        parameter = parameters.get(error.note.values.get("argument", ""))
+        raise (error if parameter is None else error.with_note(error.note.valued(parameter=parameter))) from None
+
+
+@contextmanager
+def placed_at(option: str) -> Iterator[None]:
+    """Have errors name an option as their place."""
+    from viscofric.errors import ViscofricError
+
+    try:
+        yield
+    except ViscofricError as error:
+        raise error.at(option) from None
 
 
 #: Argument of Python or key of a run file -> parameters of commands that give it, where they are named otherwise.
@@ -49,6 +77,12 @@ _TYPED_AS = {
     "E_inf": ("glass_modulus",),
     "heights": ("height_map", "profile"),
     "contact_area": ("anchor_area",),
+    "error of the anchor": ("anchor_error",),
+    "standard error of zero": ("zero_error",),
+    "standard error of coulomb": ("coulomb_error",),
+    "height unit": ("height_unit",),
+    "sheet": ("history_sheet", "shift_factor_sheet"),
+    "fixed_shift_factors": ("fix",),
 }
 
 
@@ -58,32 +92,68 @@ def _with_options(error: ViscofricError) -> ViscofricError:
 
     if isinstance(error, StudyError) and error.mistakes:
         other = copy.copy(error)
-        other.mistakes = tuple(_of_option(one, one.where.rpartition(".")[2]) for one in error.mistakes)
+        other.mistakes = tuple(_of_option(one, _key(one.where)) for one in error.mistakes)
         return other
     name = error.note.values.get("argument") or (error.note.where if isinstance(error, StudyError) else "")
-    return error.with_note(_of_option(error.note, name.rpartition(".")[2])) if name else error
+    return error.with_note(_of_option(error.note, _key(name)))
+
+
+def _key(place: str) -> str:
+    """Return the last key of a path, without the number of an item."""
+    return place.rpartition(".")[2].partition("[")[0]
 
 
 def _of_option(note: Note, name: str) -> Note:
     """Return a note on an argument or a key as one on the option of this command that gave it, if one did."""
     from viscofric.notes import Note
 
-    option = typed_option(name)
-    if option is None:
-        return note
-    text = f"{option} = {note.text.removeprefix(f'{name} = ')}" if note.text.startswith(f"{name} = ") else note.text
-    where = option if note.where.rpartition(".")[2] == name else note.where
-    return Note(note.code, text, where, note.remedy, note.values)
+    option = typed_option(name, note.values.get("parameter"))
+    renamed = _renamed() if option is None else _renamed() | {_option(name): option}
+    remedy = note.remedy
+    for named, typed in renamed.items():
+        if remedy is not None:
+            remedy = remedy.reworded(partial(_replaced, named, typed))
+    text, where = note.text, note.where
+    if option is not None:
+        where = option if _key(where) == name else where
+        if text.startswith((f"{name} = ", f"{name}: ")):
+            text = option + text.removeprefix(name)
+    return Note(note.code, text, where, remedy, note.values)
 
 
-def typed_option(name: str) -> str | None:
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
+
+
+def _replaced(option: str, other: str, said: str) -> str:
+    words = (word.replace(option, other) if word.rstrip(".,;:)") == option else word for word in said.split(" "))
+    return " ".join(words)
+
+
+def _renamed() -> dict[str, str]:
+    """Return the options of this command that are named otherwise than the keys of run files that they give."""
+    ctx = click.get_current_context(silent=True)
+    known = {} if ctx is None else {one.name: _typed(one) for one in ctx.command.params}
+    return {
+        _option(key): known[name]
+        for key, names in _TYPED_AS.items()
+        for name in names
+        if name in known and key not in known
+    }
+
+
+def typed_option(name: str, parameter: str | None = None) -> str | None:
     """Return the option of the running command that gives an argument or a key, as it was typed; None without one."""
     ctx = click.get_current_context(silent=True)
     if ctx is None:
         return None
-    wanted = (name, f"{name}s", *_TYPED_AS.get(name, ()))
+    wanted = (name, f"{name}s", *_TYPED_AS.get(name, ())) if parameter is None else (parameter,)
     given = [one for one in ctx.command.params if one.name in wanted and ctx.params.get(one.name) not in (None, ())]
-    return next((max(one.opts, key=len) for one in given if isinstance(one, click.Option)), None)
+    return next((_typed(one) for one in given if isinstance(one, click.Option) or parameter is not None), None)
+
+
+def _typed(parameter: click.Parameter) -> str:
+    return max(parameter.opts, key=len) if isinstance(parameter, click.Option) else parameter.human_readable_name
 
 
 def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:

@@ -98,7 +98,7 @@ def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
 
 
 def shifts(
-    name: str, columns: dict[str, str] | None = None, sheet: str | None = None
+    name: str, columns: dict[str, str] | None = None, sheet: str | None = None, *, parameter: str = "shift"
 ) -> tuple[ShiftLaw, VerticalShift | None]:
     """Return the shift factors of a table, or those of a rubber, and its vertical shift where it has one."""
     from viscofric.errors import InputError
@@ -108,7 +108,7 @@ def shifts(
         return read_shift_factors(name, columns=columns, sheet=sheet), None
     from viscofric.cli.rubber_options import find_rubber
 
-    rubber = find_rubber(name)
+    rubber = find_rubber(name, parameter)
     if rubber.shift is None:
         raise InputError(f"{name}: this rubber has no shift factors to compare with.", code="no-shift")
     return rubber.shift, rubber.vertical_shift

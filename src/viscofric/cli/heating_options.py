@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.contact_options import option
+from viscofric.cli.errors import placed_at, typed_as
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -83,17 +84,16 @@ def chosen_heating(parameters: dict[str, Any]) -> Heating | None:
     rubber = _body(known.pop("rubber", "filled rubber"), "heating_rubber", "rubber")
     track = known.pop("track", None)
     counterface = _body(parameters["heating"], "heating", "counterface")
-    return Heating(counterface=counterface, rubber=rubber, **known, **({} if track is None else _track(track)))
+    names = {name: f"heating_{name}" for name in _NAMES} | dict.fromkeys(("track_radius", "passes"), "heating_track")
+    with typed_as(names):
+        return Heating(counterface=counterface, rubber=rubber, **known, **({} if track is None else _track(track)))
 
 
 def _body(text: str, parameter: str, name: str) -> ThermalProperties:
-    from viscofric.errors import InputError
     from viscofric.thermal import body_of
 
-    try:
+    with placed_at(option(parameter)):
         return body_of(text, name)
-    except InputError as error:
-        raise error.at(option(parameter)) from None
 
 
 def _track(text: str) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.errors import print_notes, reported_errors, typed_as
 from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import shift_factor_options
@@ -84,13 +84,16 @@ def make_anchor(parameters: dict[str, Any], what: str, load_unit: str) -> Anchor
     from viscofric.units import positive, to_si
 
     options: dict[str, Any] = {} if parameters["anchor_error"] is None else {"error": parameters["anchor_error"]}
-    if what == "modulus":
-        return ModulusAnchor(_of(parameters, "modulus"), *(_of(parameters, name) for name in _OF_MODULUS), **options)
-    options |= {name: _of(parameters, name) for name in _OF_SIZE}
-    options["load"] = positive(options["load"], load_unit, "--anchor-load")
-    if what == "area":
-        return ContactAnchor(contact_area=to_si(_of(parameters, "area"), "m**2", "--anchor-area"), **options)
-    return ContactAnchor(**{what: _of(parameters, what)}, **options)
+    typed = {name.removeprefix("anchor_"): name for name in parameters if name.startswith("anchor_")}
+    with typed_as(typed | {"angular_frequency": "anchor_frequency"}):
+        if what == "modulus":
+            more = (_of(parameters, name) for name in _OF_MODULUS)
+            return ModulusAnchor(_of(parameters, "modulus"), *more, **options)
+        options |= {name: _of(parameters, name) for name in _OF_SIZE}
+        options["load"] = positive(options["load"], load_unit, "load")
+        if what == "area":
+            return ContactAnchor(contact_area=to_si(_of(parameters, "area"), "m**2", "area"), **options)
+        return ContactAnchor(**{what: _of(parameters, what)}, **options)
 
 
 def _of(parameters: dict[str, Any], name: str) -> Any:
@@ -174,7 +177,7 @@ def command(
         from viscofric.report.texts.inverse import identification_record
 
         shape = chosen_indenter(parameters)
-        known = None if beside is None else find_rubber(beside)
+        known = None if beside is None else find_rubber(beside, "beside")
         options = {name: parameters[name] for name in _SETTINGS}
         options |= _prior(parameters)
         if anchor is not None:
@@ -217,7 +220,8 @@ def _prior(parameters: dict[str, Any]) -> dict[str, Any]:
     from viscofric.cli.rubber_options import find_rubber
     from viscofric.units import angular_frequency
 
-    prior: dict[str, Any] = {"prior": find_rubber(parameters["prior"]), "prior_error": parameters["prior_error"]}
+    known = find_rubber(parameters["prior"], "prior")
+    prior: dict[str, Any] = {"prior": known, "prior_error": parameters["prior_error"]}
     if parameters["prior_band"] is not None:
         ends = parameters["prior_band"].split(",")
         if len(ends) != 2:

@@ -84,7 +84,12 @@ def command(
         known, vertical = (
             (None, None)
             if parameters["known"] is None
-            else shifts(parameters["known"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"])
+            else shifts(
+                parameters["known"],
+                parameters["shift_factor_columns"],
+                parameters["shift_factor_sheet"],
+                parameter="known",
+            )
         )
         master = _shifted(curves, known, vertical, parameters)
         law, why, refused = chosen_law(master, parameters["law"])

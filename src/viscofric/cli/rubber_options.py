@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from viscofric.cli.contact_options import option
-from viscofric.cli.errors import print_notes
+from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
 
 if TYPE_CHECKING:
@@ -242,17 +242,19 @@ def reading_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def find_rubber(name: str) -> Material:
+def find_rubber(name: str, parameter: str = "material") -> Material:
     """Return the rubber of a file where there is one of that name, else that of the catalogue.
 
-    What was assumed of a card that does not say it, such as its units, is printed.
+    What was assumed of a card that does not say it, such as its units, is printed.  `parameter` is that of the command
+    that gives the name.
     """
     from viscofric.rheology.cards import open_card
     from viscofric.rheology.catalogue import catalogue_material
 
     path = Path(name)
     if not (path.is_file() or path.suffix):
-        return catalogue_material(name)
+        with typed_as({"name": parameter}):
+            return catalogue_material(name)
     card = open_card(path)
     print_notes(card.notes)
     return card.material

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.errors import placed_at, reported_errors
 from viscofric.cli.files import CSV, DASH
 from viscofric.cli.output import json_option, out_option, print_json, write_rows
 from viscofric.cli.verify_test import compare_test
@@ -69,7 +69,8 @@ def command(
         from viscofric.verification import CHECKS, run_checks, select
         from viscofric.verification.published import PUBLISHED
 
-        checks = select(PUBLISHED if published else CHECKS, names)
+        with placed_at("--only"):
+            checks = select(PUBLISHED if published else CHECKS, names)
         if listed:
             _list(checks)
             return

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
 from viscofric.arguments import insist_on
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.heat.means import disc_mean, face_resistance
 from viscofric.heat.track import track_temperature
 from viscofric.showing import Rows, Shown
@@ -76,11 +76,10 @@ class Heating(Shown):
         given: Any = self.passes
         endless = isinstance(given, float) and given == math.inf
         passes = math.inf if endless else number(given, "passes")
-        if not (0.0 <= coulomb < math.inf and passes >= 0.0 and (endless or passes == math.floor(passes))):
-            raise InputError(
-                f"coulomb = {coulomb:g}, passes = {passes:g}: neither may be below zero, and passes must be whole.",
-                code="out-of-range",
-            )
+        if coulomb < 0.0:
+            raise wrong_argument("coulomb", coulomb, "must not be below zero.", "out-of-range")
+        if not (passes >= 0.0 and (endless or passes == math.floor(passes))):
+            raise wrong_argument("passes", passes, "must be a whole number or inf, not below zero.", "out-of-range")
         if self.slip is not None:
             object.__setattr__(self, "slip", abs(to_si(self.slip, "m/s", "slip")))
         if self.nominal_radius is not None:

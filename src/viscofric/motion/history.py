@@ -12,7 +12,7 @@ from viscofric.arguments import exactly_one
 from viscofric.contact.bodies import unit_direction
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.motion.schedule import Schedule, make_schedule
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.showing import Shown
 from viscofric.units import to_si_array, to_si_in_shape
@@ -126,6 +126,7 @@ class History(Shown):
                 "negative-load",
                 f"{control} = {values[place]:g} {unit or CONTROLS[control]} at time {seconds[place]:g} s: must not be "
                 "below zero; adhesion is not part of the model.",
+                argument=control,
             )
         kelvin = None if temperature is None else _column(temperature, "K", "temperature", count)
         if kelvin is not None and np.any(kelvin <= 0.0):
@@ -201,9 +202,13 @@ class History(Shown):
         insist_on_material(material)
         check_choice(kind, "kind", *_CONTROLS_OF)
         if self.control not in _CONTROLS_OF[kind]:
-            wanted = " or ".join(_CONTROLS_OF[kind])
+            wanted = _CONTROLS_OF[kind]
+            said = f"give {' or '.join(wanted)}."
             raise InputError(
-                f"history: a {kind} contact has no prescribed {self.control}; give {wanted}.", code="wrong-control"
+                f"{self.control}: cannot be prescribed in a {kind} contact; ",
+                code="wrong-control",
+                remedy=Remedy(said, f"give {' or '.join(f'--{one}' for one in wanted)}.", said),
+                values={"argument": self.control},
             )
         unit = {"point": "N", "line": "N/m"}.get(kind, "")
         if self.load_unit not in ("", unit):
@@ -244,9 +249,9 @@ def dense_parts(count: int) -> Array:
     return np.append(np.geomspace(_FIRST, first, count // 2, endpoint=False), first * np.arange(1, evenly + 1))
 
 
-def _wrong_at(index: int, code: str, sentence: str) -> InputError:
+def _wrong_at(index: int, code: str, sentence: str, **values: str) -> InputError:
     """Return an error about one point, with its index in the values."""
-    return InputError(Note(code, sentence, values={"index": index}))
+    return InputError(Note(code, sentence, values={"index": index, **values}))
 
 
 def _checked_time(time: Quantities) -> Array:

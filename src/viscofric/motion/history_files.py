@@ -90,7 +90,9 @@ def read_history(
     for name in constants:
         if any(column == name or column.startswith(f"{name} ") for column in found.values):
             raise InputError(
-                f"{name}: {path} has a column of it; give the value or the column, not both.", code="give-one"
+                f"{name}: {path} has a column of it; give the value or the column, not both.",
+                code="give-one",
+                values={"argument": name},
             )
     try:
         arguments = _arguments(found)

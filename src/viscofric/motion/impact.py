@@ -11,7 +11,7 @@ from viscofric.arguments import whole_number
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
-from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.errors import ConvergenceError, InputError, brief, wrong_argument
 from viscofric.motion.bounce import Bounce, Springs
 from viscofric.motion.impact_solution import ImpactContact, ImpactSolution, RestitutionCurve
 from viscofric.motion.memory import Modes
@@ -116,9 +116,8 @@ def solve_impact(
     kilograms, touching = positive(mass, "kg", "mass"), positive(speed, "m/s", "speed")
     pull = to_si(gravity, "m/s**2", "gravity")
     if pull < 0.0:
-        raise InputError(
-            f"gravity = {brief(gravity)}: must not be below zero; it points into the half-space.", code="negative"
-        )
+        words = "must not be below zero; it points into the half-space."
+        raise wrong_argument("gravity", gravity, words, "negative")
     most = whole_number(rebounds, "rebounds", 1, _MOST_CONTACTS)
     wanted = _checked_accuracy(accuracy)
     falling = _Falling.of(material, indenter, kilograms, pull, indenter_modulus, indenter_poisson_ratio, wanted)

@@ -15,7 +15,7 @@ from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.motion.history import History
 from viscofric.motion.march import march
 from viscofric.motion.problem import Problem
@@ -310,7 +310,7 @@ def checked_times(times: Quantities | None, schedule: Schedule) -> list[float] |
         return None
     seconds = to_si_array(times, "s", "times")
     if not len(seconds) or np.any(np.diff(seconds) < 0.0):
-        raise InputError(f"times = {brief(times)}: must be one or more times in ascending order.", code="not-sorted")
+        raise wrong_argument("times", times, "must be one or more times in ascending order.", "not-sorted")
     near = _ROUNDING * max(abs(schedule.start), abs(schedule.end))
     for end in (schedule.start, schedule.end):  # such as 0.1 + 0.2 of a history up to 0.3
         seconds = np.where(np.abs(seconds - end) <= near, end, seconds)
@@ -319,6 +319,7 @@ def checked_times(times: Quantities | None, schedule: Schedule) -> list[float] |
         raise InputError(
             f"times: {outside:g} s lies outside the history, {schedule.start:g} to {schedule.end:g} s.",
             code="out-of-range",
+            values={"argument": "times"},
         )
     return [float(one) for one in seconds]
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
 from viscofric.readers.headings import option_of, place_of
@@ -47,7 +47,7 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
     if is_workbook(source):
         return _of_workbook(source, words)
     if source.sheet:
-        raise DataFileError(source.path, "is not a workbook; leave out sheet.", code="no-sheet")
+        raise not_needed(source.path, "sheet", "no-sheet", "is not a workbook")
     found = _in_text(source, words)
     if found is None:
         raise no_header(source, words)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from viscofric.arguments import text
 from viscofric.errors import InputError, wrong_argument
+from viscofric.notes import Remedy, without
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
@@ -183,9 +184,9 @@ class Material(Plotted):
             return spectrum
         if self.shift is None:
             raise InputError(
-                f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be "
-                "chosen; give Material(spectrum, shift=WLF(…)) or leave the temperature out.",
+                f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be chosen; ",
                 code="no-shift",
+                remedy=Remedy("give Material(spectrum, shift=WLF(…)) or ") + without("temperature"),
                 values={"argument": "temperature"},
             )
         kelvin = positive(temperature, "K", "temperature")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.errors import print_notes, reported_errors, typed_as
 from viscofric.cli.files import FILE, Source, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import reading_options
@@ -21,13 +21,24 @@ if TYPE_CHECKING:
     from viscofric.rheology.payne.kraus_fit import PayneFit
 
 
+_PERCENT = click.FloatRange(0.0, 1000.0)
+
+
 @click.command(name="amplitude")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @reading_options
 @click.option("--material", metavar="NAME|FILE", help="Material of frequency sweeps, to be scaled to a larger strain.")
-@click.option("--strain", type=float, metavar="%", help="Tensile strain amplitude to scale --material to, in percent.")
 @click.option(
-    "--measured-at", type=float, metavar="%", help="Tensile strain amplitude of the frequency sweeps [default: small]."
+    "--strain",
+    type=_PERCENT,
+    metavar="%",
+    help="Tensile strain amplitude to scale --material to, in percent.",
+)
+@click.option(
+    "--measured-at",
+    type=_PERCENT,
+    metavar="%",
+    help="Tensile strain amplitude of the frequency sweeps [default: small].",
 )
 @indenter_options
 @click.option(
@@ -122,16 +133,17 @@ def _scaled(fit: PayneFit, chosen: dict[str, Any], notes: list[str]) -> tuple[di
     from viscofric.friction.contact_strain import solve_at_contact_strain
 
     shape = chosen_indenter(chosen)
-    found = solve_at_contact_strain(
-        material,
-        fit.law,
-        shape.indenter,
-        speed=chosen["speed"],
-        load=chosen["load"],
-        temperature=chosen["contact_temperature"],
-        measured_at=measured,
-        accuracy=1e-2,
-    )
+    with typed_as({"temperature": "contact_temperature"}):
+        found = solve_at_contact_strain(
+            material,
+            fit.law,
+            shape.indenter,
+            speed=chosen["speed"],
+            load=chosen["load"],
+            temperature=chosen["contact_temperature"],
+            measured_at=measured,
+            accuracy=1e-2,
+        )
     notes += found.notes
     return *_compared(found, shape.words), found.material
 

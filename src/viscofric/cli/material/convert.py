@@ -68,7 +68,7 @@ def command(
         raise click.UsageError("give the file to write, OUTPUT or --out, once.")
     refuse_to_overwrite(target, [Path(rubber)])
     with reported_errors():
-        material = find_rubber(rubber)
+        material = find_rubber(rubber, "rubber")
         with warned() as notes:
             write_card(
                 material,

@@ -213,7 +213,9 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
 def _fixed(text: str) -> tuple[str, float]:
     temperature, _, value = text.rpartition("=")
     try:
-        return temperature, float(value)
+        if temperature and math.isfinite(float(value)):
+            return temperature, float(value)
+        raise ValueError(text)
     except ValueError:
         raise click.BadParameter(
             f"{text!r}: write temperature and decadic logarithm, such as '-20 degC=4.2'.", param_hint="--fix"

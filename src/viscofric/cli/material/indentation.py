@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.errors import reported_errors, typed_as
 from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import column_options
@@ -111,7 +111,7 @@ def command(
         from viscofric.rheology.cards import write_card
 
         shape = chosen_indenter(parameters)
-        known = None if beside is None else find_rubber(beside)
+        known = None if beside is None else find_rubber(beside, "beside")
         kelvin = temperatures if len(temperatures) == len(files) else (temperatures or (None,)) * len(files)
         records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
         found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
@@ -150,9 +150,9 @@ def _records(path: Path, temperature: str | None, parameters: dict[str, Any]) ->
         return read_rebound(path, mass=parameters["mass"], error=parameters["error"], **common)
     if parameters["amplitude"] is None:
         raise click.UsageError("--depth needs the --amplitude of the oscillation.")
-    return read_oscillation(
-        path, indentation=parameters["depth"], amplitude=parameters["amplitude"], error=parameters["error"], **common
-    )
+    given = {name: parameters[name] for name in ("amplitude", "error")}
+    with typed_as({"indentation": "depth"}):
+        return read_oscillation(path, indentation=parameters["depth"], **given, **common)
 
 
 def _settings(parameters: dict[str, Any]) -> dict[str, Any]:

@@ -38,7 +38,7 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
     from viscofric.datasets import record
 
     with reported_errors():
-        material = find_rubber(rubber)
+        material = find_rubber(rubber, "rubber")
         moduli = _moduli(material, temperature, frequency)
         if out is not None:
             write_dataset(out, moduli)

@@ -21,7 +21,7 @@ from viscofric.contact.free.grids import Extent
 from viscofric.contact.free.proximal import proximal_points
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import collocation_shift
-from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.errors import ConvergenceError, InputError, brief, wrong_argument
 from viscofric.units import Quantity, to_si
 
 if TYPE_CHECKING:
@@ -273,6 +273,7 @@ class GivenGrid:
                 f"window: the contact reaches about {rear:.4g} mm behind the axis, {front:.4g} mm ahead of it{sides}; "
                 "give a window that leaves some space around it.",
                 code="beyond-window",
+                values={"argument": "window"},
             )
 
 
@@ -280,9 +281,8 @@ def _extent(window: Sequence[Quantity], scale: Scale) -> Extent:
     names = ("rear", "front", "side")[: scale.geometry.dimension + 1]
     each = list(window) if isinstance(window, (list, tuple)) or np.ndim(window) == 1 else []
     if len(each) != len(names):
-        raise InputError(
-            f"window = {brief(window)}: must be {len(names)} lengths ({', '.join(names)}).", code="not-a-window"
-        )
+        words = f"must be {len(names)} lengths ({', '.join(names)})."
+        raise wrong_argument("window", window, words, "not-a-window")
     lengths = [
         to_si(length, "m", f"{name} of the window") / scale.length for length, name in zip(each, names, strict=True)
     ]

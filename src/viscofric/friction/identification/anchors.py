@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 import numpy as np
 
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.rheology.material import Material
 from viscofric.showing import Shown
@@ -34,10 +34,8 @@ _LOAD_STEP = 0.05
 def _relative(error: float) -> float:
     value = positive(error, "dimensionless", "error of the anchor")
     if value >= 1.0:
-        raise InputError(
-            f"error of the anchor = {value:g}: must be a relative standard error below 1, such as 0.02.",
-            code="out-of-range",
-        )
+        words = "must be a relative standard error below 1, such as 0.02."
+        raise wrong_argument("error of the anchor", value, words, "out-of-range")
     return value
 
 

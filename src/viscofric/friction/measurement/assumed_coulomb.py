@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.nominal import SAME_LOAD
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.units import shown_number, to_si
 
 if TYPE_CHECKING:
@@ -36,15 +36,19 @@ class Assumed:
         value, error = coulomb if isinstance(coulomb, (tuple, list)) and len(coulomb) == 2 else (coulomb, 0.0)
         try:
             number = to_si(value, "dimensionless", "coulomb")  # type: ignore[arg-type]
-            deviation = to_si(error, "dimensionless", "standard error of coulomb")
         except InputError:
-            number, deviation = -1.0, 0.0
-        if number < 0.0 or deviation < 0.0:
+            number = -1.0
+        if number < 0.0:
+            words = "a friction coefficient such as 0.05, {}or 'constant'."
             raise InputError(
-                f"coulomb = {brief(coulomb)}: must be a friction coefficient such as 0.05, it and its standard error "
-                "as (0.05, 0.01), or 'constant'.",
+                f"coulomb = {brief(value)}: must be ",
                 code="not-a-coefficient",
+                remedy=Remedy(words.format("it and its standard error as (0.05, 0.01), "), words.format("")),
+                values={"argument": "coulomb"},
             )
+        deviation = to_si(error, "dimensionless", "standard error of coulomb")
+        if deviation < 0.0:
+            raise wrong_argument("standard error of coulomb", error, "must be zero or above.", "not-a-coefficient")
         return cls(number, deviation)
 
     @property

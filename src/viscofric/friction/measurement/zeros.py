@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import wrong_argument
 from viscofric.notes import Note
 from viscofric.units import Quantity, shown_number, to_si
 
@@ -47,7 +47,7 @@ class Zeros:
             value, error = zero if isinstance(zero, tuple) and len(zero) == 2 else (zero, 0.0)
             newton, deviation = to_si(value, "N", "zero"), to_si(error, "N", "standard error of zero")
             if deviation < 0.0:
-                raise InputError(f"standard error of zero = {deviation:g} N: must be zero or above.", code="negative")
+                raise wrong_argument("standard error of zero", error, "must be zero or above.", "negative")
             each, once = np.full(len(runs), newton), np.zeros(len(runs), dtype=np.int64)
             return cls(each, once, deviation, np.inf, True, np.array([newton]))
         if runs.zero_force is None:

@@ -165,6 +165,7 @@ def _check(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> No
             f"reference = {shown_celsius(reference)} °C lies outside the friction curves, {shown(isotherms[0])} to "
             f"{shown(isotherms[-1])}{kelvin_hint(reference)}.",
             code="reference-outside",
+            values={"argument": "reference"},
         )
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.curve_checks import error_freedom, implausible
 from viscofric.friction.curves import insist_on_curves
 from viscofric.friction.shifting.collapse import collapse
@@ -118,10 +118,8 @@ def shift_friction(
     at_load = float(np.median(curves.load)) if load is None else positive(load, unit, "load")
     shared = to_si(level_error, "dimensionless", "level_error")
     if not 0.0 <= shared < 1.0:
-        raise InputError(
-            f"level_error = {level_error!r}: must be zero or above, and below 1 (all of the friction).",
-            code="level-error",
-        )
+        words = "must be zero or above, and below 1 (all of the friction)."
+        raise wrong_argument("level_error", level_error, words, "level-error")
     kelvin = None if reference is None else positive(reference, "K", "reference")
     notes: tuple[str, ...] = ()
     found = shift is None

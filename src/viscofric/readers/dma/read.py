@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from viscofric.data import DEFORMATIONS, Deformation, IsothermalSweeps
-from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.errors import DataFileError, InputError, check_choice, not_needed
 from viscofric.notes import Remedy
 from viscofric.readers.dma.instruments import (
     eplexor,
@@ -226,9 +226,6 @@ def _read(source: Source) -> Readings:
     readings = format_of(source).read(source)
     given = source.temperature
     if given is not None and not np.all(np.isclose(readings.temperature, given, rtol=0.0, atol=1e-9)):
-        raise DataFileError(
-            source.path,
-            f"contains temperatures ({readings.format}); leave out temperature.",
-            code="temperature-not-needed",
-        )
+        problem = f"contains temperatures ({readings.format})"
+        raise not_needed(source.path, "temperature", "temperature-not-needed", problem)
     return readings

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.errors import DataFileError
+from viscofric.errors import not_needed
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.names import SET_TEMPERATURE, STEP, STRAIN_AMPLITUDE, TEMPERATURE, temperature_in_name
 from viscofric.readers.headings import Vocabulary
@@ -166,8 +166,8 @@ def temperature_of(table: Table, source: Source, name: str, count: int, notes: l
     place = table.place("set temperature") if place is None else place
     if place is not None:
         if source.temperature is not None:
-            problem = f"column {table.columns[place].heading!r} contains the temperatures; leave out temperature."
-            raise DataFileError(table.path, problem, code="temperature-not-needed")
+            problem = f"column {table.columns[place].heading!r} contains the temperatures"
+            raise not_needed(table.path, "temperature", "temperature-not-needed", problem)
         factor, offset = table.conversion(table.columns[place], "K")
         return factor * table.numbers_or_missing(place) + offset
     if source.temperature is not None:

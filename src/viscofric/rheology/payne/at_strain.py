@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.material import Material
 from viscofric.rheology.payne.kraus import KrausLaw
@@ -111,10 +111,9 @@ def material_at_strain(
         raise InputError("a table of moduli cannot be scaled to a strain; fit a spectrum to it.", code="no-spectrum")
     amplitude = number(strain, "strain")
     start = 0.0 if measured_at is None else number(measured_at, "measured_at")
-    if not (0.0 <= start <= 10.0 and 0.0 <= amplitude <= 10.0):
-        raise InputError(
-            "strain and measured_at must be fractions (0.05 is 5 %), none below zero.", code="out-of-range"
-        )
+    for name, value in (("strain", amplitude), ("measured_at", start)):
+        if not 0.0 <= value <= 10.0:
+            raise wrong_argument(name, value, "must be a fraction (0.05 is 5 %), not below zero.", "out-of-range")
     ends = law.complex_modulus(np.array([law.tensile_strain(start), law.tensile_strain(amplitude)]))
     storage, loss = float(ends[1].real / ends[0].real), float(ends[1].imag / ends[0].imag)
     omega = law.angular_frequency

@@ -12,7 +12,7 @@ from viscofric.ramps import TemperatureRamps
 from viscofric.rheology.ramps.glass_transition import GlassTransition
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, ShiftLaw
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig
-from viscofric.units import shown_celsius, to_si
+from viscofric.units import positive, shown_celsius, to_si
 
 #: The constants that M. L. Williams, R. F. Landel, J. D. Ferry (J. Am. Chem. Soc. 77 (1955) 3701) found for many
 #: amorphous polymers about their glass transition.
@@ -31,7 +31,7 @@ def assumed_of(text: str, reference: float) -> ShiftLaw | Literal["universal"]:
                 f"{brief(text)}: write 'WLF 17.44, 51.6 K, -30 degC': C1, C2 and their reference.", code="no-law"
             )
         return WLF(to_si(parts[0], "dimensionless", "C1"), parts[1], parts[2])
-    return Arrhenius(words, reference)
+    return Arrhenius(positive(words, "J/mol", "assumed_shift"), reference)
 
 
 def assumed_law(

@@ -25,6 +25,7 @@ from viscofric.study.run_file.tables import (
     listed,
     one_or_more,
     schema_of,
+    with_options,
 )
 from viscofric.units import conversion
 
@@ -189,7 +190,7 @@ class MaterialTable(Table):
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
         for words in self._doubts():
-            yield "", words
+            yield "", with_options(words, type(self).model_fields)
 
     def _doubts(self) -> Iterator[str]:
         given = [name for name in SOURCES if getattr(self, name) is not None]

@@ -30,7 +30,7 @@ from viscofric.notes import Note, Remedy
 from viscofric.units import Quantity, positive, to_si
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from pydantic import GetCoreSchemaHandler
 
@@ -42,6 +42,21 @@ Problem: TypeAlias = tuple[str, str]
 def worded(run_file: str, page: str) -> Note:
     """Return a problem in the words of a run file, and in those of the page, beside its field."""
     return Note("contradiction", "", remedy=Remedy(f"{run_file}.", page=f"{page}."))
+
+
+def with_options(words: str, keys: Iterable[str]) -> Note:
+    """Return a problem of a table in the words of a run file, and with options instead of its keys."""
+    longest = "|".join(sorted(keys, key=len, reverse=True))
+    # a key is told from a word by an underscore, by its value, or by its place at the beginning
+    pattern = re.compile(rf"(?<![\w.-])({longest})(?: = \"([^\"]*)\")?(?![\w.-])")
+
+    def option(found: re.Match[str]) -> str:
+        key, value = found.groups()
+        if "_" not in key and value is None and found.start():
+            return found[0]
+        return f"--{key.replace('_', '-')}" + ("" if value is None else f" {value}")
+
+    return Note("contradiction", "", remedy=Remedy(f"{words}.", f"{pattern.sub(option, words)}.", f"{words}."))
 
 
 class Table(BaseModel):

@@ -9,7 +9,7 @@ import numpy as np
 from viscofric.arguments import insist_on, text, whole_number
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.identification.indentation.conclusions import conclude
 from viscofric.friction.identification.indentation.contact import Shared
 from viscofric.friction.identification.indentation.problem import BySprings
@@ -179,9 +179,8 @@ def _deviation(value: Quantity, unit: str, name: str) -> float:
     found = to_si(value, unit, name)
     if found < 0.0 or (unit == "dimensionless" and found > LARGEST_SHARED):
         most = f" to {LARGEST_SHARED:g}" if unit == "dimensionless" else " on"
-        raise InputError(
-            f"{name} = {value!r}: must be a standard deviation from 0{most}.", code="out-of-range", field=name
-        )
+        words = f"must be a standard deviation from 0{most}."
+        raise wrong_argument(name, value, words, "out-of-range", name)
     return float(found)
 
 

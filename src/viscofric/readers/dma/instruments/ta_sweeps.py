@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, not_needed
 from viscofric.notes import Note, setting
 from viscofric.readers.dma.checks import insist_on_agreement
 from viscofric.readers.dma.instruments.ta_steps import ROLES, Signal, Step, roles
@@ -140,8 +140,8 @@ def _temperature(source: Source, step: Step, notes: list[str]) -> Array:
     signal = step.signals.get("temperature")
     if signal is not None:
         if source.temperature is not None:
-            problem = f"column {signal.heading!r} contains the temperatures; leave out temperature for this file."
-            raise DataFileError(source.path, problem, code="temperature-not-needed")
+            problem = f"column {signal.heading!r} contains the temperatures"
+            raise not_needed(source.path, "temperature", "temperature-not-needed", problem, " for this file")
         factor, offset = _conversion(source, step, signal, "K", "°C")
         return factor * signal.values + offset
     if source.temperature is None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
@@ -235,8 +235,8 @@ def _temperature(
     if "temperature" in places:
         if source.temperature is not None:
             heading = table.columns[places["temperature"]].heading
-            problem = f"column {heading!r} contains the temperatures; leave out temperature for this file."
-            raise DataFileError(table.path, problem, code="temperature-not-needed")
+            problem = f"column {heading!r} contains the temperatures"
+            raise not_needed(table.path, "temperature", "temperature-not-needed", problem, " for this file")
         factor, offset = table.conversion(table.columns[places["temperature"]], "K")
         kelvin = factor * table.numbers_or_missing(places["temperature"]) + offset
         cold = np.flatnonzero(kelvin <= 0.0)

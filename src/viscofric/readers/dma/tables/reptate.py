@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscofric.arrays import Array, Integers
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, not_needed
 from viscofric.readers.dma.names import deformation_of, quantity
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.headings import heading
@@ -69,10 +69,8 @@ def read(source: Source) -> Readings:
         problem = f"is a master curve of RepTate at {reference} °C"
         raise DataFileError(source.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
     if source.temperature is not None:
-        raise DataFileError(
-            source.path,
-            "contains its temperature; leave out temperature for this file.",
-            code="temperature-not-needed",
+        raise not_needed(
+            source.path, "temperature", "temperature-not-needed", "contains its temperature", " for this file"
         )
     if not np.all(np.isfinite(found.temperature)):
         raise DataFileError(
