@@ -73,6 +73,28 @@ def once(run: tuple[Result, Path]) -> Path:
     return run[1]
 
 
+def test_run_and_report_print_a_pdf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    browser = tmp_path / "chromium"
+    browser.write_text(
+        '#!/bin/sh\nfor word; do case $word in --print-to-pdf=*) echo %PDF > "${word#*=}";; esac; done\n'
+    )
+    browser.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
+    study = write(tmp_path)
+    done = call("run", study, "--pdf", "--json")
+    pdf = tmp_path / "study.results" / "report.pdf"
+    assert json.loads(done.stdout.splitlines()[-1])["pdf"] == str(pdf)
+    assert pdf.read_text() == "%PDF\n"
+    assert f"pdf      {pdf}" in call("report", pdf.parent, "--pdf").stdout
+
+
+def test_run_needs_its_browser_before_it_solves(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    found = refusal_of(call("run", write(tmp_path), "--pdf"))
+    assert (found.status, found.code) == (1, "no-browser")
+    assert not (tmp_path / "study.results").exists()
+
+
 @pytest.fixture
 def finished(once: Path, tmp_path: Path) -> Path:
     """Return a copy of the results of one run."""

@@ -8,13 +8,13 @@ from pathlib import Path
 import click
 
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json
+from viscofric.cli.output import FOLDER, json_option, out_option, pdf_option, print_json
 
 
 @click.command(name="report")
 @click.argument("results", type=click.Path(path_type=Path))
 @out_option("Folder for report.html and figures [default: RESULTS].", FOLDER)
-@click.option("--pdf", is_flag=True, help="Also write report.pdf (A4); needs Chromium, Chrome or Edge on the path.")
+@pdf_option
 @json_option("Print the written files, and what the report says of failed cases and checks, as JSON.")
 def command(results: Path, out: Path | None, pdf: bool, as_json: bool) -> None:
     """Write figures and report of a study again, from its RESULTS folder; the exit status is that of `run`."""

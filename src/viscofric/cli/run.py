@@ -10,7 +10,7 @@ import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.errors import print_doubtful_checks
-from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option
+from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option, pdf_option
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ _REPORTED_OTHERWISE = (
 )
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes on this machine.")
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://10.0.0.1:8786.")
+@pdf_option
 @json_option(RUN_JSON)
 @click.option("-q", "--quiet", is_flag=True, help="Print only errors, warnings and failed cases.")
 def command(
@@ -57,6 +58,7 @@ def command(
     finished_only: bool,
     workers: int | None,
     scheduler: str | None,
+    pdf: bool,
     as_json: bool,
     quiet: bool,
 ) -> None:
@@ -73,27 +75,36 @@ def command(
         finished_only=finished_only,
         workers=workers,
         scheduler=scheduler,
+        pdf=pdf,
         as_json=as_json,
         quiet=quiet,
     )
 
 
-def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: bool = False, **how: Any) -> None:
+def run_and_report(
+    study: Path, output: Path, *, pdf: bool = False, as_json: bool = False, quiet: bool = False, **how: Any
+) -> None:
     """Run a study, write its report, and name what was written; leaves the program where that failed."""
+    printed: dict[str, Path] = {}
     try:
         from viscofric.cli.progress import JsonProgress, Silent, TerminalProgress
         from viscofric.errors import ViscofricError
         from viscofric.report import write_figures_and_report
+        from viscofric.report.html import find_browser, write_pdf
         from viscofric.study.execution import run_study
         from viscofric.study.running.running import Event
 
         listener = JsonProgress(sys.stdout) if as_json else Silent() if quiet else TerminalProgress()
         try:
             with listener as progress:
+                if pdf:
+                    find_browser(output / "report.pdf")  # not after hours
                 progress.write("started", study=str(study), folder=str(output))
                 results = run_study(study, output=output, progress=progress, **how)
                 progress(Event("stage", stage="report", done=0, total=1))
                 figures, report = write_figures_and_report(results.tree, results.folder)
+                if pdf:
+                    printed["pdf"] = write_pdf(report)
                 progress(Event("stage", stage="report", done=1, total=1))
                 _insist_on(Path(results.folder / "results.nc"), report, *figures)
         except ViscofricError as error:
@@ -108,13 +119,15 @@ def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: b
         terminated = isinstance(stop, Terminated)
         click.echo(("Terminated." if terminated else "Interrupted.") + _kept(output), err=True)
         sys.exit(TERMINATED if terminated else INTERRUPTED)
-    listener.write("finished", **outcome_record(results, figures, report))
+    listener.write("finished", **outcome_record(results, figures, report), **printed)
     print_outcome(results, quiet=quiet or as_json)
     if not (quiet or as_json):
         for figure in figures:
             click.echo(f"figure   {figure}")
         click.echo(f"data     {results.folder / 'results.nc'}")
         click.echo(f"report   {report}")
+        for path in printed.values():
+            click.echo(f"pdf      {path}")
     if status := status_of(results):
         sys.exit(status)
 

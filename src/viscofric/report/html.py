@@ -100,6 +100,15 @@ _BROWSERS = (
 _MOST_SECONDS = 120.0
 
 
+def find_browser(target: Path) -> str:
+    """Return the browser that prints a PDF; DataFileError if there is none on the path."""
+    for name in _BROWSERS:
+        if found := shutil.which(name):
+            return found
+    rest = "without one, open report.html in any browser and print it to a file."
+    raise DataFileError(target, f"needs Chromium, Chrome or Edge on the path; {rest}", code="no-browser")
+
+
 def write_pdf(report: Path) -> Path:
     """Print a report as PDF (A4) beside it, with a browser of the Chromium family that is on the path.
 
@@ -119,13 +128,7 @@ def write_pdf(report: Path) -> Path:
         If there is no such browser, or it writes nothing.
     """
     target = report.with_suffix(".pdf")
-    browser = next((found for name in _BROWSERS if (found := shutil.which(name))), None)
-    if browser is None:
-        missing = (
-            "needs Chromium, Chrome or Edge on the path; without one, open report.html in any browser and print it "
-            "to a file."
-        )
-        raise DataFileError(target, missing, code="no-browser")
+    browser = find_browser(target)
     # beside the report: some packaged browsers have a temporary folder of their own
     with TemporaryDirectory(prefix="viscofric-", dir=target.resolve().parent) as folder:
         made = Path(folder) / "report.pdf"
