@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from types import FrameType
 
+pytestmark = pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a timer of the system")
+
 _RUBBER = "--material 'synthetic fluoroelastomer'"
 _CONTACT = "--ball '9.525 mm' --load '25 N'"
 _OF_DMA = "--dma dma.csv --reference '30 degC'"

@@ -5,12 +5,19 @@ from __future__ import annotations
 import io
 import re
 import xml.etree.ElementTree as ET
+from base64 import b64encode
+from importlib.resources import files
+from typing import TYPE_CHECKING
 
 import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 
 from viscofric.report.figures.saving import adaptive
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def drawn(colour: str) -> bytes:
@@ -50,3 +57,28 @@ def test_areas_keep_the_colours_of_their_scale() -> None:
 
 def test_what_is_no_drawing_is_left_alone() -> None:
     assert adaptive(b"svg ['text']") == b"svg ['text']"
+
+
+@pytest.mark.apart
+def test_a_printed_report_has_light_figures_where_the_screen_is_dark(tmp_path: Path) -> None:
+    from web.browser_tab import chromium_path, launched
+
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no Chromium is on the path")
+    style = files("viscofric.report").joinpath("report.css").read_text(encoding="utf-8")
+    source = b64encode(adaptive(drawn("#0072b2"))).decode()
+    body = f'<body><figure><img src="data:image/svg+xml;base64,{source}"></figure></body>'
+    head = f'<head><meta name="color-scheme" content="light dark"><style>{style}</style></head>'
+    (tmp_path / "page.html").write_text(f"<!doctype html><html>{head}{body}</html>", encoding="utf-8")
+    corner = {}
+    with launched(path) as browser:
+        page = browser.new_page(color_scheme="dark")
+        page.goto((tmp_path / "page.html").as_uri())
+        for medium in ("screen", "print"):
+            page.emulate_media(media=medium)
+            shot = io.BytesIO(page.locator("img").screenshot(animations="disabled"))
+            pixels = imread(shot)
+            corner[medium] = float(pixels[10, 10, :3].mean())
+    assert corner["screen"] < 0.3
+    assert corner["print"] == 1.0

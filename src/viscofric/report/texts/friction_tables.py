@@ -60,18 +60,19 @@ _MEANINGS = (
 )
 
 
-_ROUGH_NUMBERS = (
+_ROUGH_CHECKS = (
     "energy balance: friction from the pressure minus friction from the dissipation, relative; complementarity: "
-    "largest violation of the contact conditions; cells: points along the longer edge of the surface; products: number "
-    "of products with the influence matrix."
+    "largest violation of the contact conditions"
 )
-_ROUGH_MEANINGS = f"95 %: confidence band from the uncertainty of the material; {_ROUGH_NUMBERS}"
+_ROUGH_COST = (
+    "cells: points along the longer edge of the surface; products: number of products with the influence matrix."
+)
+_ROUGH_MEANINGS = f"95 %: confidence band from the uncertainty of the material; {_ROUGH_CHECKS}; {_ROUGH_COST}"
 
 
 _SEEDS_MEAN = (
-    "Means over the seeds of the surface; 95 %: confidence interval of the mean friction (Student's t); numerical "
-    "error, energy balance and complementarity: the largest of the seeds. The results have every seed; "
-    + _ROUGH_NUMBERS
+    "Means over the seeds of the surface, of which the results have each; 95 %: confidence interval of the mean "
+    f"friction (Student's t); numerical error, {_ROUGH_CHECKS}, each the largest of the seeds; {_ROUGH_COST}"
 )
 
 
