@@ -44,7 +44,7 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
     (
         lambda: vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], pressure=1.0)),
         "wrong-control",
-        "history: a point contact has no prescribed pressure; give load or indentation.",
+        "pressure: cannot be prescribed in a point contact; give load or indentation.",
     ),
     (
         lambda: vf.motion.solve_transient(RUBBER, BALL, PRESSED, times=[2.0]),
