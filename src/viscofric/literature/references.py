@@ -351,9 +351,10 @@ _TABLE = (
         "tammann1926",
         ("G. Tammann", "W. Hesse"),
         1926,
-        journal="Z. anorg. allg. Chem.",
-        volume="156",
-        pages="245",
+        "Die Abhängigkeit der Viscosität von der Temperatur bei unterkühlten Flüssigkeiten",
+        "Z. anorg. allg. Chem.",
+        "156",
+        "245",
         doi="10.1002/zaac.19261560121",
     ),
     Reference(
