@@ -95,7 +95,7 @@ _VERBS: dict[Callable[..., object], tuple[str, str]] = {
 }
 #: Of no use to any argument.
 _WRONG = (
-    "5 %",
+    "5 xyz",
     -1,
     True,
     {"a": 1},
@@ -121,7 +121,7 @@ def test_a_value_of_the_wrong_kind_is_refused(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     # A reading of the force cell, a name like any other, a whole number.
-    right = {("zero", -1), ("path", "5 %"), ("seed", True)}
+    right = {("zero", -1), ("path", "5 xyz"), ("seed", True)}
     for wrong in (*_WRONG, *(() if optional else (None,))):
         if isinstance(wrong, (str, int)) and (argument, wrong) in right:
             continue
@@ -152,7 +152,7 @@ def test_half_a_replicate_is_refused() -> None:
         (lambda: vf.read_friction_curves(None), ("not-a-name",)),  # type: ignore[arg-type]
         (lambda: vf.read_mtm(5), ("not-a-name",)),  # type: ignore[arg-type]
         (lambda: vf.read_mtm(["a.csv", "b.csv"]), ("files-in-a-list",)),  # type: ignore[arg-type]
-        (lambda: vf.separate(_RUNS, speed_tolerance="5 %"), ("not-a-number", "speed_tolerance = '5 %'")),  # type: ignore[arg-type]
+        (lambda: vf.separate(_RUNS, speed_tolerance="five"), ("no-number", "speed_tolerance = 'five'")),  # type: ignore[arg-type]
         (lambda: vf.separate(_RUNS, zero="5 mm"), ("wrong-unit", "zero = '5 mm'")),
         (lambda: _predict(temperatures=5.0), ("out-of-range",)),
     ],
