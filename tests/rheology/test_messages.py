@@ -185,7 +185,7 @@ SAID = [
         "no-shift",
         (
             "temperature = '60 degC': this material has no shift, so its temperature cannot be chosen; give "
-            "Material(spectrum, shift=WLF(…)) or leave the temperature out."
+            "Material(spectrum, shift=WLF(…)) or leave out temperature."
         ),
     ),
     (
