@@ -335,7 +335,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             modulus = complex(rubber.complex_modulus(2 * np.pi * hertz, celsius + 273.15)) / 1e6
             rows.append(f"{celsius},{hertz},{modulus.real:.9g},{modulus.imag:.9g}")
     write(folder / "ramps.csv", *rows)
-    law = vf.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 62.8, 333.15, "shear")
+    law = vf.rheology.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 62.8, 333.15, "shear")
     rows = ["temperature (degC),frequency (Hz),strain amplitude (%),G' (MPa),G'' (MPa)"]
     for strain in np.geomspace(1e-4, 0.5, 20):
         modulus = complex(law.complex_modulus(strain)) / 1e6
