@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from viscofric.arrays import Array, Integers
+from viscofric.arrays import Array, Indices, Integers
 from viscofric.errors import InputError
 from viscofric.notes import Note
 
@@ -29,6 +29,12 @@ def numbered(values: Array, allowed: Array) -> Integers:
     labels = np.empty(values.size, dtype=np.int64)
     labels[order] = np.concatenate([[0], np.cumsum(apart)])[: values.size]
     return labels
+
+
+def nominal_rows(temperature: Array) -> list[Indices]:
+    """Return the rows of each nominal temperature, of temperatures in K, ascending; none of none."""
+    number = numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE))
+    return [np.flatnonzero(number == one) for one in range(int(number.max(initial=-1)) + 1)]
 
 
 def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str | Note]) -> Integers:

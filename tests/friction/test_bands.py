@@ -13,6 +13,7 @@ from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.friction.bands import DrawnMaterials
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.notes import codes
+from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.residuals import SystematicMisfit
 
@@ -55,6 +56,31 @@ def predicted(material: vf.Material, samples: MaterialSamples | None, temperatur
 
 def solved(material: vf.Material, temperature: float, speed: float, load: float = LOAD) -> float:
     return vf.solve_steady(material, BALL, speed=speed, load=load, temperature=temperature).friction_coefficient
+
+
+@pytest.mark.parametrize("exact", [False, True])
+def test_friction_beyond_the_measured_frequencies_has_a_note(exact: bool) -> None:
+    """At 30 °C contacts of about 1 mm; at 60 °C α is 1/100."""
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    fit = SpectrumFit(None, None, False, False, (100.0, 2e3))
+    law = vf.Arrhenius(activation_energy=1.286e5, reference="30 degC")
+    material = vf.Material(replace(solid, fit=fit), shift=law)
+
+    def noted(speeds: list[float], celsius: float) -> list[object]:
+        curves = vf.predict_friction(
+            material,
+            vf.Ball("10 mm"),
+            speeds=speeds,
+            temperatures=f"{celsius} degC",
+            load="1 N",
+            exact=exact,
+            accuracy=0.1,
+        )
+        return [note.values["points"] for note in curves.notes if note.code == "beyond-measured"]
+
+    assert noted([0.5, 1.0], 30.0) == []
+    assert noted([1.0, 10.0], 30.0) == [1]
+    assert noted([1.0, 30.0, 100.0, 1000.0], 60.0) == [2]
 
 
 @pytest.mark.slow

@@ -136,6 +136,8 @@ def test_an_interval_is_students_with_the_freedom_that_there_is() -> None:
     assert np.all(np.isinf(np.stack(unknown.interval())))
     plain = friction_curves(np.array([0.1]), np.array([300.0]), np.array([0.03]), error=0.01)
     assert plain.interval()[1] == pytest.approx([0.03 + 1.959964 * 0.01], rel=1e-6)
+    hardly = replace(plain, viscoelastic_freedom=np.array([0.02]))  # Student's factor is 8e63
+    assert np.all(np.isinf(np.stack(hardly.interval())))
     with refused("out-of-range", naming="level"):
         plain.interval(95.0)
     with refused("not-known"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -168,6 +169,24 @@ def test_unknown_errors_give_no_nan() -> None:
     assert master("0.1 m/s") == pytest.approx(0.03, rel=0.005)
     assert master.standard_error("0.1 m/s") == np.inf
     assert master.overlap_error == np.inf
+
+
+@pytest.mark.parametrize("shift", [LAW, None])
+def test_temperatures_that_scatter_about_nominal_ones_are_compared_as_these(shift: WLF | None) -> None:
+    """A table has the temperature of each reading; no two are equal."""
+    curves = shifted_curves(noise=0.001)
+    scattered = curves.temperature + 0.1 * np.sin(np.arange(len(curves)))
+    master = shift_friction(friction_curves(curves.speed, scattered, curves.viscoelastic), shift=shift)
+    expected = shift_friction(curves, shift=LAW)
+    assert master.overlap.points == pytest.approx(expected.overlap.points, abs=2)
+    assert master.overlap.rms == pytest.approx(0.0, abs=0.02)
+    steep = friction_curves(curves.speed, scattered, curves.speed**-1.5, error=1e-4)
+    assert "too-steep" in codes(shift_friction(steep, shift=LAW).notes)
+
+
+def test_friction_of_pure_coulomb_friction_is_not_below_zero_by_rounding() -> None:
+    curves = replace(shifted_curves(), viscoelastic=np.full(30, -1e-17), coulomb=np.full(30, 0.3))
+    assert "friction-below-zero" not in codes(shift_friction(curves, shift=LAW).notes)
 
 
 def test_different_loads_are_not_mixed() -> None:

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import viscofric as vf
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from refusals import refused
 from viscofric.friction.measurement.tribometry import separate
@@ -108,6 +109,18 @@ def test_one_slip_is_separated_where_a_replicate_is_incomplete() -> None:
     curves = separate(runs_from(rows[rows[:, 4] == rows[0, 4]]), coulomb=(0.05, 0.01))
     np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=ROUNDING)
     np.testing.assert_array_equal(curves.coulomb_freedom, np.inf)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("coulomb", "expected"), [(0.05, set()), (0.5, {"negative-friction"})])
+def test_an_assumed_coulomb_friction_above_that_measured_is_noted_however_few_readings_there_are(
+    coulomb: float, expected: set[str]
+) -> None:
+    # Neighbouring readings are alike, so that there is hardly a degree of freedom.
+    forces = 0.3 + 25.0 * 0.08 + np.array([0.0, 0.03, 0.06])
+    one, load, temperature = np.ones(3), np.full(3, 25.0), np.full(3, 303.15)
+    runs = vf.TractionRuns(0.1 * one, 0.095 * one, forces, load, temperature, replicate=one, step=one)
+    curves = separate(runs, zero=0.3, coulomb=coulomb)
+    assert codes(curves.notes) & {"negative-friction"} == expected
 
 
 def test_one_speed_shows_nothing_of_constant_coulomb_friction() -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
 from viscofric.units import shown_celsius
 
@@ -45,8 +46,8 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     relative = curves.viscoelastic_error / np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny)
     wanted = np.isinf(freedom) & np.isfinite(relative) & (relative > 0.0)
     squares, count = 0.0, 0
-    for temperature in np.unique(curves.temperature[wanted]):
-        rows = np.flatnonzero(wanted & (curves.temperature == temperature))
+    for isotherm in nominal_rows(curves.temperature):
+        rows = isotherm[wanted[isotherm]]
         bent = np.diff(np.log(relative[rows[np.argsort(curves.speed[rows], kind="stable")]] ** 2), 2)
         squares, count = squares + float(bent @ bent), count + bent.size
     if count < FEWEST_DIFFERENCES or np.median(relative[wanted]) < SOLVED:
@@ -90,8 +91,8 @@ def implausible(curves: FrictionCurves) -> tuple[Note, ...]:
 
 def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
     steepest, where = np.inf, ""
-    for kelvin in curves.temperatures:
-        mine = curves.select(curves.temperature == kelvin)
+    for rows in nominal_rows(curves.temperature):
+        mine = curves.select(rows)
         x = np.log(mine.speed / np.exp(np.log(mine.speed).mean()))
         if len(mine) < _FEWEST_POINTS or not np.any(x):
             continue
@@ -101,7 +102,7 @@ def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
         own = mine.viscoelastic_error / mine.viscoelastic
         error = np.sqrt(max(left @ left / (len(mine) - 2), float(np.mean(own**2))) / (x @ x))
         if slope + SURE * error < min(STEEPEST, steepest):
-            steepest, where = slope, f"{shown_celsius(float(kelvin))} °C"
+            steepest, where = slope, f"{shown_celsius(float(mine.temperature.mean()))} °C"
     if not np.isfinite(steepest):
         return ()
     said = (

@@ -283,7 +283,7 @@ class FrictionCurves(Plotted):
         Returns
         -------
         lower, upper : (n,) array
-            Infinite where the standard error is.
+            Infinite where the standard error is, or has much less than one degree of freedom.
 
         Raises
         ------
@@ -297,7 +297,7 @@ class FrictionCurves(Plotted):
             raise InputError(
                 f"of = {of!r}: these friction curves have no such coefficient with a standard error.", code="not-known"
             )
-        half = np.where(np.isfinite(error), half_widths(freedom, len(self), level) * error, np.inf)
+        half = half_widths(error, freedom, level)
         return value - half, value + half
 
     def select(self, keep: Mask | Integers) -> FrictionCurves:

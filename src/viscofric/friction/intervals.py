@@ -15,18 +15,21 @@ if TYPE_CHECKING:
 OUTSIDE = 0.05
 #: Probability below which that many points outside are not chance.
 CHANCE = 0.01
+#: Wider intervals, of much less than one degree of freedom, say nothing, however small the standard error.
+WIDEST = 1e6  # standard errors
 
 
-def half_widths(freedom: Array | None, size: int, level: float) -> Array:
-    """Return the half-widths (size,) of confidence intervals in standard errors; normal where `freedom` is unknown."""
+def half_widths(error: Array, freedom: Array | None, level: float) -> Array:
+    """Return the half-widths (n,) of confidence intervals; normal where `freedom` is unknown."""
     from scipy.special import ndtri, stdtrit
 
     above = 0.5 + 0.5 * level
-    widths = np.full(size, float(ndtri(above)))
+    widths = np.full(error.shape, float(ndtri(above)))
     if freedom is not None:
         student = np.isfinite(freedom) & (freedom > 0.0)
         widths[student] = stdtrit(freedom[student], above)
-    return widths
+    widths[widths > WIDEST] = np.inf
+    return np.asarray(np.multiply(widths, error, out=np.zeros(error.shape), where=error > 0.0))
 
 
 def consistency_check(left_over: Array, error: Array, freedom: Array | None) -> Check | None:
@@ -42,7 +45,7 @@ def consistency_check(left_over: Array, error: Array, freedom: Array | None) -> 
     count = int(known.sum())
     if not count:
         return None
-    limit = half_widths(freedom, left_over.size, 1.0 - OUTSIDE) * error
+    limit = half_widths(error, freedom, 1.0 - OUTSIDE)
     outside = int(np.sum(np.abs(left_over[known]) > limit[known]))
     largest = float(np.max(np.abs(left_over[known])))
     holds = outside == 0 or float(bdtrc(outside - 1, count, OUTSIDE)) >= CHANCE

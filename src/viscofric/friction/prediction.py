@@ -23,6 +23,7 @@ from viscofric.friction.planning.shared import shared_records
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.friction.solved_columns import columns_of_records
 from viscofric.heat.heating import Heating
+from viscofric.notes import Note
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.material import insist_on_material
@@ -108,6 +109,8 @@ def predict_friction(
     FrictionCurves
         Load after load and temperature after temperature in the order given, each with all speeds; with samples also
         `material_error`, `viscoelastic_lower` and `viscoelastic_upper`; with heating `HeatedFrictionCurves`.
+        The note `beyond-measured` counts the contacts at frequencies beyond those of the material's measurement: there
+        neither friction nor its limits are measured.
 
     Raises
     ------
@@ -192,11 +195,38 @@ def predict_friction(
         curves = _isothermal(material, contacts, drawn, workers, report, exact)
     if interface is not None:
         curves = with_interface(curves, interface, slip, rise=rise)
-    if curves.coulomb is None or settings.get("coulomb"):
-        return curves
-    bodies = [(material, layer)] * len(curves)
     warmer = getattr(curves, "temperature_rise", None)
-    return replace(curves, notes=(*curves.notes, *shear_notes(curves, curves.coulomb, bodies, warmer)))
+    notes = (*curves.notes, *_beyond_measured(curves, material, warmer))
+    if curves.coulomb is not None and not settings.get("coulomb"):
+        notes += shear_notes(curves, curves.coulomb, [(material, layer)] * len(curves), warmer)
+    return replace(curves, notes=notes)
+
+
+def _beyond_measured(curves: FrictionCurves, material: Material, warmer: Array | None) -> tuple[Note, ...]:
+    """Return a note on contacts whose frequency, reduced to the reference, lies beyond those that were measured.
+
+    Half the contact's length is that of a circle, or strip, of the same area.
+    """
+    fit = getattr(material.spectrum, "fit", None)
+    if fit is None or curves.mean_pressure is None:  # a table of moduli has notes of its own
+        return ()
+    area = curves.load / curves.mean_pressure
+    half = np.sqrt(area / np.pi) if curves.load_unit == "N" else 0.5 * area
+    kelvin = curves.temperature if warmer is None else curves.temperature + warmer
+    reduced = curves.speed / half * (1.0 if material.shift is None else material.shift(kelvin))
+    low, high = fit.frequency_range
+    beyond = int(np.count_nonzero((reduced < low) | (reduced > high)))
+    if not beyond:
+        return ()
+    known = "identified" if fit.from_contact else "measured"
+    bands = "" if curves.material_error is None else ", and so do its limits, which may be far from the true friction"
+    said = (
+        f"At {beyond} of {len(curves)} points the contact's reduced frequency αv/a lies beyond those at which the "
+        f"material was {known}, {low:.2g} to {high:.2g} rad/s (the points: {reduced.min():.2g} to {reduced.max():.2g} "
+        f"rad/s): friction there depends on the extrapolated spectrum{bands}."
+    )
+    values = {"points": beyond, "of": len(curves), "low": float(low), "high": float(high)}
+    return (Note("beyond-measured", said, values=values),)
 
 
 def _reference(material: Material) -> float:

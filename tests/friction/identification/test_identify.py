@@ -283,6 +283,27 @@ def test_a_reference_whose_curve_was_left_out_is_refused_with_the_reason() -> No
         vf.identify_material(curves, reference=REFERENCE, **SETTINGS)
 
 
+@pytest.mark.usefixtures("closed_form")
+def test_temperatures_that_scatter_about_one_are_one() -> None:
+    """A table has the temperature of each reading, without errors of friction."""
+    exact = closed_form_curves(REFERENCE)
+    random = np.random.default_rng(1)
+    curves = replace(
+        exact,
+        temperature=REFERENCE + 0.1 * random.standard_normal(len(exact)),
+        viscoelastic=exact.viscoelastic * (1.0 + 0.01 * random.standard_normal(len(exact))),
+        viscoelastic_error=np.full(len(exact), np.inf),
+    )
+    twice = replace(curves, temperature=curves.temperature[::-1])
+    columns = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
+    both = {name: np.concatenate([getattr(curves, name), getattr(twice, name)]) for name in columns}
+    found = vf.identify_material(
+        vf.FrictionCurves(**both, replicates=np.ones(2 * len(exact))), anchor=planted_anchor(), **FEW
+    )
+    assert "errors-from-scatter" in codes(found.notes)
+    assert len(found.friction) == 2 * len(exact)
+
+
 def test_bad_input_is_refused_in_one_sentence() -> None:
     curves = closed_form_curves(*WARM)
     with refused("no-such-temperature", naming="reference = 100.0"):

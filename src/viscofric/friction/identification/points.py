@@ -11,7 +11,7 @@ from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.shifting.load_rule import LoadRule
-from viscofric.nominal import SAME_LOAD
+from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note, Remedy
 from viscofric.units import positive, shown_celsius, shown_number, shown_speed
 
@@ -151,8 +151,8 @@ def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, s
     Returns a note on it too.  Raises InputError if temperatures have too few points, or friction is not above zero.
     """
     squares, freedom = 0.0, 0
-    for temperature in curves.temperatures:
-        mine = curves.select(curves.temperature == temperature)
+    for rows in nominal_rows(curves.temperature):
+        mine = curves.select(rows)
         different = np.unique(mine.speed).size
         if different <= PARABOLA or not np.all(mine.viscoelastic > 0.0):
             continue

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.parametric_law import ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import LN10
@@ -79,9 +80,9 @@ class Shifts:
         return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())
 
     def row(self, temperature: float) -> Array:
-        """Return the weights (t,) in ln α at a temperature, linear in 1/T; InputError outside their range."""
+        """Return the weights (t,) in ln α at a temperature, linear in 1/T; InputError clearly outside their range."""
         low, high = self.temperatures[0], self.temperatures[-1]
-        if not low - _SAME <= temperature <= high + _SAME:
+        if not low - SAME_TEMPERATURE <= temperature <= high + SAME_TEMPERATURE:
             raise InputError(
                 f"temperature = {shown_celsius(temperature)} °C of an anchor or prior lies outside those of the "
                 f"friction curves, {shown_celsius(float(low))} to {shown_celsius(float(high))} °C, so that its shift "

@@ -15,7 +15,7 @@ from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.problem import EXPECTED, Observations, Problem, Shifts, Smoothness
 from viscofric.friction.shifting.refusals import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
-from viscofric.nominal import SAME_TEMPERATURE
+from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import codes
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.units import shown_celsius
@@ -76,15 +76,16 @@ def shifts_of(
         everywhere = np.unique(np.concatenate([points.temperatures, [law.reference], others]))
         number = np.searchsorted(everywhere, points.temperatures)[points.number]
         return replace(points, temperatures=everywhere, number=number), Shifts.known(everywhere, law)
-    if len(points.temperatures) == 1:
-        only = float(points.temperatures[0])
+    if len(nominal_rows(points.temperatures)) == 1:
+        only = float(points.temperatures[points.number].mean())
+        points = replace(points, temperatures=np.array([only]), number=np.zeros_like(points.number))
         if reference is not None and abs(reference - only) > SAME_TEMPERATURE:
             wanted = f"reference = {shown_celsius(reference)} °C"
             raise InputError(
                 f"{wanted} was not measured, only {shown_celsius(only)} °C was; give shift=.",
                 code="no-such-temperature",
             )
-        return points, Shifts.unknown(points.temperatures, float(points.temperatures[0]))
+        return points, Shifts.unknown(points.temperatures, only)
     # Points are at one load already, where contacts at different loads are similar.
     alike = points.at_one_load(curves)
     found = shift_friction(alike).shift_factors

@@ -14,8 +14,8 @@ from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.pairing import partner
 from viscofric.friction.shifting.collapse import Collapse, collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
-from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms, nominal_rows
-from viscofric.nominal import SAME_TEMPERATURE
+from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms
+from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import Note
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress
 from viscofric.rheology.interface.friction import OF_LIMIT

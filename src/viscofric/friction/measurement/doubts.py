@@ -58,7 +58,10 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
     for number, name, reason in ((1, "viscoelastic", _why_viscoelastic), (2, "Coulomb", _why_coulomb)):
         deviation = np.array([-entry.value[number] for entry in entries])
         reasons = defaultdict(list)
-        for place in _significant(groups, entries, number, deviation):
+        places = _significant(groups, entries, number, deviation)
+        if number == 1:
+            places += [place for place in _assumed_too_large(fits, entries, deviation) if place not in places]
+        for place in sorted(places):
             reasons[reason(fits[place], entries[place])].append(place)
         notes += [
             Note(
@@ -70,6 +73,16 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
             for (causes, why), places in reasons.items()
         ]
     return notes
+
+
+def _assumed_too_large(fits: list[Fit], entries: list[Entry], deviation: Array) -> list[int]:
+    """Return the conditions where an assumed Coulomb friction exceeds that measured, however few the readings are."""
+    sure = threshold(np.inf, CHANCE / len(fits))
+    return [
+        place
+        for place, (fit, entry) in enumerate(zip(fits, entries, strict=True))
+        if fit.coulomb is not None and entry.slides and deviation[place] > sure * entry.error[1] + ROUNDING
+    ]
 
 
 _CAUSES = {

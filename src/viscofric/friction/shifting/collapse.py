@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array, Mask
+    from viscofric.arrays import Array, Indices
 
 
 # Rounding of log10(αv), so that the ends of a range belong to it.
@@ -60,7 +61,7 @@ def collapse(temperature: Array, decades: Array, friction: Array, error: Array) 
 
     All (n,): temperature in K, log10 of the reduced speed, friction coefficient and its standard error.
     """
-    parts = [_isotherm(temperature == one, decades, friction, error) for one in np.unique(temperature)]
+    parts = [_isotherm(rows, decades, friction, error) for rows in nominal_rows(temperature)]
     differences: list[Array] = []
     expected: list[Array] = []
     for cold, warm in pairwise(parts):
@@ -81,7 +82,7 @@ def collapse(temperature: Array, decades: Array, friction: Array, error: Array) 
     )
 
 
-def _isotherm(rows: Mask, decades: Array, friction: Array, error: Array) -> tuple[Array, Array, Array]:
+def _isotherm(rows: Indices, decades: Array, friction: Array, error: Array) -> tuple[Array, Array, Array]:
     """Ascending log10 reduced speeds of one temperature, friction and its error; equal speeds averaged."""
     places, number = np.unique(decades[rows], return_inverse=True)
     count = np.bincount(number)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.curve_checks import error_freedom
-from viscofric.nominal import SAME_TEMPERATURE, numbered
+from viscofric.nominal import nominal_rows
 from viscofric.rheology.superposition.common_curve import Curves, Smoother
 from viscofric.rheology.superposition.overlap import LogSweep
 
@@ -73,12 +73,6 @@ class FrictionIsotherm:
     def sweep(self, unit: float) -> LogSweep:
         """Return the points in the form of superposition, weights in units of an inverse variance."""
         return LogSweep(self.speed, self.friction[:, None], 1.0 / (unit * self.variance))
-
-
-def nominal_rows(temperature: Array) -> list[Indices]:
-    """Return the rows of each isotherm, in ascending temperature."""
-    number = numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE))
-    return [np.flatnonzero(number == one) for one in range(int(number.max()) + 1)]
 
 
 def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:

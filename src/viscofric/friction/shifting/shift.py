@@ -9,12 +9,13 @@ import numpy as np
 from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.curve_checks import error_freedom, implausible
 from viscofric.friction.curves import insist_on_curves
+from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
-from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_rows
+from viscofric.friction.shifting.isotherms import friction_isotherms
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-from viscofric.nominal import SAME_LOAD
+from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive, to_si
@@ -156,7 +157,9 @@ def shift_friction(
 
 def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
     """Return the number of points of negative friction, which is impossible for rubber."""
-    count = int(np.count_nonzero(curves.viscoelastic < -2.0 * curves.viscoelastic_error))
+    # Separated from Coulomb friction without an error, it has that of rounding.
+    rounding = ROUNDING * (0.0 if curves.coulomb is None else np.abs(curves.coulomb))
+    count = int(np.count_nonzero(curves.viscoelastic < -2.0 * curves.viscoelastic_error - rounding))
     if not count:
         return ()
     sentence = Note(
