@@ -118,7 +118,7 @@ def test_an_assumed_coulomb_friction_above_that_measured_is_noted_however_few_re
     # Neighbouring readings are alike, so that there is hardly a degree of freedom.
     forces = 0.3 + 25.0 * 0.08 + np.array([0.0, 0.03, 0.06])
     one, load, temperature = np.ones(3), np.full(3, 25.0), np.full(3, 303.15)
-    runs = vf.TractionRuns(0.1 * one, 0.095 * one, forces, load, temperature, replicate=one, step=one)
+    runs = vf.readers.TractionRuns(0.1 * one, 0.095 * one, forces, load, temperature, replicate=one, step=one)
     curves = separate(runs, zero=0.3, coulomb=coulomb)
     assert codes(curves.notes) & {"negative-friction"} == expected
 
