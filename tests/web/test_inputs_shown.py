@@ -36,9 +36,10 @@ def figures_of(tab: Tab, step: str) -> dict[str, Any]:
     before: dict[str, Any] = {}
     for _ in range(60):
         tab.page.wait_for_timeout(400)
+        rests = tab.value(AT_REST)  # asked first: what is seen comes after
         now = tab.value(SEEN)
         current = bool(now) and all(one["inputs"] and not one["stale"] for one in now.values())
-        if current and now == before and tab.value(AT_REST):
+        if current and now == before and rests:
             return now
         before = now
     raise AssertionError(f"{step} did not come to rest: {before}")

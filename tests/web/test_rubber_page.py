@@ -80,7 +80,7 @@ def test_from_the_example_to_its_spectrum(tab: Tab) -> None:
     fit = vf.superpose(vf.read_dma(files("viscofric") / "example" / "dma.csv"), "30 degC")
     # a pixel is a fiftieth of a decade
     assert held(tab) == {"60 degC": pytest.approx(fit.shift_factors.log10("60 degC") + 1.0, abs=0.03)}
-    tab.until("page.jobs.result('rubber')?.shift.origin === 'held'")
+    tab.until("page.jobs.result('rubber')?.shift.origin === 'held'", 60.0)
     tab.until("document.querySelector('#dragged-misfit').textContent.startsWith('Fixed manually')")
     tab.screenshot("rubber-shift")
     tab.page.get_by_role("button", name="Undo all corrections").click()
@@ -111,7 +111,7 @@ def test_steps_are_for_keyboards_and_screen_readers(tab: Tab) -> None:
         tab.page.keyboard.press("ArrowRight")
     tab.until("page.state.state.get('material.fixed_shift_factors') !== undefined")
     assert held(tab) == {"100 degC": pytest.approx(before + 0.1, abs=0.002)}
-    tab.until("page.jobs.result('rubber')?.shift.origin === 'held'")
+    tab.until("page.jobs.result('rubber')?.shift.origin === 'held'", 60.0)
     tab.page.fill("#dragged-to", "-2.5")
     tab.page.keyboard.press("Tab")
     tab.until("page.state.state.get('material.fixed_shift_factors')?.['100 degC'] === -2.5")
