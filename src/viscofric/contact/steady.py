@@ -34,7 +34,7 @@ from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, number, positive, to_si, velocity
+from viscofric.units import Quantity, positive, to_si, velocity
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -171,13 +171,12 @@ def solve_steady(
     >>> round(solution.friction_coefficient, 4)
     0.0576
     """
-    settings = ContactSettings(
-        accuracy=number(accuracy, "accuracy"), tolerance=number(tolerance, "tolerance"),
-        finest=finest, window=window, grid=grid, indenter_modulus=indenter_modulus, layer=Layer.of(layer),
-        backend=backend, direction=direction,
-        indenter_poisson_ratio=number(indenter_poisson_ratio, "indenter_poisson_ratio"),
-        coulomb=number(coulomb, "coulomb"),
-    )  # fmt: skip
+    given: dict[str, Any] = {  # that `ContactSettings` checks and converts
+        "accuracy": accuracy, "tolerance": tolerance, "finest": finest, "window": window, "grid": grid,
+        "indenter_modulus": indenter_modulus, "indenter_poisson_ratio": indenter_poisson_ratio, "layer": layer,
+        "backend": backend, "direction": direction, "coulomb": coulomb,
+    }  # fmt: skip
+    settings = ContactSettings(**given)
     differentiated = flag(derivatives, "derivatives")
     if differentiated:
         _check_derivatives(velocity(speed), settings)
