@@ -120,12 +120,17 @@ def _look_and_move(tab: Tab) -> None:
 _FOLLOW = """async (given) => {
   const { Job } = await import("/static/js/jobs.js");
   const { computed, effect, signal } = await import("/static/js/reactive.js");
-  const requested = [], shown = [], failures = [], sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  const requested = [], shown = [], failures = [];
+  const until = async (holds) => {
+    while (!holds()) await new Promise((resolve) => setTimeout(resolve, 1));
+  };
   const honest = window.fetch;
+  let pending = null;
   window.fetch = async (_, { body, signal: gone }) => {
     const { position, stages } = JSON.parse(body).options;
     requested.push([stages, position]);
-    await sleep(stages === "coarse" ? 40 : 150);
+    const mine = (pending = { gone });
+    await until(() => mine.answered || gone.aborted);
     gone.throwIfAborted();
     if (position === 13) return new Response(JSON.stringify({ event: "error", message: "unlucky" }) + "\\n");
     const result = { stage: stages === "coarse" && position === 7 ? "sharp" : stages, position };
@@ -137,10 +142,14 @@ _FOLLOW = """async (given) => {
   const results = computed(() => job.result);
   const stop = effect(() => results.value && shown.push([results.value.stage, results.value.position]));
   const fails = effect(() => job.error && failures.push(job.error.message));
-  for (const [at, wait] of given) {
-    position.value = at;
-    await sleep(wait);
+  const begun = () => pending && !pending.answered && !pending.gone.aborted;
+  for (const step of given) {
+    if (typeof step === "number") position.value = step;
+    else if (step === "failure") await until(() => job.error);
+    else await until(begun);
+    if (step === "answer") pending.answered = true;
   }
+  await until(() => !job.moving.value);
   for (const end of [stop, fails]) end();
   position.value = null;
   window.fetch = honest;
@@ -148,9 +157,9 @@ _FOLLOW = """async (given) => {
 }"""
 
 
-def followed(tab: Tab, *positions: tuple[int, int]) -> Any:
-    """Want positions, with a rest (ms) after each; return what was requested and shown."""
-    return tab.page.evaluate(_FOLLOW, [list(pair) for pair in positions])
+def followed(tab: Tab, *steps: int | str) -> Any:
+    """Want positions (numbers), await a request or a failure, answer a request; return what was requested and shown."""
+    return tab.page.evaluate(_FOLLOW, list(steps))
 
 
 def test_of_positions_that_come_too_fast_the_last_one_counts(browser: Browser, server: Server) -> None:
@@ -159,17 +168,17 @@ def test_of_positions_that_come_too_fast_the_last_one_counts(browser: Browser, s
 
 
 def _follow_all(tab: Tab) -> None:
-    found = followed(tab, (1, 20), (2, 5), (3, 5), (4, 700))
+    found = followed(tab, 1, "request", 2, 3, 4, "answer", "answer", "answer")
     assert found["requested"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
     assert found["shown"] == [["coarse", 1], ["coarse", 4], ["sharp", 4]]
     # Sharpening that is overtaken is given up; what is sharp at once is not sharpened.
-    found = followed(tab, (5, 380), (7, 500))
+    found = followed(tab, 5, "answer", "request", 7, "answer")
     assert found["requested"] == [["coarse", 5], ["sharp", 5], ["coarse", 7]]
     assert found["shown"] == [["coarse", 5], ["sharp", 7]]
     # An error is told where it is the newest position's, and does not stop the slider.
-    found = followed(tab, (13, 20), (1, 700))
+    found = followed(tab, 13, "request", 1, "answer", "answer", "answer")
     assert found["failures"] == []
-    found = followed(tab, (13, 100), (1, 700))
+    found = followed(tab, 13, "answer", "failure", 1, "answer", "answer")
     assert found["failures"] == ["unlucky"]
     assert found["shown"][-1] == ["sharp", 1]
 
