@@ -333,9 +333,11 @@ def test_a_name_of_a_submodule_at_the_front_door_says_what_to_write(name: str) -
     assert caught[0].filename == __file__
 
 
-def test_a_name_of_the_front_door_in_a_submodule_is_an_error_that_says_what_to_write() -> None:
+def test_a_name_that_never_was_where_it_is_asked_for_is_an_error_that_says_what_to_write() -> None:
     with pytest.raises(AttributeError, match=r"write viscofric\.Ball$"):
         importlib.import_module("viscofric.contact").Ball  # noqa: B018
+    with pytest.raises(AttributeError, match=r"write viscofric\.report\.plot_isotherms$"):  # never at the front door
+        importlib.import_module("viscofric").plot_isotherms  # noqa: B018
 
 
 def test_renamed_attributes_and_arguments_say_what_to_write() -> None:

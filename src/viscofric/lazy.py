@@ -38,7 +38,7 @@ def full_names() -> dict[str, str]:
 def loaded_when_used(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Return a package's ``__getattr__``, ``__dir__`` (PEP 562) and ``__all__``, of the names in its stub.
 
-    Names of its submodules are accepted at the front door, with a warning that says what to write.
+    Names of its submodules that were at the front door once are accepted there, with a warning that says what to write.
     """
     homes = public_names(package)
     names = [*homes]
@@ -51,7 +51,8 @@ def loaded_when_used(package: str) -> tuple[Callable[[str], Any], Callable[[], l
             setattr(sys.modules[package], name, value)
             return value
         full = "" if name.startswith("_") else full_names().get(name, "")
-        if not full or package != FRONT_DOOR:
+        # names of the report never were at the front door
+        if not full or package != FRONT_DOOR or full.startswith(f"{FRONT_DOOR}.report."):
             text = f"module {package!r} has no attribute {name!r}" + (f"; write {full}" if full else "")
             raise AttributeError(text, name=name, obj=sys.modules[package])
         # the front door has a `__getattr__` of its own, between this one and who asks

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal, TypeAlias
@@ -156,6 +156,25 @@ def note_of(record: Mapping[str, Any] | str) -> Note:
     remedy = record.get("remedy")
     remedy = None if remedy is None else Remedy(**remedy)
     return Note(record["code"], record["text"], record.get("where", ""), remedy, record.get("values"))
+
+
+def counted(
+    each: Sequence[Iterable[str]], of: str = "contacts", rank: Sequence[float] | None = None
+) -> tuple[Note, ...]:
+    """Return the notes of many contacts, one of each code, with the number of contacts that have it.
+
+    Where they differ, the note is that of the contact with the highest `rank`, or the first.
+    """
+    by_code: dict[str, dict[int, Note]] = {}
+    for number, notes in enumerate(each):
+        for note in map(note_of, notes):
+            by_code.setdefault(note.code or note, {}).setdefault(number, note)
+    found = []
+    for with_it in by_code.values():
+        shown = max(with_it, key=lambda number: 0.0 if rank is None else rank[number])
+        where = f"In {len(with_it)} of {len(each)} contacts"
+        found.append(with_it[shown].at(where).valued(contacts=len(with_it), of=len(each)))
+    return tuple(found)
 
 
 def records(notes: Iterable[str]) -> list[dict[str, Any]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -81,6 +82,47 @@ def test_friction_beyond_the_measured_frequencies_has_a_note(exact: bool) -> Non
     assert noted([0.5, 1.0], 30.0) == []
     assert noted([1.0, 10.0], 30.0) == [1]
     assert noted([1.0, 30.0, 100.0, 1000.0], 60.0) == [2]
+
+
+def test_a_contact_and_curves_of_contacts_note_frequencies_that_were_not_measured() -> None:
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    law = vf.Arrhenius(activation_energy=1.286e5, reference="30 degC")
+    material = vf.Material(replace(solid, fit=SpectrumFit(None, None, False, False, (100.0, 2e3))), shift=law)
+    contacts = [
+        vf.solve_steady(material, vf.Ball("10 mm"), speed=speed, load="1 N", accuracy=0.1, temperature="30 degC")
+        for speed in (0.5, 1.0, 10.0, 20.0)
+    ]
+    assert [[note.code for note in one.warnings] for one in contacts] == [[], [], *2 * [["beyond-measured"]]]
+    (note,) = vf.FrictionCurves.from_solutions(contacts).notes
+    assert (note.code, note.values["contacts"], note.values["of"]) == ("beyond-measured", 2, 4)
+    assert not vf.solve_steady(material, vf.Ball("10 mm"), speed=math.inf, load="1 N", accuracy=0.1).warnings
+
+
+def test_a_rough_contact_notes_the_part_of_its_friction_at_frequencies_that_were_not_measured() -> None:
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+
+    def shares(low: float, high: float) -> list[float]:
+        material = vf.Material(replace(solid, fit=SpectrumFit(None, None, False, False, (low, high))))
+        solution = vf.solve_periodic(material, road.to_surface(), speed="0.1 m/s", pressure="5 kPa")
+        found = vf.predict_rough_friction(material, road, speeds=["0.1 m/s", "0.1 m/s"], pressure="5 kPa")
+        counts = [
+            (note.values["contacts"], note.values["of"]) for note in found.notes if note.code == "beyond-measured"
+        ]
+        noted = [note.values["share"] for note in solution.warnings if note.code == "beyond-measured"]
+        assert counts == len(noted) * [(2, 2)]
+        return noted
+
+    def by_theory(low: float, high: float) -> list[float]:
+        material = vf.Material(replace(solid, fit=SpectrumFit(None, None, False, False, (low, high))))
+        theory = vf.persson_theory(material, vf.roughness.power_spectrum(road), speeds="0.1 m/s", pressure="5 kPa")
+        return [note.values["share"] for note in theory.notes if note.code == "beyond-measured"]
+
+    for parts in (shares, by_theory):
+        assert parts(1e-2, 1e8) == []
+        (fast,), (slow,) = parts(1e-2, 3001.0), parts(3001.0, 1e8)
+        assert fast + slow == pytest.approx(1.0)  # each wave was measured in one of both
+        assert 0.1 < fast < 0.9
 
 
 @pytest.mark.slow

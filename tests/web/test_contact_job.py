@@ -174,8 +174,8 @@ def test_one_of_several_loads_is_solved(desk: Desk) -> None:
         (False, 0.1, 500.15, ["227 °C the law extrapolates"]),
         (False, 1e5, 333.15, ["v/a lies beyond"]),
         (True, 0.1, 333.15, []),
-        (True, 1e5, 333.15, ["2πv/λ of its waves lie beyond"]),
-        (True, 1e-9, 333.15, ["2πv/λ of its waves lie beyond"]),  # slow, but within for its shortest waves
+        (True, 1e5, 333.15, ["wavelengths lie beyond"]),
+        (True, 1e-9, 333.15, ["wavelengths lie beyond"]),  # slow, but within for its shortest waves
     ],
 )
 def test_extrapolated_rubber_is_reported_where_the_study_reports_it(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +22,7 @@ from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.output import json_option, out_option, picture_option, print_json
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
-from viscofric.notes import Note, note_of
+from viscofric.notes import note_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -103,7 +102,6 @@ def command(as_json: bool, picture: Path | None, out: Path | None, **parameters:
         began = time.perf_counter()
         solution = solve_steady(rubber.material, shape.indenter, speed=_speed(parameters["speed"]), **settings)
         seconds = time.perf_counter() - began
-        solution = replace(solution, warnings=(*solution.warnings, *_beyond_known(rubber, solution)))
         name = in_contact(shape.words, rubber, settings["layer"])
         if as_json:
             from viscofric.report.texts.contact import contact_record
@@ -121,25 +119,6 @@ def _speed(text: str) -> float | str:
     if plain.removeprefix("-").removeprefix("+") in _INFINITE:
         return -math.inf if plain.startswith("-") else math.inf
     return text
-
-
-def _beyond_known(rubber: NamedRubber, solution: ContactSolution) -> tuple[Note, ...]:
-    """Return a warning where the frequency of the contact lies in the extrapolated part of the modulus."""
-    from viscofric.rheology.spectra.modulus_table import ModulusTable
-
-    fit = getattr(rubber.material.modes_at(solution.temperature), "fit", None)
-    if fit is None or isinstance(rubber.material.spectrum, ModulusTable):  # a table warns by itself
-        return ()
-    low, high = fit.frequency_range
-    frequency = abs(solution.speed) / (0.5 * (solution.front + solution.rear))
-    if frequency == 0.0 or math.isinf(frequency) or low <= frequency <= high:
-        return ()
-    known = "identified from friction" if fit.from_friction else "measured"
-    said = (
-        f"the contact's frequency v/a, {frequency:.3g} rad/s, lies beyond those at which the rubber was {known}, "
-        f"{low:.3g} to {high:.3g} rad/s at this temperature: the friction rests on the extrapolated modulus."
-    )
-    return (Note("beyond-measured", said),)
 
 
 def _inputs(

@@ -30,7 +30,6 @@ from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.settings import ContactSettings
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
-from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
@@ -44,6 +43,7 @@ if TYPE_CHECKING:
     from viscofric.contact.free.grids import Extent
     from viscofric.contact.free.stage import Stage
     from viscofric.contact.solution import ContactSolution
+    from viscofric.notes import Note
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 
 
@@ -302,7 +302,7 @@ class _Solved(NamedTuple):
         notes = [self.indenter.strain_warning(self.contact, found.indentation)]
         if self.settings.layer is not None:
             notes.append(self.settings.layer.strain_warning(found.indentation))
-        extrapolated = _beyond_table(found, self.material.spectrum, self.spectrum)
+        extrapolated = _beyond_measured(found, self.material.spectrum, self.spectrum)
         return replace(found, warnings=(*filter(None, notes), *self.material.notes_on_modes, *extrapolated))
 
     def derivatives(self, *, with_error: bool = True) -> FrictionDerivatives:
@@ -427,21 +427,13 @@ def _steady_material(
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 
 
-def _beyond_table(
+def _beyond_measured(
     solution: ContactSolution, known: RetardationSpectrum | ModulusTable, modes: RetardationSpectrum
 ) -> tuple[Note, ...]:
-    """Return a note where the friction rests on modes beyond the frequencies of a table that refuses to extrapolate."""
-    if isinstance(known, RetardationSpectrum) or known.extrapolate != "refuse" or modes.fit is None:
+    """Return a note where the friction rests on modes beyond the measured frequencies, or those of a table.
+
+    A table that extrapolates by itself was told to.
+    """
+    if modes.fit is None or (not isinstance(known, RetardationSpectrum) and known.extrapolate != "refuse"):
         return ()
-    low, high = modes.fit.frequency_range
-    frequency = abs(solution.speed) / (0.5 * (solution.front + solution.rear))
-    # The elastic limits rest on E0 or E_inf alone; the fit's own notes say whether these are extrapolated.
-    if frequency == 0.0 or math.isinf(frequency) or low <= frequency <= high:
-        return ()
-    note = Note(
-        "beyond-table",
-        f"The contact's frequency v/a, {frequency:.3g} rad/s, lies beyond those of the table, {low:.3g} to {high:.3g} "
-        "rad/s at this temperature: the friction rests on the extrapolated modes.",
-        values={"frequency": float(frequency), "low": float(low), "high": float(high)},
-    )
-    return (note,)
+    return modes.fit.beyond(abs(solution.speed) / (0.5 * (solution.front + solution.rear)))

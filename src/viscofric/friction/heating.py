@@ -13,7 +13,7 @@ from viscofric.contact.steady import thermal_contact
 from viscofric.friction.cases.record import Record, indenter_record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
-from viscofric.friction.solved_columns import columns_of_records
+from viscofric.friction.solved_columns import beyond_range, columns_of_records
 from viscofric.heat.result import SolvedHeatColumns
 from viscofric.processes import at_work
 
@@ -100,9 +100,10 @@ def predict_heated(
         slip = [heating.sliding(one.speed) for one in every]
         columns |= {"coulomb": np.full(len(every), heating.coulomb), "slip": np.array(slip)}
     unit = contacts[0]["indenter"].geometry.load_unit
-    return HeatedFrictionCurves(
-        **columns_of_records([_record(one) for one in states], unit), source="predicted", **columns
-    )
+    records = [_record(one) for one in states]
+    friction = columns_of_records(records, unit)
+    friction["notes"] += beyond_range(material, records, friction["temperature"] + columns["temperature_rise"])
+    return HeatedFrictionCurves(**friction, source="predicted", **columns)
 
 
 def _untold(done: int) -> None:

@@ -15,15 +15,15 @@ from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
+from viscofric.friction.cases.record import indenter_record
 from viscofric.friction.coupling import shear_notes
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
 from viscofric.friction.interface.prediction import check_interface, with_interface
 from viscofric.friction.planning.shared import shared_records
 from viscofric.friction.sensitivity import solve_with_sensitivity
-from viscofric.friction.solved_columns import columns_of_records
+from viscofric.friction.solved_columns import beyond_range, columns_of_records
 from viscofric.heat.heating import Heating
-from viscofric.notes import Note
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.material import insist_on_material
@@ -196,37 +196,10 @@ def predict_friction(
     if interface is not None:
         curves = with_interface(curves, interface, slip, rise=rise)
     warmer = getattr(curves, "temperature_rise", None)
-    notes = (*curves.notes, *_beyond_measured(curves, material, warmer))
+    notes = curves.notes
     if curves.coulomb is not None and not settings.get("coulomb"):
         notes += shear_notes(curves, curves.coulomb, [(material, layer)] * len(curves), warmer)
     return replace(curves, notes=notes)
-
-
-def _beyond_measured(curves: FrictionCurves, material: Material, warmer: Array | None) -> tuple[Note, ...]:
-    """Return a note on contacts whose frequency, reduced to the reference, lies beyond those that were measured.
-
-    Half the contact's length is that of a circle, or strip, of the same area.
-    """
-    fit = getattr(material.spectrum, "fit", None)
-    if fit is None or curves.mean_pressure is None:  # a table of moduli has notes of its own
-        return ()
-    area = curves.load / curves.mean_pressure
-    half = np.sqrt(area / np.pi) if curves.load_unit == "N" else 0.5 * area
-    kelvin = curves.temperature if warmer is None else curves.temperature + warmer
-    reduced = curves.speed / half * (1.0 if material.shift is None else material.shift(kelvin))
-    low, high = fit.frequency_range
-    beyond = int(np.count_nonzero((reduced < low) | (reduced > high)))
-    if not beyond:
-        return ()
-    known = "identified" if fit.from_contact else "measured"
-    bands = "" if curves.material_error is None else ", and so do its limits, which may be far from the true friction"
-    said = (
-        f"At {beyond} of {len(curves)} points the contact's reduced frequency αv/a lies beyond those at which the "
-        f"material was {known}, {low:.2g} to {high:.2g} rad/s (the points: {reduced.min():.2g} to {reduced.max():.2g} "
-        f"rad/s): friction there depends on the extrapolated spectrum{bands}."
-    )
-    values = {"points": beyond, "of": len(curves), "low": float(low), "high": float(high)}
-    return (Note("beyond-measured", said, values=values),)
 
 
 def _reference(material: Material) -> float:
@@ -269,17 +242,19 @@ def _isothermal(
     records = None
     if not exact:
         records = shared_records(material, contacts, sensitive=drawn is not None, workers=workers, report=report)
-    if records is not None:
-        unit = contacts[0]["indenter"].geometry.load_unit
-        curves = FrictionCurves(**columns_of_records(records, unit), source="predicted")
-        sensitivities = [record.sensitivity for record in records]
-    elif drawn is None:
-        return FrictionCurves.from_solutions(call_all(solve_steady, contacts, workers=workers, progress=report))
-    else:
+    kelvins = np.array([one["temperature"] for one in contacts])
+    if records is None and drawn is None:
+        solved = call_all(solve_steady, contacts, workers=workers, progress=report)
+        records = [indenter_record(*one) for one in zip(solved, kelvins.tolist(), strict=True)]
+    elif records is None:
         pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
-        curves = FrictionCurves.from_solutions(solution for solution, _ in pairs)
-        sensitivities = [sensitivity for _, sensitivity in pairs]
-    return curves if drawn is None else with_material_band(curves, sensitivities, drawn)  # type: ignore[arg-type]
+        records = [indenter_record(one, kelvin, known) for (one, known), kelvin in zip(pairs, kelvins, strict=True)]
+    columns = columns_of_records(records, contacts[0]["indenter"].geometry.load_unit)
+    columns["notes"] += beyond_range(material, records, kelvins)
+    curves = FrictionCurves(**columns, source="predicted")
+    if drawn is None:
+        return curves
+    return with_material_band(curves, [record.sensitivity for record in records], drawn)  # type: ignore[misc]
 
 
 def _check_heating(

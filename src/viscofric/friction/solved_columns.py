@@ -11,7 +11,8 @@ import numpy as np
 from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError
 from viscofric.friction.cases.record import indenter_record
-from viscofric.notes import note_of
+from viscofric.notes import Note, counted, note_of
+from viscofric.rheology.spectra.quality import BEYOND
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.cases.record import Record
+    from viscofric.rheology.material import Material
+    from viscofric.rheology.spectra.quality import SpectrumFit
 
 
 def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
@@ -46,10 +49,12 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
             "solutions of point contacts and of line contacts, whose loads are per length, do not form one curve.",
             code="mixed-geometries",
         )
-    return columns_of_records(
+    columns = columns_of_records(
         [indenter_record(solution, float(solution.temperature)) for solution in solved],
         units.pop() if units else "N",
     )
+    beyond = [[note for note in map(note_of, solution.warnings) if note.code == BEYOND] for solution in solved]
+    return columns | {"notes": (*columns["notes"], *counted(beyond))}
 
 
 def columns_of_records(records: Sequence[Record], load_unit: str) -> dict[str, Any]:
@@ -69,24 +74,15 @@ def columns_of_records(records: Sequence[Record], load_unit: str) -> dict[str, A
         "replicates": np.ones(len(records), dtype=np.int64),
         "mean_pressure": load / area,
         "mean_pressure_error": load / area**2 * column("contact_area_error"),
-        "notes": _warnings(records),
+        "notes": counted([record.warnings for record in records], rank=[record.half_width for record in records]),
         "load_unit": load_unit,
     }
 
 
-def _warnings(solutions: Sequence[Record]) -> tuple[str, ...]:
-    """Return the warnings of many solutions, each once."""
-    warned = [solution for solution in solutions if solution.warnings]
-    if not warned:
+def beyond_range(material: Material, records: Sequence[Record], kelvins: Array) -> tuple[Note, ...]:
+    """Return a note on contacts, at these temperatures (n,), whose frequencies the material was not measured at."""
+    fit: SpectrumFit | None = getattr(material.spectrum, "fit", None)
+    if fit is None:  # a table of moduli has notes of its own
         return ()
-    counted = {"contacts": len(warned), "of": len(solutions)}
-    different = {warning for solution in warned for warning in solution.warnings}
-    if len(different) <= 1:
-        return (note_of(warned[0].warnings[0]).at(f"In {len(warned)} of {len(solutions)} contacts").valued(**counted),)
-    worst = max(warned, key=lambda solution: solution.half_width)
-    return tuple(
-        note_of(warning)
-        .at(f"In {len(warned)} of {len(solutions)} contacts there are warnings; that of the widest one")
-        .valued(**counted)
-        for warning in worst.warnings
-    )
+    alpha = 1.0 if material.shift is None else material.shift(kelvins)
+    return fit.beyond(alpha * np.array([record.frequency for record in records]), reduced=True)

@@ -24,7 +24,7 @@ from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import ConvergenceError, InputError, brief
 from viscofric.heat.heating import Heating
-from viscofric.notes import Note
+from viscofric.notes import Note, counted
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
 from viscofric.rheology.interface.law import InterfaceLaw
@@ -43,6 +43,7 @@ class Numbers(NamedTuple):
     contact_area_fraction: float
     corrected_area_fraction: float
     stretch: float
+    notes: tuple[str, ...]
 
 
 class OnDisk(NamedTuple):
@@ -92,6 +93,7 @@ def _numbers(solution: PeriodicSolution) -> Numbers:
         described.area_fraction,
         described.corrected_area_fraction,
         described.stretch,
+        solution.warnings,
     )
 
 
@@ -267,8 +269,9 @@ def predict_rough_friction(
         else:
             found, columns, doubts = predict_heated(call, contacts, heating, interface, workers, report)
     shape = len(kelvins), len(velocities), len(named)
-    numbers: dict[str, Any] = {name: np.array([getattr(one, name) for one in found]) for name in Numbers._fields}
+    numbers: dict[str, Any] = {name: np.array([getattr(one, name) for one in found]) for name in Numbers._fields[:-1]}
     numbers = {name: column.reshape(shape) for name, column in (numbers | columns).items()}
+    numbers["notes"] = counted([one.notes for one in found])
     kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
     if interface is not None:
         warm = kelvin_or_nan[:, None, None] + numbers.get("face_rise", np.zeros(shape))
@@ -276,11 +279,11 @@ def predict_rough_friction(
         numbers |= friction_on_area(interface, slip, warm, load, numbers["corrected_area_fraction"])
     if heating is not None:
         left_out = () if heating.nominal_radius is not None else (MEAN_LEFT_OUT,)
-        numbers["notes"] = (*numbers.get("notes", ()), *doubts, *left_out)
+        numbers["notes"] = (*numbers["notes"], *doubts, *left_out)
     coulomb = numbers.get("interface_friction", np.full(shape, 0.0 if heating is None else heating.coulomb))
     if not call.get("coulomb"):
         shear = _shear_notes(coulomb, numbers, [one for _, one in named], velocities, load, material, layer)
-        numbers["notes"] = (*numbers.get("notes", ()), *shear)
+        numbers["notes"] = (*numbers["notes"], *shear)
     result = RoughFriction if heating is None else HeatedRoughFriction
     return result(
         temperature=kelvin_or_nan,

@@ -39,6 +39,7 @@ from viscofric.contact.heated_result import INTERFACE, beyond
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
 from viscofric.heat.interface import SlidingInterface
+from viscofric.notes import Note, counted
 from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material
@@ -184,7 +185,23 @@ def persson_theory(
         **columns,
     )
     surface = SurfaceCoupling(spectrum.rms_slope(), half_space_coupling(material.poisson_ratio))
-    return _with_coulomb(result, surface, heating, interface)
+    finished = _with_coulomb(result, surface, heating, interface)
+    return replace(finished, notes=(*finished.notes, *_beyond_measured(material, finished)))
+
+
+def _beyond_measured(material: Material, found: PerssonTheory) -> tuple[Note, ...]:
+    """Return a note where wave numbers q at frequencies qv that were not measured matter to the friction."""
+    fit = getattr(material.spectrum, "fit", None)
+    if fit is None:
+        return ()
+    frequency = found.speed[:, None] * found.wave_number
+    if material.shift is not None and not np.isnan(found.temperature).any():
+        frequency = frequency * material.shift(found.temperature[:, None, None] + found.temperature_rise_by_scale)
+    low, high = fit.frequency_range
+    parts = np.diff(found.friction_by_scale, axis=-1, prepend=0.0)
+    beyond = np.where((low <= frequency) & (frequency <= high), 0.0, parts).sum(axis=-1)
+    shares = np.divide(beyond, found.friction_coefficient, out=np.zeros_like(beyond), where=beyond > 0.0)
+    return counted([fit.beyond_part(share) for share in shares.ravel().tolist()], shares.ravel().tolist())
 
 
 def _with_coulomb(

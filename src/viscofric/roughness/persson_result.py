@@ -51,7 +51,7 @@ class PerssonTheory(Plotted):
     interface_friction, interface_error : (m, n) array or None
         With an interface, its friction τ_s A/F on the real contact area, and the standard error due to the law.
     notes : tuple of str
-        On the interface, and doubts about Coulomb friction, one sentence each.
+        On frequencies that were not measured, the interface, and doubts about Coulomb friction, one sentence each.
     """
 
     temperature: Array

@@ -53,7 +53,7 @@ class RoughFriction(Plotted):
     interface_friction, interface_error : (m, n, k) array or None
         With an interface, its friction τ_s A/F on the corrected area, and the standard error due to the law.
     notes : tuple of str
-        On the interface, one sentence each.
+        Warnings of the contacts, and on the interface, one sentence each.
     """
 
     temperature: Array

@@ -72,12 +72,12 @@ class StudyRubber:
 
         They are v/a for an indenter, and 2πv/λ for the shortest and the longest wavelength of a rough surface.
         """
-        if self.frequency_range is None:
+        fit = getattr(self.material.spectrum, "fit", None)
+        if fit is None:
             return True
-        low, high = self.frequency_range
         rate = float(self.shift(record.temperature)) * record.speed
         shortest, longest = case.lengths(record)
-        return low <= rate / longest and rate / shortest <= high
+        return bool(fit.covers(rate / longest, rate / shortest))
 
     def doubts(self, temperatures: Sequence[float]) -> list[Note]:
         """Return notes about extrapolation, and about curves that do not lie on the master curve."""

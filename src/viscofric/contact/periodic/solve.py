@@ -24,7 +24,7 @@ from viscofric.contact.periodic.heating import PeriodicThermalContact, insist_on
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
-from viscofric.contact.periodic.surface import PeriodicSurface, Topographic
+from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, wave_number
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
 from viscofric.threads import one_blas_thread
@@ -199,7 +199,8 @@ def solve_periodic(
     same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
     motion = sliding, toward, kelvin
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
-    return replace(solution, coulomb=coulomb, warnings=_large_strains(solution, steepness, layer))
+    strains = _large_strains(solution, steepness, layer)
+    return replace(solution, coulomb=coulomb, warnings=(*solution.warnings, *strains))
 
 
 def _isothermal(material: Material, call: dict[str, Any], speed: float, kelvin: float, _: float) -> PeriodicSolution:
@@ -290,6 +291,7 @@ def _assemble(
     waves = scipy.fft.rfft2(pressure)
     by_energy = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
     lateral = dissipation(transfer, surface.shape, surface.spacing, (-toward[1], toward[0]), waves)
+    extrapolated = _beyond_measured(surface, solid, transfer, waves, by_energy)
     del waves
     error = abs(by_pressure - by_energy)
     if coarser is not None and work.coarser_pressure is not None:
@@ -332,8 +334,28 @@ def _assemble(
             linear_iterations=work.linear_iterations,
             grids=work.grids,
         ),
+        warnings=extrapolated,
     )
     return solution, steepness
+
+
+def _beyond_measured(
+    surface: PeriodicSurface, solid: SlidingSolid, transfer: ComplexArray | Array, waves: ComplexArray, friction: float
+) -> tuple[Note, ...]:
+    """Return a note if much of the friction force per area comes from waves at frequencies that were not measured.
+
+    `waves`, Fourier coefficients of the pressure, are overwritten.
+    """
+    fit = getattr(solid.spectrum, "fit", None)
+    if fit is None or friction == 0.0 or not all(map(math.isfinite, solid.velocity)):
+        return ()
+    low, high = fit.frequency_range
+    qx, qy = wave_number(surface.shape, surface.spacing)
+    frequency = np.abs(solid.velocity[0] * qx + solid.velocity[1] * qy)
+    waves[(low <= frequency) & (frequency <= high)] = 0.0
+    share = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, waves) / friction)
+    said: tuple[Note, ...] = fit.beyond_part(share)
+    return said
 
 
 def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, float]) -> tuple[float, float]:

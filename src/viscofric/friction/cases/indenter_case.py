@@ -108,8 +108,8 @@ class IndenterCase(Case):
         return "other"
 
     def lengths(self, record: Record) -> tuple[float, float]:
-        """Return half the contact's width (or length if it has no width) twice: there is one frequency."""
-        half = record.half_width if math.isfinite(record.half_width) else 0.5 * (record.front + record.rear)
+        """Return half the contact's length twice: there is one frequency."""
+        half = 0.5 * (record.front + record.rear)
         return half, half
 
     def reach(self, record: Record) -> float:

@@ -12,7 +12,8 @@ from viscofric.contact.periodic.solution import NUMBERS as SURFACE
 from viscofric.contact.solution import LINE_NUMBERS as LINE
 from viscofric.contact.solution import NUMBERS as INDENTER
 from viscofric.friction.sensitivity import ComplianceSensitivity
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
+from viscofric.rheology.spectra.quality import BEYOND
 from viscofric.roughness.patches import contact_statistics
 
 if TYPE_CHECKING:
@@ -272,7 +273,8 @@ def _common(solution: ContactSolution | PeriodicSolution, temperature: float, ce
         "complementarity": diagnostics.complementarity,
         "cells": cells,
         "products": diagnostics.products,
-        "warnings": solution.warnings,
+        # That of a curve or a study is counted over all of its contacts.
+        "warnings": tuple(one for one in solution.warnings if note_of(one).code != BEYOND),
     }
 
 

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from viscofric.datasets import dataset
+from viscofric.notes import Note
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.showing import Shown
 
 if TYPE_CHECKING:
     import xarray
+    from numpy.typing import ArrayLike
 
     from viscofric.showing import Rows
 
@@ -21,6 +26,9 @@ _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
 FROM_FRICTION, FROM_INDENTATION = "friction", "indentation"
 _BEYOND_INDENTATION = "extrapolated: beyond the range of the indentation"
 _REACHED = "reached by the sweeps"
+#: Code of the note on contacts at frequencies at which the material was not measured.
+BEYOND = "beyond-measured"
+_LITTLE = 0.01  # part of the friction that may rest on the extrapolated modulus without a note
 #: A spectrum fits what was measured if it is off by this at most.
 LARGEST_MISFIT = 0.05  # decades, rms of E' and of E''
 
@@ -105,6 +113,42 @@ class SpectrumFit(Shown):
             frequency_range=(low / alpha, high / alpha),
             measured_storage=None if measured is None else (b * measured[0], b * measured[1]),
         )
+
+    def covers(self, lowest: float, highest: float) -> bool:
+        """Whether angular frequencies were measured, rad/s; the elastic limits, 0 and infinity, need no frequency."""
+        low, high = self.frequency_range
+        return lowest == 0.0 or math.isinf(highest) or (low <= lowest and highest <= high)
+
+    def beyond(self, frequency: ArrayLike, *, reduced: bool = False) -> tuple[Note, ...]:
+        """Return a note on contacts whose frequency v/a, one or (n,), rad/s, was not measured."""
+        every = np.atleast_1d(np.asarray(frequency, dtype=float))
+        beyond = [one for one in every.tolist() if not self.covers(one, one)]
+        if not beyond:
+            return ()
+        first, last = min(beyond), max(beyond)
+        at = "T" if every.size == 1 else f"At {len(beyond)} of {every.size} points t"
+        subject = (
+            f"{at}he contact's {'reduced frequency αv/a' if reduced else 'frequency v/a'}, "
+            f"{first:.3g}{'' if first == last else f' to {last:.3g}'} rad/s, lies"
+        )
+        return self._beyond_note(subject, points=len(beyond), of=every.size, lowest=first, highest=last)
+
+    def beyond_part(self, share: float) -> tuple[Note, ...]:
+        """Return a note on the part of a rough contact's friction at frequencies that were not measured."""
+        if share <= _LITTLE:
+            return ()
+        return self._beyond_note(
+            f"For {share:.0%} of the friction the frequencies 2πv/λ of the pressure lie", share=share
+        )
+
+    def _beyond_note(self, subject: str, **values: float) -> tuple[Note, ...]:
+        low, high = self.frequency_range
+        said = (
+            f"{subject} beyond those at which the material was {'identified' if self.from_contact else 'measured'}, "
+            f"{low:.3g} to {high:.3g} rad/s: friction there rests on the extrapolated modulus, and so do its limits, "
+            "which may be far from the true friction."
+        )
+        return (Note(BEYOND, said, values={**values, "low": low, "high": high}),)
 
     @property
     def from_friction(self) -> bool:

@@ -12,7 +12,8 @@ from scipy.ndimage import uniform_filter
 from viscofric.contact.fields.surface import surface_displacement
 from viscofric.contact.solution import ERRORS, ContactSolution
 from viscofric.datasets import plain
-from viscofric.notes import listed
+from viscofric.notes import Note, listed
+from viscofric.rheology.spectra.quality import BEYOND
 from viscofric.web.figures.contact import contact_view
 
 if TYPE_CHECKING:
@@ -224,18 +225,14 @@ def pictures(
     return found | contact_view(found, case)
 
 
-def _doubts(requested: RequestedContact, within: bool | None) -> list[str]:
+def _doubts(requested: RequestedContact, within: bool | None) -> list[Note]:
     """Tell where the rubber is extrapolated, in temperature or in frequency."""
     # Warnings on the material itself belong to other steps.
-    said: list[str] = [
-        note for note in requested.rubber.doubts([requested.case.temperature]) if note.code == "extrapolated"
-    ]
+    said = [note for note in requested.rubber.doubts([requested.case.temperature]) if note.code == "extrapolated"]
     if within is False:
-        rough = requested.case.geometry == "rough"
-        what = "Frequencies 2πv/λ of its waves lie" if rough else "The frequency v/a lies"
-        said.append(
-            f"{what} beyond those at which the rubber was measured: the friction rests on the extrapolated spectrum."
-        )
+        what = requested.case.FREQUENCIES
+        text = "beyond those at which the rubber was measured: the friction rests on the extrapolated modulus."
+        said.append(Note(BEYOND, f"{what[0].upper()}{what[1:]} {text}"))
     return said
 
 
