@@ -45,6 +45,10 @@ MORE_COLUMNS = (
     *("material_error", "viscoelastic_lower", "viscoelastic_upper", "viscoelastic_freedom", "coulomb_freedom"),
     *("mean_pressure", "mean_pressure_error"),
 )
+#: Columns of friction curves that hold pure numbers.
+PURE_COLUMNS = {*MORE_COLUMNS, "viscoelastic", "viscoelastic_error", "viscoelastic_scatter"} - {
+    *("slip", "offset", "mean_pressure", "mean_pressure_error")
+}
 READINGS = {
     "disc_speed": np.array([-0.1, -0.1, 0.1, 0.1]),
     "ball_speed": np.array([-0.15, -0.05, 0.15, 0.05]),
@@ -846,7 +850,7 @@ def bad_values(name, key, good, parameter, *, everything):
     perhaps = PERHAPS if kind == "number" else {}
     if kind == "numbers" and isinstance(good, np.ndarray) and good.ndim:
         refused = refused | spoiled(good, key in WITH_GAPS)
-        if "strain" in key:  # a pure number may be text, such as "0.5 %"
+        if "strain" in key or key in PURE_COLUMNS:  # a pure number may be text, such as "0.5 %"
             del refused["words"]
         perhaps = resized(good)
     if key in WITH_GAPS:
@@ -929,8 +933,7 @@ UNITS = (
 WITHOUT_UNIT = {
     "threads", "most_products", "finest", "most_periods", "rebounds", "replicate", "replicates", "step", "rows",
     "steps", "modes", "samples", "seed", "workers", "material_id", "per_decade", "shape", "passes of track_temperature",
-    "direction", "covariance", "coefficients", "parameters", "log10_values", "weights", "response", *MORE_COLUMNS[:-2],
-    "viscoelastic", "viscoelastic_error", "viscoelastic_scatter", "coulomb of FrictionCurves",
+    "direction", "covariance", "coefficients", "parameters", "log10_values", "weights", "response",
 }  # fmt: skip
 
 

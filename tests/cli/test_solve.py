@@ -320,8 +320,8 @@ def test_a_picture_turns_the_indenter_with_its_motion() -> None:
     touching = (solution.pressure[:, middle - 1] > 0.0) & (solution.pressure[:, middle] > 0.0)
     assert touching.sum() > 20
     assert filled[1 : len(x) + 1, 0] == pytest.approx(np.asarray(x))
-    # In µm of some 200: what the solver leaves of a gap.
-    assert lower[touching] == pytest.approx(np.asarray(surface)[touching], abs=1e-3)
+    # In µm of some 200: what the solver leaves of a gap, and what the rows beside the middle differ.
+    assert lower[touching] == pytest.approx(np.asarray(surface)[touching], abs=1e-2)
 
 
 def test_pictures_show_the_conditions() -> None:

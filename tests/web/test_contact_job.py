@@ -95,7 +95,8 @@ def test_profile_shows_a_contact_that_leans_forward_and_its_trail(desk: Desk, st
     if "modulus" in study["indenter"]:
         assert 0.3 < -surface.min() / depth < 0.9
     else:
-        assert -surface.min() == pytest.approx(depth, rel=0.01)
+        # A tip lies between the points of the surface.
+        assert -surface.min() == pytest.approx(depth, rel=0.02 if study["indenter"]["shape"] == "cone" else 0.01)
     # As far behind the axis as ahead, the rubber still lies deeper.
     far = 1.5 * front
     assert np.interp(-far, x, surface) < np.interp(far, x, surface)
@@ -207,7 +208,9 @@ def test_rubber_is_reported_at_the_contacts_frequency(desk: Desk) -> None:
     modulus = complex(rubber().complex_modulus(frequency, temperature=333.15))
     assert value(answer, "storage_modulus") == pytest.approx(modulus.real, rel=ROUNDING)
     assert value(answer, "loss_factor") == pytest.approx(modulus.imag / modulus.real, rel=ROUNDING)
-    # The load's lean over the ball's radius is the friction; the rest is the grid's, as the energy balance tells.
-    lean = value(answer, "centre_of_pressure") / 9.525e-3
-    assert lean == pytest.approx(value(answer, "friction_coefficient"), rel=3.0 * abs(value(answer, "energy_balance")))
+    # The load's lean over the ball's radius is the friction; both have errors.
+    lean, friction = answer["numbers"]["centre_of_pressure"], answer["numbers"]["friction_coefficient"]
+    error = lean["error"] / 9.525e-3 + friction["error"]
+    assert error < 0.02 * friction["value"]
+    assert lean["value"] / 9.525e-3 == pytest.approx(friction["value"], abs=error)
     assert value(answer, "power") == pytest.approx(value(answer, "friction_force") * 0.1, rel=ROUNDING)

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 __all__ = ["SMALL_STRAIN", "solve_steady"]
 
 LONGEST_MEMORY = 1e100  # in contact radii; its square must not overflow
-_LOOSE = 5e-3  # accuracy that grids half as fine as usual mostly reach
+LOOSE = 5e-3  # accuracy that grids half as fine as usual mostly reach
 
 
 @one_blas_thread
@@ -264,17 +264,14 @@ def solve_and_differentiate(
 def friction_and_derivatives(
     material: Material, indenter: Indenter, *, speed: float, load: float, accuracy: float, **settings: Any
 ) -> tuple[float, float, FrictionDerivatives]:
-    """Return friction, its error and derivatives of a contact, in half the time: for fits that solve many of them.
+    """Return friction, its error and derivatives of a contact, and nothing else: for fits that solve many of them.
 
     Arguments as of `solve_steady`, without `indentation`, `temperature` and `derivatives`; the speed is neither zero
-    nor infinite.  From an accuracy of 0.005 on, 64 cells along the window are enough where their errors allow it, with
-    which a contact takes half the time that it does with 128.  The derivatives have no error estimate, which takes
-    adjoint solves on three grids: it is infinite.
+    nor infinite.  The derivatives have no error estimate, which takes adjoint solves on three grids: it is infinite.
     """
     chosen = ContactSettings(accuracy=accuracy, **settings)
     _check_derivatives(velocity(speed), chosen)
-    coarsest = COARSEST // 2 if accuracy >= _LOOSE and indenter.geometry.dimension > 1 else COARSEST
-    solved = _solve(material, indenter, speed, load, None, None, chosen, coarsest)
+    solved = _solve(material, indenter, speed, load, None, None, chosen)
     estimate, slope = friction_estimate(solved.stages), solved.scale.slope
     value, error = math.copysign(slope, solved.velocity) * estimate.value, slope * estimate.error
     return value, error, solved.derivatives(with_error=False)
@@ -319,9 +316,8 @@ def _solve(
     indentation: Quantity | None,
     temperature: Quantity | None,
     settings: ContactSettings,
-    coarsest: int = COARSEST,
 ) -> _Solved:
-    """Solve on nested grids, from so many cells along the longer edge of the coarsest; other arguments as given."""
+    """Solve on nested grids, with arguments as given."""
     insist_on_indenter(indenter)
     insist_on_material(material)
     sliding = velocity(speed)
@@ -343,7 +339,9 @@ def _solve(
         insist_on_round_edges(indenter)
     ahead = math.copysign(1.0, sliding)
     shape = ScaledIndenter(indenter, scale, (ahead * toward[0], ahead * toward[1]))
-    problem = Problem(geometry, solid, shape, control, settings.tolerance, settings.where, coarsest=coarsest)
+    loose = settings.accuracy >= LOOSE and settings.grid is None and geometry.dimension > 1
+    cells = COARSEST // 2 if loose else COARSEST
+    problem = Problem(geometry, solid, shape, control, settings.tolerance, settings.where, coarsest=cells)
     if layer is not None:
         scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)
         problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)

@@ -157,7 +157,7 @@ class FrictionCurves(Plotted):
         shape = (read_only(self.speed, "speed of friction curves").size,)
         for name in (*_REQUIRED, *_OPTIONAL):
             if name in _REQUIRED or getattr(self, name) is not None:
-                unit = self.load_unit if name == "load" else ""
+                unit = self.load_unit if name == "load" else LABELS[name][0].replace("1", "dimensionless")
                 object.__setattr__(self, name, _column(getattr(self, name), name, shape, unit))
         replicates = whole_numbers(self.replicates, "replicates of friction curves")
         if replicates.shape != shape:

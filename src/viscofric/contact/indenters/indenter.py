@@ -82,7 +82,7 @@ class Indenter(Shown, ABC):
         """
         if contact.longest > 2.0 * self.reach:
             raise InputError(
-                f"{held} the contact would be {1e3 * contact.longest:.3g} mm wide, wider than the {self.noun} "
+                f"{held} the contact would be about {1e3 * contact.longest:.3g} mm wide, wider than the {self.noun} "
                 f"({2e3 * self.reach:.3g} mm): the material is too soft; reduce the load.",
                 code="beyond-indenter",
             )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from viscofric.contact.steady import LOOSE
 from viscofric.friction.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.contact_pictures import RequestedContact, pictures
@@ -64,9 +65,11 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     rubbers = Rubbers([rubber.material], {})
     if options.stages != "sharp":
         solution: Any = case.solution(rubbers, COARSE, COARSE_POINTS)
-        # Grids are refined until they promise the accuracy: where the first of them do, no others are looked at.
-        allowed = 0.0 if case.geometry == "rough" else accuracy * abs(solution.friction_coefficient)
-        settled = solution.diagnostics.friction_error <= allowed
+        # Grids are refined until they promise the accuracy: where the first of them do, no others are looked at, if a
+        # study begins with the same grids.
+        same = case.geometry == "line" or (case.geometry == "point" and accuracy >= LOOSE)
+        allowed = accuracy * abs(solution.friction_coefficient)
+        settled = same and solution.diagnostics.friction_error <= allowed
         found = pictures(requested, solution, sharp=settled)
         if settled or options.stages == "coarse":
             return found
