@@ -153,7 +153,7 @@ def _trail(requested: RequestedContact, case: IndenterCase, solution: ContactSol
     modes = requested.rubber.material.modes_at(case.temperature)
     x, y, pressure = solution.x, solution.y, solution.pressure
     if solution.geometry == "point" and all(size % 2 == 0 for size in pressure.shape):
-        x, y, pressure = thinned(x, y, pressure, max(pressure.shape) // max(1, max(pressure.shape) // 64))
+        x, y, pressure = thinned(x, y, pressure, max(pressure.shape) // max(1, max(pressure.shape) // 32))
     length = solution.front + solution.rear
     found = surface_displacement(
         x,
