@@ -73,6 +73,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
         ("solver", _work(diagnostics)),
         ("time", f"{seconds:.2f} s"),
+        ("after ±", "errors of the numerical solution, not of the material"),
     ]
     return lines
 
