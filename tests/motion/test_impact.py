@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ from scipy.optimize import brentq
 
 import viscofric as vf
 from refusals import refused
-from viscofric.notes import codes
+from viscofric.notes import codes, note_of
+from viscofric.rheology.spectra.quality import SpectrumFit
 
 BALL = vf.Ball("10 mm")
 MASS, SPEED = 0.03267256359733385, 0.1  # kg, m/s
@@ -259,3 +261,28 @@ def test_the_error_of_the_largest_force_includes_springs_that_are_touched_one_by
         for one in (1e-3, 3e-5)
     )
     assert abs(hit.peak_force - finer.peak_force) <= hit.run.errors.load[0] < 0.05 * hit.peak_force
+
+
+def test_motion_faster_than_the_material_was_measured_is_noted() -> None:
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    material = vf.Material(replace(solid, fit=SpectrumFit(None, None, False, False, (100.0, 2e3))))
+
+    def noted(result: vf.motion.TransientSolution | vf.motion.ImpactSolution) -> list[float]:
+        return [note.values["highest"] for note in map(note_of, result.warnings) if note.code == "beyond-measured"]
+
+    def slide(speed: float) -> list[float]:
+        history = vf.motion.History(
+            time=[0.0, 1e-3, 2e-3], load="1 N", position=[0.0, 0.0, 1e-3 * speed], before="at rest"
+        )
+        return noted(vf.motion.solve_transient(material, vf.Ball("10 mm"), history, accuracy=3e-2))
+
+    def hit(mass: str) -> list[float]:
+        return noted(vf.motion.solve_impact(material, vf.Ball("10 mm"), mass=mass, speed="0.1 m/s"))
+
+    # A contact about 1 mm long to either side; one that lasts 4 ms, or a tenth of a second.
+    assert slide(1.0) == []
+    (rate,) = slide(10.0)
+    assert 2e3 < rate < 1e5
+    assert hit("4 g") == []
+    (slow,) = hit("10 kg")
+    assert slow < 100.0

@@ -85,4 +85,4 @@ def beyond_range(material: Material, records: Sequence[Record], kelvins: Array) 
     if fit is None:  # a table of moduli has notes of its own
         return ()
     alpha = 1.0 if material.shift is None else material.shift(kelvins)
-    return fit.beyond(alpha * np.array([record.frequency for record in records]), reduced=True)
+    return fit.beyond(alpha * np.array([record.frequency for record in records]), "reduced frequency αv/a")

@@ -301,6 +301,9 @@ class _Falling(NamedTuple):
         notes = [self.indenter.strain_warning(Extent(widest, widest, widest), deepest)]
         if contacts[-1].restitution == 0.0:
             notes.append(Note("no-rebound", "The indenter does not leave the surface again: it comes to rest on it."))
+        fit = self.material.modes_at(temperature).fit
+        lasting = np.array([one.contact_time for one in contacts])
+        beyond = () if fit is None else fit.beyond(np.pi / lasting, "frequency π over its duration")
         kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
         # By Newton's law, independently of the springs: the loss of kinetic energy plus the work of gravity.
         work = 0.5 * self.mass * (velocity[0] ** 2 - velocity**2) + self.mass * self.gravity * (depth - depth[0])
@@ -322,7 +325,7 @@ class _Falling(NamedTuple):
             contact_area=np.pi * radius**2, contact_radius=radius, front=None, rear=None, half_width=None, work=work,
             stored=stored, dissipated=dissipated, errors=errors, steps=len(time) - 1, rejected_steps=0,
             interrupted=False, method="springs", geometry="point", direction=(1.0, 0.0),
-            warnings=(*filter(None, notes), *self.material.notes_on_modes),
+            warnings=(*filter(None, notes), *beyond, *self.material.notes_on_modes),
         )  # fmt: skip
         return ImpactSolution(contacts, run, velocity, self.mass, self.gravity, kelvin, run.warnings)
 

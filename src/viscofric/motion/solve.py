@@ -27,7 +27,7 @@ from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, number, to_si_array
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from viscofric.arrays import Array
     from viscofric.heat.heating import Heating
@@ -379,7 +379,12 @@ def assemble(
         method=method,
         geometry=problem.kind,
         direction=history.direction,
-        warnings=(*_doubts(problem.indenter, moments), *notes, *problem.material.notes_on_modes),
+        warnings=(
+            *_doubts(problem.indenter, moments),
+            *_beyond_measured(problem, moments),
+            *notes,
+            *problem.material.notes_on_modes,
+        ),
         dent=extent("dent"),
         _fields=tuple(one.field for one in moments),
     )
@@ -401,3 +406,24 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]]) ->
     indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}")
     deepest = max(one.seen.depth for one in moments)
     return tuple(filter(None, [indenter.strain_warning(widest, deepest)]))
+
+
+def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
+    """Return a note where an indenter slides faster than its material was measured; each start is slow."""
+    fit = problem.schedule.spectrum.fit
+    if fit is None or problem.kind == "periodic":
+        return ()
+    extents = [one.seen.extents for one in moments[1:]]
+    half = np.array(
+        [0.5 * (one["front"] + one["rear"]) if "front" in one else one["contact_radius"] for one in extents]
+    )
+    place, clock = (np.array([getattr(one.instant, name) for one in moments]) for name in ("position", "clock"))
+    path = np.hypot(*np.diff(place, axis=0).T) if len(place) > 1 else np.zeros(0)
+    scale = half * np.diff(clock)
+    rate = np.divide(path, scale, out=np.zeros_like(path), where=scale > 0.0)
+    return fit.beyond(np.where(rate > fit.frequency_range[1], rate, 0.0))
+
+
+def _half_length(extents: Mapping[str, float]) -> float:
+    """Return half the length of a contact along its motion, zero where there is none."""
+    return extents.get("contact_radius", 0.5 * (extents.get("front", 0.0) + extents.get("rear", 0.0)))

@@ -119,18 +119,15 @@ class SpectrumFit(Shown):
         low, high = self.frequency_range
         return lowest == 0.0 or math.isinf(highest) or (low <= lowest and highest <= high)
 
-    def beyond(self, frequency: ArrayLike, *, reduced: bool = False) -> tuple[Note, ...]:
-        """Return a note on contacts whose frequency v/a, one or (n,), rad/s, was not measured."""
+    def beyond(self, frequency: ArrayLike, what: str = "frequency v/a") -> tuple[Note, ...]:
+        """Return a note on contacts whose frequency, one or (n,), rad/s, was not measured; `what` it is."""
         every = np.atleast_1d(np.asarray(frequency, dtype=float))
         beyond = [one for one in every.tolist() if not self.covers(one, one)]
         if not beyond:
             return ()
         first, last = min(beyond), max(beyond)
         at = "T" if every.size == 1 else f"At {len(beyond)} of {every.size} points t"
-        subject = (
-            f"{at}he contact's {'reduced frequency αv/a' if reduced else 'frequency v/a'}, "
-            f"{first:.3g}{'' if first == last else f' to {last:.3g}'} rad/s, lies"
-        )
+        subject = f"{at}he contact's {what}, {first:.3g}{'' if first == last else f' to {last:.3g}'} rad/s, lies"
         return self._beyond_note(subject, points=len(beyond), of=every.size, lowest=first, highest=last)
 
     def beyond_part(self, share: float) -> tuple[Note, ...]:
@@ -145,8 +142,8 @@ class SpectrumFit(Shown):
         low, high = self.frequency_range
         said = (
             f"{subject} beyond those at which the material was {'identified' if self.from_contact else 'measured'}, "
-            f"{low:.3g} to {high:.3g} rad/s: friction there rests on the extrapolated modulus, and so do its limits, "
-            "which may be far from the true friction."
+            f"{low:.3g} to {high:.3g} rad/s: the result there rests on the extrapolated modulus, and so do its "
+            "limits, which may be far from the truth."
         )
         return (Note(BEYOND, said, values={**values, "low": low, "high": high}),)
 
