@@ -191,6 +191,14 @@ def test_one_temperature_is_picked_in_ascending_speed() -> None:
         curves.at_load(10.0)
 
 
+def test_measured_temperatures_that_scatter_are_one_temperature() -> None:
+    speed, kelvin = np.array([0.1, 0.2, 0.3, 0.1]), np.array([302.9, 303.3, 303.15, 313.15])
+    measured = friction_curves(speed, kelvin, speed)
+    np.testing.assert_array_equal(measured.at_temperature("30 degC").speed, [0.1, 0.2, 0.3])
+    solved = replace(measured, mean_pressure=np.full(4, 1e5))  # exact
+    np.testing.assert_array_equal(solved.at_temperature("30 degC").speed, [0.3])
+
+
 def test_data_set_is_labelled() -> None:
     """Units and names on every column, notes in the attributes, and nothing that netCDF cannot hold."""
     curves = separate(traction_runs(viscoelastic=lambda v, T: -0.03, replicates=3, noise=0.01))

@@ -184,6 +184,37 @@ def test_temperatures_that_scatter_about_nominal_ones_are_compared_as_these(shif
     assert "too-steep" in codes(shift_friction(steep, shift=LAW).notes)
 
 
+@pytest.mark.parametrize("error", [np.inf, 0.0])
+@pytest.mark.parametrize(("power", "code"), [(-1.5, "too-steep"), (0.0, "constant-friction"), (-0.4, "")])
+def test_friction_without_standard_errors_is_judged_by_its_scatter(error: float, power: float, code: str) -> None:
+    """A single run has no errors, but 1 % of scatter is seen from one speed to the next."""
+    curves = shifted_curves()
+    scatter = 1.0 + 0.01 * np.random.default_rng(2).standard_normal(len(curves))
+    once = friction_curves(curves.speed, curves.temperature, 0.02 * scatter * curves.speed**power, error=error)
+    said = codes(shift_friction(once, shift=LAW).notes)
+    assert {"too-steep", "constant-friction"} & said == {code} - {""}
+
+
+def test_three_noisy_points_are_not_called_too_steep() -> None:
+    """The scatter about a line through three has one degree of freedom."""
+    three = friction_curves(SPEEDS[:3], np.full(3, 323.15), SPEEDS[:3] ** -1.4 * np.array([1.0, 1.02, 1.0]), error=0.0)
+    assert "too-steep" not in codes(shift_friction(three, shift=LAW).notes)
+
+
+def test_noise_of_few_replicates_is_not_negative_friction() -> None:
+    """Without viscoelastic friction, a mean of 3 replicates lies 2 standard errors below zero at 9 % of the points."""
+    curves, random, noted = shifted_curves(), np.random.default_rng(4), 0
+    for _ in range(100):
+        replicates = random.standard_normal((3, len(curves)))
+        error = replicates.std(axis=0, ddof=1) / np.sqrt(3.0)
+        few = replace(curves, viscoelastic=replicates.mean(axis=0), viscoelastic_error=error)
+        few = replace(few, replicates=np.full(len(curves), 3))
+        noted += "friction-below-zero" in codes(shift_friction(few, shift=LAW).notes)
+    assert noted <= 9  # 2.5 expected
+    negative = replace(few, viscoelastic=few.viscoelastic - 30.0)
+    assert "friction-below-zero" in codes(shift_friction(negative, shift=LAW).notes)
+
+
 def test_friction_of_pure_coulomb_friction_is_not_below_zero_by_rounding() -> None:
     curves = replace(shifted_curves(), viscoelastic=np.full(30, -1e-17), coulomb=np.full(30, 0.3))
     assert "friction-below-zero" not in codes(shift_friction(curves, shift=LAW).notes)

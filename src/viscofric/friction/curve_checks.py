@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
 from viscofric.units import shown_celsius
@@ -26,8 +28,12 @@ MANY = 60.0
 #: The power μFv dissipated in a linear rubber does not fall as speed rises, to first order in the loss: waves of
 #: frequency ω dissipate ω²τ/(1 + ω²τ²) in a mode, and a smaller contact has a higher pressure.
 STEEPEST = -1.0
-#: A line must be steeper than that by this many of its standard errors.
-SURE = 4.0
+#: Probability of a steeper line by chance.
+STEEPER = 1e-4
+#: Relative error of numbers that are equal.
+ROUNDING = 1e-9
+#: Coefficients of a parabola, and the fewest degrees of freedom that give a scatter about several.
+PARABOLA, FEWEST_ABOUT = 3, 6
 #: Probability of differences by chance from which on friction may be constant.
 CHANCE = 0.01
 _FEWEST_POINTS = 3
@@ -80,13 +86,41 @@ def freedom_of_scatter(variance: float) -> float:
     return 2.0 * float(brentq(lambda half: float(polygamma(1, half)) - variance, least, most))
 
 
+def scatter_about_parabolas(curves: FrictionCurves) -> float | None:
+    """Return one relative error of points without errors, from those of each temperature about a parabola in ln v.
+
+    None if the temperatures have too few points, or friction is not above zero.
+    """
+    squares, freedom = 0.0, 0
+    for rows in nominal_rows(curves.temperature):
+        mine = curves.select(rows)
+        different = np.unique(mine.speed).size
+        if different <= PARABOLA or not np.all(mine.viscoelastic > 0.0):
+            continue
+        place = np.log(mine.speed / mine.speed.mean())
+        design = np.vander(place / np.ptp(place), PARABOLA)
+        values = np.log(mine.viscoelastic)
+        left = values - design @ np.linalg.lstsq(design, values, rcond=None)[0]
+        squares += float(left @ left)
+        freedom += len(mine) - PARABOLA
+    if freedom < FEWEST_ABOUT:
+        return None
+    return float(np.sqrt(squares / max(freedom - 2.0, 0.5 * freedom)))  # of Student's distribution
+
+
 def implausible(curves: FrictionCurves) -> tuple[Note, ...]:
     """Return notes on friction that no rubber has, "too-steep" and "constant-friction".
 
-    The curves are at one load; points of unknown error, or not above zero, are ignored.
+    The curves are at one load; points not above zero are ignored, and those of unknown error if others have one.
     """
-    known = np.isfinite(curves.viscoelastic_error) & (curves.viscoelastic > 0.0)
-    return (*_too_steep(curves.select(known)), *_constant(curves.select(known)))
+    curves = curves.select(curves.viscoelastic > 0.0)
+    known = np.isfinite(curves.viscoelastic_error)
+    if np.any(curves.viscoelastic_error[known] > 0.0):
+        curves = curves.select(known)
+    else:
+        scatter = max(scatter_about_parabolas(curves) or 0.0, ROUNDING)
+        curves = replace(curves, viscoelastic_error=scatter * curves.viscoelastic)
+    return (*_too_steep(curves), *_constant(curves))
 
 
 def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
@@ -100,8 +134,9 @@ def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
         slope = float(x @ y / (x @ x))
         left = y - y.mean() - slope * x
         own = mine.viscoelastic_error / mine.viscoelastic
-        error = np.sqrt(max(left @ left / (len(mine) - 2), float(np.mean(own**2))) / (x @ x))
-        if slope + SURE * error < min(STEEPEST, steepest):
+        about = threshold(len(mine) - 2, STEEPER) ** 2 * float(left @ left) / (len(mine) - 2)
+        by_own = threshold(np.inf, STEEPER) ** 2 * float(np.mean(own**2))
+        if slope + np.sqrt(max(about, by_own) / (x @ x)) < min(STEEPEST, steepest):
             steepest, where = slope, f"{shown_celsius(float(mine.temperature.mean()))} °C"
     if not np.isfinite(steepest):
         return ()

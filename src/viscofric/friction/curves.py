@@ -14,7 +14,7 @@ from viscofric.errors import InputError, check_choice
 from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
 from viscofric.friction.solved_columns import columns_of
-from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
+from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE, nominal_rows
 from viscofric.rheology.interface.friction import total_error
 from viscofric.showing import Plotted
 from viscofric.units import Quantity, positive, share, shown_celsius
@@ -327,7 +327,8 @@ class FrictionCurves(Plotted):
         Parameters
         ----------
         temperature : float, str or pint.Quantity
-            K if a plain number.  The nearest available temperature is used, if within 1 K.
+            K if a plain number.  The nearest available temperature is used, if within 1 K; where measured, with all
+            that scatter about the same nominal one (less than 1 K apart).
 
         Raises
         ------
@@ -345,7 +346,10 @@ class FrictionCurves(Plotted):
                 values={"known": there.tolist()},
             )
         nearest = there[np.argmin(np.abs(there - wanted))]
-        rows = np.flatnonzero(self.temperature == nearest)
+        # Measured temperatures scatter about a nominal one; those of solved contacts are exact.
+        groups = nominal_rows(self.temperature) if self.mean_pressure is None else []
+        exact = np.flatnonzero(self.temperature == nearest)
+        rows = next((rows for rows in groups if exact[0] in rows), exact)
         return self.select(rows[np.argsort(self.speed[rows], kind="stable")])
 
     def at_load(self, load: Quantity) -> FrictionCurves:

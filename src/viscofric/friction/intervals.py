@@ -19,6 +19,15 @@ CHANCE = 0.01
 WIDEST = 1e6  # standard errors
 
 
+def threshold(freedom: float, chance: float) -> float:
+    """Return the number of standard errors that a deviation of either sign exceeds with a probability `chance`."""
+    from scipy.special import ndtri, stdtrit
+
+    if freedom <= 0.0:
+        return np.inf
+    return float(stdtrit(freedom, 1.0 - 0.5 * chance) if np.isfinite(freedom) else -ndtri(0.5 * chance))
+
+
 def half_widths(error: Array, freedom: Array | None, level: float) -> Array:
     """Return the half-widths (n,) of confidence intervals; normal where `freedom` is unknown."""
     from scipy.special import ndtri, stdtrit

@@ -9,9 +9,9 @@ import numpy as np
 
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.errors import InputError
-from viscofric.friction.curve_checks import error_freedom
+from viscofric.friction.curve_checks import error_freedom, scatter_about_parabolas
 from viscofric.friction.shifting.load_rule import LoadRule
-from viscofric.nominal import SAME_LOAD, nominal_rows
+from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note, Remedy
 from viscofric.units import positive, shown_celsius, shown_number, shown_speed
 
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 #: Fewer points do not determine a spectrum's shape.
 FEWEST_POINTS = 6
-#: Coefficients of a parabola.
-PARABOLA = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +81,21 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         )
     notes: list[str] = []
     if len(curves) and not np.any(np.isfinite(curves.viscoelastic_error)):
-        curves, found = with_errors_of_neighbours(curves)
+        error = scatter_about_parabolas(curves)
+        if error is None:
+            raise InputError(
+                "friction curves have no standard errors that are known, and too few points at each temperature to "
+                "find the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard "
+                "error').",
+                code="no-errors",
+            )
+        curves = replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic))
+        found = Note(
+            "errors-from-scatter",
+            f"The friction curves have no standard errors; {100.0 * error:.2g} % is assumed, the scatter of the points "
+            "of each temperature about a parabola.",
+            values={"relative_error": error},
+        )
         notes.append(found)
     notes.extend(error_freedom(curves)[1])
     rows = np.flatnonzero(np.isfinite(curves.viscoelastic_error))
@@ -143,39 +155,6 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         rows=rows,
         notes=tuple(notes),
     )
-
-
-def with_errors_of_neighbours(curves: FrictionCurves) -> tuple[FrictionCurves, str]:
-    """Give curves without errors one relative error: the scatter about a parabola through each temperature's points.
-
-    Returns a note on it too.  Raises InputError if temperatures have too few points, or friction is not above zero.
-    """
-    squares, freedom = 0.0, 0
-    for rows in nominal_rows(curves.temperature):
-        mine = curves.select(rows)
-        different = np.unique(mine.speed).size
-        if different <= PARABOLA or not np.all(mine.viscoelastic > 0.0):
-            continue
-        place = np.log(mine.speed / mine.speed.mean())
-        design = np.vander(place / np.ptp(place), PARABOLA)
-        values = np.log(mine.viscoelastic)
-        left = values - design @ np.linalg.lstsq(design, values, rcond=None)[0]
-        squares += float(left @ left)
-        freedom += len(mine) - PARABOLA
-    if freedom < FEWEST_POINTS:
-        raise InputError(
-            "friction curves have no standard errors that are known, and too few points at each temperature to find "
-            "the scatter from: give viscoelastic_error (in a table, a column 'viscoelastic friction standard error').",
-            code="no-errors",
-        )
-    error = float(np.sqrt(squares / max(freedom - 2.0, 0.5 * freedom)))  # of Student's distribution
-    note = Note(
-        "errors-from-scatter",
-        f"The friction curves have no standard errors; {100.0 * error:.2g} % is assumed, the scatter of the points of "
-        "each temperature about a parabola.",
-        values={"relative_error": error},
-    )
-    return replace(curves, viscoelastic_error=error * np.abs(curves.viscoelastic)), note
 
 
 def relative_errors(curves: FrictionCurves) -> Array:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.friction.intervals import threshold
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.nominal import SAME_LOAD
@@ -29,15 +30,6 @@ _MATTERS = 0.1
 _OUTLIER = 5.0  # robust standard deviations
 _FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
 _NAMED = 3  # outliers that a note names one by one
-
-
-def threshold(freedom: float, chance: float) -> float:
-    """Return the number of standard errors that a deviation of either sign exceeds with a probability `chance`."""
-    from scipy.special import ndtri, stdtrit
-
-    if freedom <= 0.0:
-        return np.inf
-    return float(stdtrit(freedom, 1.0 - 0.5 * chance) if np.isfinite(freedom) else -ndtri(0.5 * chance))
 
 
 def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:

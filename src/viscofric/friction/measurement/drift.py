@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.measurement.doubts import CHANCE, threshold
+from viscofric.friction.intervals import threshold
+from viscofric.friction.measurement.doubts import CHANCE
 from viscofric.friction.measurement.fit import DRIFT, FORCE, ZERO_CHANGES, Fit
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros, wanders
 from viscofric.notes import Note

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 
+#: Probability of a note on negative friction where there is none.
+BY_CHANCE = 0.025
+
 
 def shift_friction(
     curves: FrictionCurves,
@@ -156,16 +159,30 @@ def shift_friction(
 
 
 def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
-    """Return the number of points of negative friction, which is impossible for rubber."""
+    """Return the number of points of negative friction, which is impossible for rubber.
+
+    As many as chance does not explain, of all points together (Y. Benjamini and Y. Hochberg, J. R. Stat. Soc. B 57
+    (1995) 289).
+    """
+    from scipy.special import ndtr, stdtr
+
     # Separated from Coulomb friction without an error, it has that of rounding.
     rounding = ROUNDING * (0.0 if curves.coulomb is None else np.abs(curves.coulomb))
-    count = int(np.count_nonzero(curves.viscoelastic < -2.0 * curves.viscoelastic_error - rounding))
+    below = np.minimum(curves.viscoelastic + rounding, 0.0)
+    with np.errstate(divide="ignore"):
+        errors = np.divide(below, curves.viscoelastic_error, out=np.zeros(len(curves)), where=below < 0.0)
+    freedom = error_freedom(curves)[0]
+    known = np.isfinite(freedom)
+    chance = np.sort(np.where(known, stdtr(np.where(known, freedom, 1.0), errors), ndtr(errors)))
+    allowed = BY_CHANCE * np.arange(1, len(curves) + 1) / len(curves)
+    count = int(np.max(np.flatnonzero(chance <= allowed), initial=-1)) + 1
     if not count:
         return ()
     sentence = Note(
         "friction-below-zero",
-        f"Viscoelastic friction is below zero at {count} of {len(curves)} points, by more than twice its standard "
-        "error; that of rubber never is; check the signs of the forces.",
+        f"Viscoelastic friction is below zero at {count} of {len(curves)} points, by more than chance explains; that "
+        "of rubber never is; check the signs of the forces.",
+        values={"points": count, "of": len(curves)},
     )
     return (sentence,)
 
