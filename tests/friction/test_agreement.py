@@ -41,6 +41,14 @@ def test_each_temperature_is_distinguished() -> None:
     assert agreement.rms == pytest.approx(np.sqrt((2 * 0.01 + 2 * 0.0025) / 4))
 
 
+def test_temperatures_that_scatter_are_one_temperature() -> None:
+    kelvin = TEMPERATURE + np.array([0.2, -0.1, -0.3, 0.1])
+    measured = friction_curves(SPEED, kelvin, np.full(4, 0.02))
+    agreement = compare(measured, friction_curves(SPEED, kelvin, np.full(4, 0.021)))
+    np.testing.assert_allclose(agreement.temperature, [303.2, 333.05])
+    np.testing.assert_array_equal(agreement.points_at, [2, 2])
+
+
 def test_points_find_their_predictions_in_any_order() -> None:
     measured = friction_curves(SPEED, TEMPERATURE, np.array([0.01, 0.02, 0.03, 0.04]))
     backwards = friction_curves(SPEED[::-1], TEMPERATURE[::-1], measured.viscoelastic[::-1], load=25.3)
@@ -49,16 +57,19 @@ def test_points_find_their_predictions_in_any_order() -> None:
     assert agreement.share_within_error == 1.0
 
 
-def test_honest_errors_hold_95_percent_of_the_points() -> None:
-    """Normal noise lies within twice its standard error at 95.4 % of the points."""
+@pytest.mark.parametrize("replicates", [1, 3])
+def test_honest_errors_hold_95_percent_of_the_points(replicates: int) -> None:
+    """Of the mean of three replicates, as of one with a known error."""
     count = 2000
     speed, temperature = np.geomspace(0.01, 1.0, count), np.full(count, 303.15)
-    noise = np.random.default_rng(3).standard_normal(count)
-    measured = friction_curves(speed, temperature, 0.03 * (1 + 0.02 * noise), error=6e-4)
+    noise = np.random.default_rng(3).standard_normal((replicates, count))
+    error = noise.std(axis=0, ddof=1) / np.sqrt(3.0) if replicates > 1 else 1.0
+    measured = friction_curves(speed, temperature, 0.03 * (1 + 0.02 * noise.mean(axis=0)), error=6e-4 * error)
+    measured = replace(measured, replicates=np.full(count, replicates))
     agreement = compare(measured, friction_curves(speed, temperature, np.full(count, 0.03)))
     # Five standard deviations of the count: √(0.954·0.046/2000) = 0.0047.
     assert agreement.share_within_error == pytest.approx(0.9545, abs=0.024)
-    assert agreement.rms == pytest.approx(0.02, rel=0.1)
+    assert agreement.rms == pytest.approx(0.02 / np.sqrt(replicates), rel=0.1)
 
 
 @pytest.mark.parametrize(

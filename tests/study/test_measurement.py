@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -132,6 +133,13 @@ def test_the_report_says_so(results: StudyResults) -> None:
     assert reported["Half-space"] == "warning"
     assert reported["Pressure independent of shear"] == "warning"
     assert reported["Shift factors from friction"] == "passed"
+
+
+def test_a_study_notes_measured_friction_below_zero() -> None:
+    material, measured = vf.synthetic_fluoroelastomer(), curves()
+    negative = replace(measured, viscoelastic=-measured.viscoelastic)
+    codes = [note.code for note in Measurement(negative, material, vf.Ball(9.525e-3), 25.0).notes]
+    assert codes.count("friction-below-zero") == 1
 
 
 def test_measured_points_are_solved_with_the_elastic_ball_of_the_study(tmp_path: Path) -> None:

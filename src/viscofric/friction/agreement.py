@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
+from viscofric.friction.intervals import half_widths
 from viscofric.friction.pairing import Pairs, along_reduced_speed, point_by_point
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.nominal import nominal_rows
 from viscofric.notes import Remedy
 from viscofric.showing import Plotted
 from viscofric.units import shown_number
@@ -22,6 +25,9 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, Integers, Mask
     from viscofric.showing import Rows
+
+#: Probability of a normal error below twice its standard deviation.
+WITHIN = 0.9545
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +45,12 @@ class Agreement(Plotted):
     share_within_error : float or None
         Share of the points where predicted and measured differ by at most twice the combined standard error
         √(s² + e² + m²), with s the standard error of the measured mean, e the numerical error of the prediction and m
-        its standard error due to the material, where the prediction has one.  Points whose s is
-        not known (infinite) are left out; None if there are no others.
+        its standard error due to the material, where the prediction has one; of few degrees of freedom, s is enlarged
+        as Student's interval is, so that 95 % of sound points are within.  Points whose s is not known (infinite) are
+        left out; None if there are no others.
     points : int
     temperature : (k,) array
-        Different temperatures, K, ascending.
+        Different temperatures, K, ascending: means of those that scatter about one.
     bias_at, rms_at, share_within_error_at : (k,) array
         The same for the points of each temperature; a share is NaN where there is no such point.
     points_at : (k,) array of int
@@ -264,19 +271,20 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     relative = difference / measured.viscoelastic
     own = np.hypot(measured.viscoelastic_error, pairs.numerical_error)
     material = np.zeros(len(measured)) if pairs.material_error is None else pairs.material_error
-    within = np.abs(difference) <= 2.0 * np.hypot(own, material)
+    likely = half_widths(measured.viscoelastic_error, error_freedom(measured)[0], WITHIN)
+    rest = 2.0 * np.hypot(pairs.numerical_error, material)
+    within = np.abs(difference) <= np.hypot(likely, rest)
     known = np.isfinite(measured.viscoelastic_error)
     repeated = (measured.replicates > 1) & np.isfinite(measured.viscoelastic_scatter)
     in_scatter = np.abs(difference) <= measured.viscoelastic_scatter
     own, material = own / measured.viscoelastic, material / measured.viscoelastic
-    there = measured.temperatures
-    groups = [measured.temperature == temperature for temperature in there]
+    groups = [np.isin(np.arange(len(measured)), rows) for rows in nominal_rows(measured.temperature)]
     return Agreement(
         bias=float(relative.mean()),
         rms=_rms(relative),
         share_within_error=float(within[known].mean()) if np.any(known) else None,
         points=len(measured),
-        temperature=there,
+        temperature=np.array([measured.temperature[group].mean() for group in groups]),
         bias_at=np.array([relative[group].mean() for group in groups]),
         rms_at=np.array([_rms(relative[group]) for group in groups]),
         share_within_error_at=np.array([_share(within[group & known]) for group in groups]),

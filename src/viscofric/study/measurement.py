@@ -59,7 +59,7 @@ class Measurement:
         self.notes = [*assumed, *map(note_of, curves.notes)]
         self._rule: dict[str, Any] = {"indenter": ball, "load": load, "vertical_shift": material.vertical_shift}
         self._master = shift_friction(curves, shift=material.shift, **self._rule)
-        self.notes.append(note_of(self._master.overlap_sentence))
+        self.notes += map(note_of, [*self._master.notes, self._master.overlap_sentence])
         self._found = self._shifted_by_itself()
 
     @property
@@ -133,5 +133,5 @@ class Measurement:
             where = "Shift factors from friction were not compared with the modulus's"
             self.notes.append(error.note.at(where).coded("not-compared"))
             return {}
-        self.notes += map(note_of, self._found.notes)
+        self.notes += [note for note in map(note_of, self._found.notes) if note not in self.notes]
         return {"/friction_shift_factors": agreement.to_dataset()}
