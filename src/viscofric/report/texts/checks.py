@@ -175,7 +175,7 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
     ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
     measured = f" ({ends[0]} to {ends[1]} rad/s at the reference temperature)" if len(ends) == 2 else ""
     kind = "identified" if is_from_friction(tree) else "measured"
-    meaning = "the frequency of the contact (shift factor times speed over half-width)"
+    meaning = "the frequency of the contact (shift factor times speed over half its length)"
     if outside:
         words = (
             f"In {several(counts)}, {meaning} lies outside the {kind} range{measured}; friction there depends on the "
