@@ -13,6 +13,7 @@ from click.testing import CliRunner, Result
 import viscofric as vf
 from cli.refusals import refusal
 from viscofric.cli import main
+from viscofric.cli.speed_options import chosen_speeds
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -126,3 +127,11 @@ def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, mo
 
     found = refusal("curve", *words)
     assert (found.status, found.code) == (1, code), found
+
+
+@pytest.mark.parametrize(
+    "text", ["1 mm/s to 1 m/s", "1 mm/s - 1 m/s", "1 mm/s .. 1 m/s", "1 mm/s…1 m/s", "1e-3 m/s – 1 m/s"]
+)
+def test_a_range_of_speeds_may_be_written_in_several_ways(text: str) -> None:
+    found = chosen_speeds({"speeds": [text], "points": 4})
+    np.testing.assert_allclose(found, [1e-3, 1e-2, 1e-1, 1.0], rtol=1e-12)

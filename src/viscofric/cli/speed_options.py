@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -48,6 +49,10 @@ def speed_options(speed: str) -> Callable[[Callable[..., Any]], Callable[..., An
     return add
 
 
+#: Between the ends of a range: "1 mm/s to 1 m/s", and other ways in which people write it.
+_BETWEEN = re.compile(r"\s(?:to|-|–)\s|\s*(?:\.{2,3}|…)\s*")
+
+
 def chosen_speeds(parameters: dict[str, Any]) -> list[float]:
     """Return the speeds (m/s) of the options."""
     return [speed for text in parameters["speeds"] for speed in _speeds(text, parameters["points"])]
@@ -66,7 +71,7 @@ def _speeds(text: str, points: int) -> list[float]:
     """Return the speeds that a list or a range names."""
     from viscofric.units import positive
 
-    ends = [end.strip() for end in text.split(" to ")]
+    ends = [end.strip() for end in _BETWEEN.split(text)]
     if len(ends) == 1:
         return [positive(one.strip(), "m/s", "--speed") for one in text.split(",")]
     if len(ends) > 2:
