@@ -409,6 +409,7 @@ def test_lock_is_complete_and_names_no_index() -> None:
 
 #: Modules that look into text which viscofric did not write: files, arguments, messages of others, SVG, addresses.
 FOREIGN_TEXT = (
+    "viscofric.cli.speed_options",
     "viscofric.readers",
     "viscofric.rheology.cards",
     "viscofric.rheology.shifts.shift_table",

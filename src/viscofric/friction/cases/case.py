@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
 from viscofric.friction.cases.record import Failure
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from viscofric.friction.cases.record import Record
     from viscofric.friction.cases.solving import Task
     from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
 @dataclass(frozen=True)
@@ -256,8 +256,10 @@ class Rubbers:
         kelvin = None if at_reference or material.shift is None else case.temperature
         key = case.material, case.sample, kelvin
         if key not in self._modes:
-            # The fit is large to send to processes, and does not affect the result.
-            self._modes[key] = replace(material.modes_at(kelvin), fit=None)
+            modes = material.modes_at(kelvin)
+            # Notes on the fit, and all on that of a table, belong to the material rather than to its contacts.
+            fit = modes.fit if isinstance(material.spectrum, RetardationSpectrum) else None
+            self._modes[key] = replace(modes, fit=None if fit is None else replace(fit, notes=()))
         return self._modes[key]
 
     def reference(self, case: Case) -> float:
