@@ -84,7 +84,7 @@ def highest_von_mises(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, poisson_r
     --------
     >>> import viscofric as vf
     >>> rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
-    >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="1 m/s", load="1 N", accuracy=1e-2)
+    >>> contact = vf.solve_steady(rubber, vf.Ball("10 mm"), speed="10 mm/s", load="1 N", accuracy=1e-2)
     >>> highest = vf.contact.highest_von_mises(contact.x, contact.y, contact.pressure, poisson_ratio=0.5)
     >>> 0.5 < highest.von_mises / contact.max_pressure < 0.7
     True
