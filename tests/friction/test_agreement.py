@@ -49,6 +49,15 @@ def test_temperatures_that_scatter_are_one_temperature() -> None:
     np.testing.assert_array_equal(agreement.points_at, [2, 2])
 
 
+def test_the_error_of_an_assumed_coulomb_friction_is_not_averaged_away() -> None:
+    measured = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02), error=0.002)
+    predicted = friction_curves(SPEED, TEMPERATURE, np.full(4, 0.02))
+    assert compare(measured, predicted).bias_error == pytest.approx(0.05)  # 10 % over the root of 4 points
+    assert compare(replace(measured, assumption="Coulomb friction is 0.05 ± 0.002."), predicted).bias_error == (
+        pytest.approx(0.1)
+    )
+
+
 def test_points_find_their_predictions_in_any_order() -> None:
     measured = friction_curves(SPEED, TEMPERATURE, np.array([0.01, 0.02, 0.03, 0.04]))
     backwards = friction_curves(SPEED[::-1], TEMPERATURE[::-1], measured.viscoelastic[::-1], load=25.3)

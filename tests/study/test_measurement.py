@@ -142,6 +142,12 @@ def test_a_study_notes_measured_friction_below_zero() -> None:
     assert codes.count("friction-below-zero") == 1
 
 
+def test_an_assumed_coulomb_friction_is_noted_once() -> None:
+    assumption = "Coulomb friction of 0.05 is assumed."
+    measured = replace(curves(), assumption=assumption, notes=(assumption,))
+    assert Measurement(measured, vf.synthetic_fluoroelastomer(), vf.Ball(9.525e-3), 25.0).notes.count(assumption) == 1
+
+
 def test_measured_points_are_solved_with_the_elastic_ball_of_the_study(tmp_path: Path) -> None:
     """As soft as the rubber, the ball changes friction: cases, measured points and master curve are of the same one."""
     text = STUDY.replace('"9.525 mm"', '"9.525 mm"\nmodulus = "5 MPa"')

@@ -58,8 +58,8 @@ class Agreement(Plotted):
         d in the order of the measured points.
     bias_error : float
         Standard error of `bias`; s and e are taken as independent from point to point, m as one error of all points,
-        the least favourable case.  Infinite if any s is.  It does not include errors that all speeds of a run share;
-        `separate` notes their size.
+        the least favourable case, and so is s where Coulomb friction is assumed.  Infinite if any s is.  It does not
+        include errors that all speeds of a run share; `separate` notes their size.
     bias_error_at : (k,) array
     share_within_scatter : float or None
         Share of the points where predicted and measured differ by at most the standard deviation over the measured
@@ -278,6 +278,8 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     repeated = (measured.replicates > 1) & np.isfinite(measured.viscoelastic_scatter)
     in_scatter = np.abs(difference) <= measured.viscoelastic_scatter
     own, material = own / measured.viscoelastic, material / measured.viscoelastic
+    if measured.assumption:  # an error of the assumed Coulomb friction is one of all points
+        own, material = np.zeros(len(measured)), np.hypot(own, material)
     groups = [np.isin(np.arange(len(measured)), rows) for rows in nominal_rows(measured.temperature)]
     return Agreement(
         bias=float(relative.mean()),

@@ -55,7 +55,8 @@ class Measurement:
 
     def __init__(self, curves: FrictionCurves, material: Material, ball: Ball, load: float) -> None:
         self.curves, self.material = curves, material
-        assumed = [Note("coulomb-assumed", curves.assumption)] if curves.assumption else []
+        alone = curves.assumption and curves.assumption not in curves.notes
+        assumed = [Note("coulomb-assumed", curves.assumption)] if alone else []
         self.notes = [*assumed, *map(note_of, curves.notes)]
         self._rule: dict[str, Any] = {"indenter": ball, "load": load, "vertical_shift": material.vertical_shift}
         self._master = shift_friction(curves, shift=material.shift, **self._rule)

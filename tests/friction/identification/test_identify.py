@@ -208,6 +208,16 @@ def test_errors_that_are_too_small_are_enlarged_and_reported() -> None:
 
 
 @pytest.mark.usefixtures("closed_form")
+def test_an_error_that_all_points_share_is_noted() -> None:
+    """Coulomb friction was assumed too small by 6 % of friction, within its error: no scatter shows it."""
+    curves = closed_form_curves(*WARM)
+    raised, error = curves.viscoelastic + 0.06 * curves.viscoelastic.mean(), 0.06 * curves.viscoelastic.mean()
+    shared = replace(curves, viscoelastic=raised, viscoelastic_error=np.full(len(curves), error))
+    found = vf.identify_material(shared, anchor=planted_anchor(), shift=RUBBER.shift, **FEW)
+    assert "errors-not-scatter" in codes(found.notes)
+
+
+@pytest.mark.usefixtures("closed_form")
 @pytest.mark.parametrize(
     ("friction", "expected"),
     [
@@ -234,15 +244,15 @@ def test_nothing_is_identified_from_friction_that_no_rubber_makes(friction, expe
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
-@pytest.mark.parametrize(("poisson_ratio", "expected"), [(0.5, set()), (0.4, {"tangential-coupling"})])
-def test_coulomb_friction_on_compressible_rubber_is_noted(poisson_ratio: float, expected: set[str]) -> None:
+@pytest.mark.parametrize(("poisson_ratio", "expected"), [(0.5, False), (0.4, True)])
+def test_coulomb_friction_on_compressible_rubber_is_noted(poisson_ratio: float, expected: bool) -> None:
     """Shear of μ_c = 0.3 changes friction by 0.48 a/R times 0.3 (1 − 2ν)/(2(1 − ν)), 0.05 for ν = 0.4."""
     curves = closed_form_curves(*WARM)
     rubbed = replace(curves, coulomb=np.full(len(curves), 0.3), slip=0.2 * curves.speed)
     found = vf.identify_material(
         rubbed, anchor=planted_anchor(), shift=RUBBER.shift, poisson_ratio=poisson_ratio, **FEW
     )
-    assert codes(found.notes) == expected
+    assert ("tangential-coupling" in codes(found.notes)) == expected
     assert found.identified.decades > 0.0
 
 

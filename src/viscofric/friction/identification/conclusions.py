@@ -43,6 +43,8 @@ DOUBTFUL = 3.0
 #: … and this many times as large as the errors, and larger than the limit of identification, they indicate a model that
 #: fails, not scatter: if successive residuals are correlated, and in any case.
 MODEL_FAILS, MODEL_FAILS_ANYHOW = 3.0, 10.0
+#: Probability of residuals as small as those that are noted, and the smallest ratio to the errors that is written.
+TOO_GOOD, LEAST_RATIO = 1e-3, 1e-3
 #: Successive residuals are correlated from this many standard deviations of von Neumann's ratio on.
 FOLLOWING = 3.0
 #: The given moduli contradict the friction if the fit differs from them by more standard errors.
@@ -174,7 +176,7 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit:
     points = outcome.start.observations.points
     notes: list[str] = list(implausible(points.at_one_load(outcome.curves)))
     if error_scale == 1.0:
-        return tuple(notes)
+        return tuple(notes) or _too_small(best)
     scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"
     away = _residuals(best)
     follow = _follow_each_other(best, away)
@@ -205,6 +207,25 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit:
             )
         )
     return tuple(notes)
+
+
+def _too_small(best: Weighed[Problem]) -> tuple[Note, ...]:
+    """Return a note if the residuals are smaller than the errors by more than chance explains."""
+    from scipy.special import chdtr
+
+    points = best.problem.observations.points
+    away, freedom = _residuals(best), freedom_of(best, len(points))
+    if freedom < 1.0 or "errors-from-scatter" in codes(points.notes) or chdtr(freedom, away @ away) > TOO_GOOD:
+        return ()
+    ratio = float(away @ away) / freedom
+    note = Note(
+        "errors-not-scatter",
+        f"The residuals are {1.0 / max(np.sqrt(ratio), LEAST_RATIO):.2g} times smaller than the standard errors of the "
+        "friction: these are too large, or the points share them, as the error of an assumed Coulomb friction; the "
+        "bands, which take the errors of the points as independent, are then too narrow.",
+        values={"scale": float(np.sqrt(ratio))},
+    )
+    return (note,)
 
 
 def _residuals(best: Weighed[Problem]) -> Array:

@@ -243,7 +243,7 @@ class _Separation:
             consistency=column(3, "value") if checked else None,
             consistency_error=column(3, "error") if checked else None,
             source=runs.source,
-            notes=(*runs.notes, *([Note("coulomb-assumed", assumption)] if assumption else []), *self.notes, *notes),
+            notes=(*runs.notes, *([assumption] if assumption else []), *self.notes, *notes),
             slip=np.array([group.slip for group in groups]),
             offset=column(0, "value"),
             assumption=assumption,
