@@ -55,6 +55,14 @@ def test_the_contact_that_is_solved_lies_between_its_bounds() -> None:
     assert 0.9 * size["smallest_radius"] < radius < size["largest_radius"]
 
 
+def test_heat_beyond_any_shift_law_has_a_finite_effect() -> None:
+    """Friction in wrong units heats by thousands of K, and α(T) falls by hundreds of decades."""
+    huge = friction_curves(SPEED, KELVIN, np.full(4, 3e4))
+    found = checks(RUBBER, BALL, huge)["one temperature"]
+    assert not found.holds
+    assert np.isfinite(found.value)
+
+
 @pytest.mark.parametrize(("thickness", "holds"), [("8 mm", False), ("13 mm", None), ("16 mm", True)])
 def test_what_depends_on_the_contacts_size_is_left_open(thickness: str, holds: bool | None) -> None:
     """Four times 2.4 mm, an estimate, and four times 3.5 mm, the bound, are 9.7 and 14.2 mm."""

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 # Loads whose logarithms differ by less are equal; parts of the shift that are checked, as a maximum may lie within.
 _SAME_LOAD, _STEPS = 0.05, np.linspace(0.0, 1.0, 5)
 _MOST = 3  # points whose rises are found
+_FARTHEST = 20.0  # decades: such a rise is beyond any law of the shift
 _CELLS = 36  # along the pressure of a contact
 
 
@@ -183,7 +184,7 @@ def _change(material: Material, indenter: Indenter, curves: FrictionCurves, deca
             under_load[load] = FirstOrder(indenter, float(np.exp(_SAME_LOAD * load)), plane_strain, modes.tau[lossy])
         first = under_load[load].at_times(modes.tau[lossy])
         compliances = np.log([1.0 / modes.E_inf, *modes.C[lossy]])
-        on_the_way = np.log(curves.speed[rows]) - LN10 * np.multiply.outer(_STEPS, decades[rows])
+        on_the_way = np.log(curves.speed[rows]) - LN10 * np.multiply.outer(_STEPS, np.minimum(decades[rows], _FARTHEST))
         friction = first(compliances, on_the_way.ravel()).log_friction.reshape(on_the_way.shape)
         change[rows] = np.expm1(np.abs(friction - friction[0]).max(axis=0))
     return change
