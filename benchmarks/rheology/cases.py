@@ -16,12 +16,14 @@ import viscofric as vf
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "rheology"))
 from planted import (  # noqa: E402
+    FAMILIES,
     FREQUENCIES,
     PROGRAMME,
     STEP_PROGRAMMES,
     Planted,
     planted_steps,
     planted_sweeps,
+    random_sweeps,
     synthetic_polymer,
     synthetic_soft_rubber,
 )
@@ -105,6 +107,22 @@ def offset_case(problem: dict[str, Any], seed: int) -> tuple[Planted, str]:
         **shift,
     )
     return planted, reference
+
+
+def edge_problems() -> list[dict[str, Any]]:
+    """Return families of random rubbers, without offsets of isotherms and with 3 %."""
+    return [
+        {"family": family, "offset": offset, "title": f"{family}, {offset:.0%} offsets"}
+        for offset in (0.0, 0.03)
+        for family in FAMILIES
+    ]
+
+
+def edge_case(problem: dict[str, Any], seed: int) -> tuple[Planted, float]:
+    """Return sweeps of a random rubber, and the temperature of a middle isotherm as the reference, K."""
+    planted = random_sweeps(seed, problem["family"], offset=problem["offset"])
+    temperatures = planted.sweeps.temperatures
+    return planted, float(temperatures[len(temperatures) // 2])
 
 
 def step_problems() -> list[dict[str, Any]]:

@@ -1,7 +1,7 @@
 """viscofric's rheology beside its peers, on the same data and in the same run.
 
-Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--offsets N] [--steps N] [--first N] [--only TEXT]
-       [--json FILE] [--environment FOLDER] [--limit SECONDS]
+Usage: python benchmarks/rheology/run.py [--peers] [--seeds N] [--edges N [--friction]] [--offsets N] [--steps N]
+       [--first N] [--only TEXT] [--json FILE] [--environment FOLDER] [--limit SECONDS]
 
 Shifting of measured and of planted sweeps, spectra of the master curve, honesty of the stated 95 % bands over many
 planted sweeps, exactness of the conversion of spectra.  README.md beside this file says how each is measured.
@@ -72,6 +72,12 @@ STEPS = (
     ("E''(ω)", "loss", ".1%"),
     ("doubtful", "doubtful", "d"),
 )
+EDGES = (
+    ("CPU s", "seconds", ".2f"),
+    ("seeds", "seeds", "d"),
+    *((zone, zone, ".1%") for zone in own.ZONES),
+    *((f"± {zone}", f"{zone}_width", ".1%") for zone in own.ZONES),
+)
 ROUND_TRIP = (("CPU s", "seconds", ".4f"), ("modes", "modes", "d"), ("error", "error", ".1e"))
 
 
@@ -103,6 +109,13 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
         tables["planted truth within the stated 95 % bands"] = [
             own.coverage(material, seeds(options.seeds)) for material in cases.MATERIALS
         ]
+    if options.edges:
+        tables["edges: planted truth within the stated 95 % bands, by distance from the measured range"] = [
+            row
+            for problem in cases.edge_problems()
+            if options.only in problem["title"]
+            for row in own.edges(problem, seeds(options.edges), options.friction)
+        ]
     if options.offsets:
         tables["offsets of isotherms: planted truth within the stated 95 % bands"] = [
             own.with_offsets(problem, seeds(options.offsets))
@@ -125,6 +138,7 @@ def columns_of(title: str) -> tuple[tuple[str, str, str], ...]:
         "shifting": SHIFTING,
         "spectrum": SPECTRUM,
         "planted": COVERAGE,
+        "edges": EDGES,
         "offsets": OFFSETS,
         "step tests": STEPS,
         "retardation": ROUND_TRIP,
@@ -158,10 +172,14 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--peers", action="store_true", help="run the peers too (minutes)")
     parser.add_argument("--seeds", type=int, default=20, help="planted sweeps for the bands; 0 leaves them out")
+    parser.add_argument(
+        "--edges", type=int, default=0, help="sweeps of each family of random rubbers (a minute for 20)"
+    )
+    parser.add_argument("--friction", action="store_true", help="with --edges: friction too (ten times as long)")
     parser.add_argument("--offsets", type=int, default=0, help="planted sweeps with offsets of isotherms (minutes)")
     parser.add_argument("--steps", type=int, default=0, help="planted creep and relaxation tests (minutes)")
     parser.add_argument("--first", type=int, default=0, help="first seed: others than those a method was set with")
-    parser.add_argument("--only", default="", metavar="TEXT", help="of both, problems whose title holds a text")
+    parser.add_argument("--only", default="", metavar="TEXT", help="of these, problems whose title holds a text")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--environment", type=Path, default=HERE / ".peers", help="the peers' environment")
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for each answer of a peer")

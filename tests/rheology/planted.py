@@ -39,6 +39,64 @@ def synthetic_soft_rubber() -> vf.Material:
     return vf.Material(vf.RetardationSpectrum(2e6, 3e8, C, tau), shift, name="invented soft rubber (synthetic)")
 
 
+#: Families of random spectra, see `random_rubber`.
+FAMILIES = ("few modes", "power law", "fractional", "clusters")
+#: Decades of frequency in a sweep of a random rubber, and the modulus at rest of all, Pa.
+SWEPT, RELAXED = 2.0, 2e6
+
+
+def random_rubber(family: str, random: np.random.Generator) -> vf.Material:
+    """Return an invented rubber whose transition lies about 1 s at 20 °C, often in part beyond what sweeps reach.
+
+    "few modes": 3 to 8 retardation times over eight decades.  "power law": C as a power of τ over three to nine
+    decades.  "fractional": the Cole–Cole compliance, sin πβ / (cosh(β ln τ/τ0) + cos πβ).  "clusters": two to four
+    groups of modes, normal in ln τ, with gaps between them.
+    """
+    tau = np.logspace(-14.0, 14.0, 225)
+    if family == "few modes":
+        tau = np.sort(10.0 ** random.uniform(-4.0, 4.0, random.integers(3, 9)))
+        strength = 10.0 ** random.uniform(-1.0, 0.0, len(tau))
+    elif family == "power law":
+        ends = random.uniform(-5.0, -1.0), random.uniform(1.0, 4.0)
+        strength = np.where((np.log10(tau) > ends[0]) & (np.log10(tau) < ends[1]), tau ** random.uniform(0.1, 0.6), 0.0)
+    elif family == "fractional":
+        beta, away = random.uniform(0.25, 0.75), np.log(tau) - np.log(10.0) * random.uniform(-2.0, 2.0)
+        strength = 1.0 / (np.cosh(beta * away) + np.cos(np.pi * beta))
+    else:
+        places = np.sort(random.uniform(-4.0, 4.0, random.integers(2, 5)))
+        widths, weights = random.uniform(0.15, 0.8, len(places)), 10.0 ** random.uniform(-1.0, 0.0, len(places))
+        strength = np.exp(-0.5 * ((np.log10(tau)[:, None] - places) / widths) ** 2) @ weights
+    stiffness = 10.0 ** random.uniform(0.7, 3.0)
+    C = (1.0 - 1.0 / stiffness) / RELAXED * strength / strength.sum()
+    seen = strength > 1e-9 * strength.max()
+    spectrum = vf.RetardationSpectrum(1.0 / (C[seen].sum() + 1.0 / (stiffness * RELAXED)), stiffness * RELAXED,
+                                      C[seen], tau[seen])  # fmt: skip
+    return vf.Material(spectrum, vf.WLF(C1=8.0, C2=130.0, reference="20 degC"), name=f"random rubber, {family}")
+
+
+def random_sweeps(seed: int, family: str, *, offset: float = 0.0) -> Planted:
+    """Make sweeps of a random rubber: 3 to 8 isotherms, 5 to 20 points, 1 to 5 % of noise.
+
+    Neighbouring isotherms overlap by 0.8 to 1.5 of their two decades; `offset` is that of `planted_sweeps`, shared.
+    """
+    random = np.random.default_rng([seed, FAMILIES.index(family)])
+    material = random_rubber(family, random)
+    count, points = int(random.integers(3, 9)), int(random.integers(5, 21))
+    noise, step = 10.0 ** random.uniform(-2.0, np.log10(0.05)), random.uniform(0.5, 1.2)
+    assert isinstance(material.shift, vf.WLF)
+    places = step * (np.arange(count) - 0.5 * (count - 1))  # log10 α = −C1 θ/(C2 + θ)
+    celsius = 20.0 - 130.0 * places / (places + 8.0)
+    return planted_sweeps(
+        seed,
+        noise,
+        material=material,
+        celsius=np.sort(celsius),
+        frequencies=np.logspace(-0.5 * SWEPT, 0.5 * SWEPT, points) / (2.0 * np.pi),
+        offset=offset,
+        shared=True,
+    )
+
+
 @dataclass(frozen=True)
 class Planted:
     """Sweeps and the truth that they were made of.

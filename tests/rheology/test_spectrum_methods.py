@@ -217,7 +217,10 @@ def test_melts_are_fitted_closely_or_refused_up_to_one_molar_mass(noise):
         assert max(spectrum.fit.rms_storage, spectrum.fit.rms_loss) < 0.035
         # Draws of the rubber, which start from the fit, follow it as closely.
         misfit = ModulusMisfit(curve.angular_frequency, curve.complex_modulus)
-        again = Refit(spectrum, misfit, curve.angular_frequency[0], curve.angular_frequency[-1])(misfit)
+        refit = Refit(
+            np.random.default_rng(0), spectrum, misfit, curve.angular_frequency[0], curve.angular_frequency[-1]
+        )
+        again = refit(misfit, np.full(len(misfit.target), 0.01))
         left = misfit.residual(misfit.columns(again.tau) @ np.append(again.glass, again.C))
         assert np.sqrt(np.mean(left**2)) / np.log(10.0) < 0.035
     assert refused[0]

@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from rheology.planted import planted_sweeps, synthetic_polymer
+from rheology.planted import FAMILIES, planted_sweeps, random_sweeps, synthetic_polymer
 from viscofric import RetardationSpectrum, ShiftFactors, fit_retardation_spectrum
 from viscofric.data import MasterCurve
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
@@ -332,10 +332,10 @@ def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
     low, high = samples.frequency_range
     glass = half_width(samples.modulus_band(np.array([high / 10.0])))
     assert 0.02 < glass[0, 0] < 0.2
-    # The rubber plateau was not measured, but the fit does not run away from the softest points by decades.
+    # The rubber plateau was not measured: E0 may be lower by what modes of two more decades do.
     rubber = half_width(samples.modulus_band(np.array([low])))
     assert np.all(rubber < 0.1)
-    assert np.ptp(np.log10(samples.E0)) < 0.3
+    assert np.ptp(np.quantile(np.log10(samples.E0), [0.025, 0.975])) < 1.0
 
 
 @pytest.mark.apart
@@ -370,3 +370,39 @@ def test_draws_change_by_rounding_only_where_the_covariance_does():
     np.testing.assert_allclose(
         normal_deviates(np.random.default_rng(1), covariance, 20_000).var(axis=0)[[0, 6]], [1, 2], rtol=0.05
     )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", FAMILIES)
+def test_bands_hold_near_the_ends_of_what_was_measured(family):
+    """E' and E'' of 12 random rubbers of each family, in the half decade within either end.
+
+    Points of one end of one rubber err together.  Of 12 independent ones at 95 %, 9 or more are held with a probability
+    of 99.8 %, by the binomial distribution.
+    """
+    held = []
+    for seed in range(40, 52):
+        planted = random_sweeps(seed, family)
+        reference = float(np.median(planted.sweeps.temperatures))
+        samples = sample_materials(vf.superpose(planted.sweeps, reference), samples=40, seed=seed)
+        low, high = samples.frequency_range
+        omega = np.array([low, 3.0 * low, high / 3.0, high])
+        band, modulus = samples.modulus_band(omega), planted.complex_modulus(omega, reference)
+        storage = (modulus.real >= band.lower.real) & (modulus.real <= band.upper.real)
+        loss = (modulus.imag >= band.lower.imag) & (modulus.imag <= band.upper.imag)
+        held.append([storage, loss])
+    assert np.all(np.sum(held, axis=0) >= 9)
+    assert np.mean(held) > 0.88
+
+
+def test_bands_beyond_what_was_measured_are_wide():
+    """A spectrum that ends at the measured frequencies and one that continues are both within the limits of E''."""
+    samples = sample_materials(known_superposition())
+    low, high = samples.frequency_range
+    omega = np.array([low / 10.0, low, high, 10.0 * high])
+    band, modulus = samples.modulus_band(omega), vf.synthetic_fluoroelastomer().complex_modulus(omega)
+    inside, beyond = half_width(band)[1, 1:3], half_width(band)[1, [0, 3]]
+    assert np.all(beyond > 5.0 * inside)
+    held = (band.lower.imag < modulus.imag) & (modulus.imag < band.upper.imag)
+    assert held[0]
+    assert held[3]

@@ -55,12 +55,13 @@ class MaterialSamples(Plotted, Items["Material"]):
     materials : tuple of Material
         Each with a spectrum and a shift that belong together.
     C : (samples, n) array
-        Compliance of every mode, zeros included, 1/Pa.
+        Compliance of every mode, zeros included, 1/Pa.  Samples of `sample_materials` have modes at times of their own;
+        here each is shared between the two neighbouring times.
     tau : (samples, n) array
         Retardation times, s; the same in every row, unless the modes are sparse.
     frequency_range : tuple of float
-        Reduced angular frequencies that were measured, rad/s.  Beyond them the bands show how the fit
-        extrapolates, not what the material does.
+        Reduced angular frequencies that were measured, rad/s.  Beyond them the bands show what smooth continuations of
+        the spectrum would do.
     misfit : SystematicMisfit or None
         What the fitted spectrum misses of the measured moduli beyond noise; None where that is not known.
     """

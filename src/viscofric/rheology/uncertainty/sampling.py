@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
     from viscofric.rheology.spectra.fit_verdict import Curve
-    from viscofric.rheology.spectra.modulus_misfit import Modes
 
 Fit: TypeAlias = Superposition | StepSuperposition
 
@@ -91,12 +90,17 @@ def sample_materials(
     Notes
     -----
     A bootstrap of the fit (B. Efron, R. Tibshirani, An Introduction to the Bootstrap, 1993, ch. 9).  In every
-    sample the isotherms are moved by errors of their shifts, all at once from their covariance; the moduli
-    are those of the fitted spectrum with errors like its residuals (`Residuals`); and the spectrum is fitted
-    anew.  Errors of the shifts and of the moduli about the curve are independent to first order, for in the
-    least squares that find both they belong to orthogonal spaces.  Offsets of whole isotherms
-    (`Superposition.offsets`) are drawn together with the errors of the shifts, which follow them; the size
-    of offsets differs from sample to sample, by its own likelihood, for isotherms are few.
+    sample the isotherms are moved by errors of their shifts, all at once from their covariance; the measured moduli get
+    errors like the residuals of the fit (`Residuals`); and the spectrum is fitted anew.  Errors of the shifts and of
+    the moduli about the curve are independent to first order, for in the least squares that find both they belong to
+    orthogonal spaces.  Offsets of whole isotherms (`Superposition.offsets`) are drawn together with the errors of the
+    shifts, which follow them; the size of offsets differs from sample to sample, by its own likelihood, for isotherms
+    are few.
+
+    What the measurement leaves open is drawn too (`Refit`): where the lattice of retardation times lies, and the modes
+    beyond the times that it reaches, to two decades on either side.  These have a wide distribution about the density
+    of the spectrum at the end, and are drawn again where they contradict the sample.  Without them the bands would be
+    too narrow at the ends of the measured frequencies and beyond (`benchmarks/rheology`).
 
     What the spectrum misses beyond noise, alike over neighbouring points, is not drawn either, for it has no
     distribution; `MaterialSamples.misfit` holds its size, by which the bands of E(ω) are widened.
@@ -132,18 +136,21 @@ def sample_materials(
     moved = np.array([table.log10_values for table in tables]) - shifts.log10_values
     raised = np.zeros_like(moved)
     if isinstance(fit.vertical_shift, VerticalShiftFactors):
-        drawn = [one.log10_values for one in verticals if isinstance(one, VerticalShiftFactors)]
-        raised = np.array(drawn) - fit.vertical_shift.log10_values
+        rows = [one.log10_values for one in verticals if isinstance(one, VerticalShiftFactors)]
+        raised = np.array(rows) - fit.vertical_shift.log10_values
     laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, shifts, moved, shifts.law(law))
-    fitted = _refitted(random, fit, spectrum, moved, offsets - raised[..., None])
+    drawn = Resampled(random, fit, spectrum, moved, offsets - raised[..., None])
+    refit = Refit(random.spawn(1)[0], spectrum, drawn.misfit, *drawn.ends)
+    fitted = [refit(*drawn(number)) for number in range(samples)]
+    common_modes = [refit.on_lattice(modes) for modes in fitted]
     materials = []
     for modes, shift, vertical in zip(fitted, laws, verticals, strict=True):
         material = Material(as_spectrum(modes), shift, poisson_ratio, name)
         materials.append(material if vertical is None else replace(material, vertical_shift=vertical))
     return MaterialSamples(
         tuple(materials),
-        np.array([modes.C for modes in fitted]),
-        np.array([modes.tau for modes in fitted]),
+        np.array([modes.C for modes in common_modes]),
+        np.array([modes.tau for modes in common_modes]),
         frequencies_of(curve),
         _misfit(curve, shifts, spectrum),
     )
@@ -172,8 +179,14 @@ def _of_several(
         place = np.abs(own[:, None] - common.temperatures).argmin(axis=1)
         drawn.append(Resampled(random, part, spectrum, moved[:, place], offsets))
     joint = joint_misfit(curves)
-    refit = Refit(spectrum, joint, min(one.ends[0] for one in drawn), max(one.ends[1] for one in drawn))
-    fitted = [refit(JointMisfit([one(number) for one in drawn], joint.free)) for number in range(samples)]
+    refit = Refit(
+        random.spawn(1)[0], spectrum, joint, min(one.ends[0] for one in drawn), max(one.ends[1] for one in drawn)
+    )
+    fitted = []
+    for number in range(samples):
+        misfits, noise = zip(*(one(number) for one in drawn), strict=True)
+        fitted.append(refit(JointMisfit(misfits, joint.free), np.concatenate(noise)))
+    common_modes = [refit.on_lattice(modes) for modes in fitted]
     tables = [ShiftFactors(common.temperatures, common.log10_values + row, common.reference) for row in moved]
     laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, common, moved, common.law(law))
     materials = tuple(
@@ -183,8 +196,8 @@ def _of_several(
     assert spectrum.fit is not None
     return MaterialSamples(
         materials,
-        np.array([modes.C for modes in fitted]),
-        np.array([modes.tau for modes in fitted]),
+        np.array([modes.C for modes in common_modes]),
+        np.array([modes.tau for modes in common_modes]),
         spectrum.fit.frequency_range,
     )
 
@@ -215,15 +228,6 @@ def _misfit(curve: Curve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -
     misfit = misfit_of(curve)
     residual = misfit.residual(misfit.compliance(spectrum)).reshape(-1, len(misfit.rates)).T / np.log(10.0)
     return systematic_misfit(np.log10(misfit.rates), residual, isotherm_of_points(curve, shifts))
-
-
-def _refitted(
-    random: np.random.Generator, fit: Fit, spectrum: RetardationSpectrum, moved: Array, levels: Array
-) -> list[Modes]:
-    """Fit the spectrum to samples of the master curve; see `Resampled`."""
-    drawn = Resampled(random, fit, spectrum, moved, levels)
-    refit = Refit(spectrum, drawn.misfit, *drawn.ends)
-    return [refit(drawn(number)) for number in range(len(moved))]
 
 
 def normal_deviates(random: np.random.Generator, covariance: Array, samples: int) -> Array:
