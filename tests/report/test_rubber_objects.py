@@ -219,6 +219,21 @@ def test_samples_give_the_band_that_they_state(axes: Axes, fit: vf.rheology.Supe
         assert heights_at(loss, omega[place]) == pytest.approx(ends)
 
 
+def test_a_band_beyond_the_points_lies_on_grey(axes: Axes, fit: vf.rheology.Superposition, spectrum: Any) -> None:
+    rubber.plot_master_curve(axes, fit, spectrum)
+    assert not axes.patches
+    ends = {
+        f"{one}_modulus_{end}": (np.ones(3), "Pa", end) for one in ("storage", "loss") for end in ("lower", "upper")
+    }
+    omega = (np.array([1e-9, 1e-2, 1e12]), "rad/s", "angular frequency")
+    rubber.plot_master_curve(
+        axes, fit, spectrum, band=dataset("angular_frequency", ends, coordinates={"angular_frequency": omega})
+    )
+    left, right = (patch.get_extents().transformed(axes.transData.inverted()) for patch in axes.patches)
+    assert left.x1 == pytest.approx(fit.master_curve.angular_frequency[0], rel=1e-6)
+    assert right.x0 == pytest.approx(fit.master_curve.angular_frequency[-1], rel=1e-6)
+
+
 def test_residuals_need_a_fit(axes: Axes, fit: vf.rheology.Superposition) -> None:
     with pytest.raises(InputError) as caught:
         rubber.plot_residuals(axes, fit)

@@ -142,6 +142,8 @@ def test_bands_over_frequency() -> None:
     np.testing.assert_array_equal(data.storage_modulus_lower, band.lower.real)
     np.testing.assert_array_equal(data.loss_modulus_upper, band.upper.imag)
     assert "90 %" in data.storage_modulus_lower.attrs["long_name"]
+    ends = samples.to_dataset([0.9, 1.0, 1e4, 1.1e4])
+    assert ends.within_measured_frequencies.values.tolist() == [0.0, 1.0, 1.0, 0.0]
 
 
 def test_measurements_and_master_curve(fit: vf.rheology.Superposition) -> None:

@@ -265,7 +265,7 @@ def _origin(tree: xr.DataTree) -> str:
 def _banded(tree: xr.DataTree) -> str:
     spectrum = group(tree, "spectrum_curve")
     banded = spectrum is not None and "storage_modulus_lower" in spectrum
-    return ", with the 95 % band of its modulus" if banded else ""
+    return ", with the 95 % band of its modulus (grey: extrapolated, beyond what was measured)" if banded else ""
 
 
 def _shaded(tree: xr.DataTree, name: str) -> str:

@@ -118,7 +118,8 @@ def plot_master_curve(
         K, for the label; known already where a master curve is given as an object.
     band : MaterialSamples or xarray.Dataset, optional
         Bounds of E' and E''; a dataset has `storage_modulus_lower`, `storage_modulus_upper`, `loss_modulus_lower`
-        and `loss_modulus_upper` along `angular_frequency`.
+        and `loss_modulus_upper` along `angular_frequency`.  Frequencies beyond the points lie on grey then: the bounds
+        there are those of an extrapolated spectrum.
     synthetic : bool
         Whether to call the points synthetic instead of measured.
     """
@@ -160,6 +161,8 @@ def plot_master_curve(
             bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, **look))
     axes.set_xscale("log")
     axes.set_yscale("log")
+    if bands and frequency.size:
+        bands += _shade_beyond(axes, float(frequency.min()), float(frequency.max()))
     axes.set_xlabel(_reduced_label(measured, reference_temperature))
     axes.set_ylabel("modulus (MPa)")
     decade_ticks(axes.xaxis)
@@ -258,7 +261,7 @@ def plot_retardation_spectrum(
     _draw_modes(axes, tau, C * _PASCAL_PER_MEGAPASCAL, BLUE, "o")
     handles = [] if samples is None else _draw_band(axes, samples)
     if frequencies is not None:
-        handles += _shade_extrapolated(axes, frequencies)
+        handles += _shade_beyond(axes, 1.0 / frequencies[1], 1.0 / frequencies[0])
     if handles:
         legend_above(axes, handles)
     axes.set_xlabel(r"retardation time $\tau_k$ (s)")
@@ -310,12 +313,12 @@ def _draw_band(axes: Axes, samples: MaterialSamples) -> list[Any]:
     return [filled]
 
 
-def _shade_extrapolated(axes: Axes, frequencies: tuple[float, float]) -> list[Any]:
+def _shade_beyond(axes: Axes, first: float, last: float) -> list[Any]:
+    """Put grey behind what lies below the first and above the last measured place."""
     left, right = axes.get_xlim()
-    shortest, longest = 1.0 / frequencies[1], 1.0 / frequencies[0]
     spans = [
         axes.axvspan(start, end, color=GREY, alpha=0.18, linewidth=0, zorder=0, label="extrapolated")
-        for start, end in ((left, min(shortest, right)), (max(longest, left), right))
+        for start, end in ((left, min(first, right)), (max(last, left), right))
         if start < end
     ]
     axes.set_xlim(left, right)

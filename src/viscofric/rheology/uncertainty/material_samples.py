@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 
+#: Frequencies beyond the measured ones by no more than this, in decades, were measured.
+ROUNDING = 1e-6
+
+
 class Band(NamedTuple):
     """Lower limit, middle (the median) and upper limit, each an array of one shape.
 
@@ -128,6 +132,11 @@ class MaterialSamples(Plotted, Items["Material"]):
         -----
         Where the spectrum misses what was measured by more than noise (`misfit`), this is added as another error of the
         logarithms of E' and E'', independent of those that were drawn.
+
+        Of random rubbers with 3 to 8 isotherms, 95 % bands held E' and E'' in 93 to 98 % at the ends of the measured
+        frequencies, within half a decade, and in 86 to 92 % up to a decade beyond (`benchmarks/rheology`).  Beyond,
+        limits depend on how far a spectrum may change there, and farther out they hold nothing that is known;
+        `to_dataset` states which frequencies were measured.
         """
         omega, level = in_si(angular_frequency, "rad/s", "angular_frequency"), share(level, "level", example=0.95)
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
@@ -152,12 +161,16 @@ class MaterialSamples(Plotted, Items["Material"]):
         -------
         xarray.Dataset
             ``storage_modulus_lower``, ``storage_modulus_upper``, ``loss_modulus_lower`` and ``loss_modulus_upper`` (Pa)
-            along ``angular_frequency`` (rad/s).
+            along ``angular_frequency`` (rad/s), and ``within_measured_frequencies``, 0 where the limits belong to an
+            extrapolated spectrum.
         """
         omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         level = share(level, "level", example=0.95)
         band = self.modulus_band(omega, temperature, level)
-        columns = {}
+        reduced = np.log10(omega) + self._log10_alpha(temperature)
+        low, high = np.log10(self.frequency_range)
+        within = ((reduced >= low - ROUNDING) & (reduced <= high + ROUNDING)).astype(float)
+        columns = {"within_measured_frequencies": (within, "1", "whether the frequency was measured")}
         for part, take in {"storage": np.real, "loss": np.imag}.items():
             for end, limit in {"lower": band.lower, "upper": band.upper}.items():
                 meaning = f"{end} end of the {100 * level:g} % band of the {part} modulus"

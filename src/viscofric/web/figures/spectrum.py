@@ -59,17 +59,25 @@ def moduli_figures(
             all_traces.append(points(*over_frequency("isotherm", key), f"{name} of this sweep", **look))
         return all_traces
 
+    measured: Any = found
+    for part in moved.split(".") if moved else ():
+        measured = measured.get(part) or {}
+    seen = measured.get("angular_frequency") if moved and fitted else None
+    ends = [] if not seen else [{"x": min(seen), "label": "measured from"}, {"x": max(seen), "label": "to"}]
     at = "" if temperature is None else f" at {quantity(temperature, 'temperature')}"
     sentences = [
         band and f"95 % bands of each modulus ({band['draws']} bootstrap samples).",
         moved and "Points: all measurements, shifted to this temperature.",
         sweep and f"Filled points: the sweep measured at {quantity(sweep['temperature'], 'temperature')}.",
-        "Beyond the points the spectrum is extrapolated." if fitted else None,
+        f"Beyond the points{' (dotted lines)' if ends else ''} the spectrum is extrapolated"
+        f"{', and its bands show what a continuation may be' if band else ''}."
+        if fitted
+        else None,
     ]
     caption = " ".join(filter(None, sentences))
     return {
-        "modulus": figure(f"E′ and E″{at}", FREQUENCY, MODULUS, traces(_MODULI), caption),
-        "loss-tangent": figure(f"tan δ{at}", FREQUENCY, axis("tan δ", log=True), traces(_TANGENT)),
+        "modulus": figure(f"E′ and E″{at}", FREQUENCY, MODULUS, traces(_MODULI), caption, marks=ends),
+        "loss-tangent": figure(f"tan δ{at}", FREQUENCY, axis("tan δ", log=True), traces(_TANGENT), marks=ends),
     }
 
 
