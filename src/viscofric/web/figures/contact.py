@@ -61,7 +61,7 @@ def _map(found: dict[str, Any]) -> Spec:
         else "Top view: outline of the contact, + the indenter's axis, ● the centre of pressure. The indenter moves to "
         "the right; the leading edge is on the right.",
         z=_PRESSURE,
-        map={"x": "map.x", "y": "map.y", "z": "map.pressure", "smooth": False if rough else "best"},
+        map={"x": "map.x", "y": "map.y", "z": "map.pressure", "smooth": False if rough else "fast"},
     )
 
 
