@@ -149,6 +149,16 @@ def test_given_errors_that_are_too_small_are_enlarged() -> None:
     assert codes(found.notes) == {"errors-enlarged"}
 
 
+def test_a_given_error_that_all_rows_share_is_noted() -> None:
+    """A load cell that is wrong by 2 % scatters no row: its error belongs in load_error."""
+    exact = creep(noise=0.004)
+    record = vf.friction.IndentationRecord(
+        TIME, exact.load, 1.02 * exact.indentation, KELVIN, control="load", start=0.0, error=0.02 * exact.indentation
+    )
+    found = vf.identify_from_indentation(record, BALL, samples=20, modes=16)
+    assert "errors-not-scatter" in codes(found.notes)
+
+
 def test_dense_records_are_averaged() -> None:
     time = np.linspace(0.02, 40.0, 2000)
     J = RUBBER.at(KELVIN).creep_compliance(time)

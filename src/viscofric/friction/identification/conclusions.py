@@ -21,7 +21,7 @@ from viscofric.friction.identification.drawn_materials import (
 )
 from viscofric.friction.identification.identified import IdentifiedBand
 from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
-from viscofric.friction.identification.posterior import correlation
+from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedMaterial, LevelFit
 from viscofric.notes import Note, codes
 from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
@@ -43,8 +43,6 @@ DOUBTFUL = 3.0
 #: … and this many times as large as the errors, and larger than the limit of identification, they indicate a model that
 #: fails, not scatter: if successive residuals are correlated, and in any case.
 MODEL_FAILS, MODEL_FAILS_ANYHOW = 3.0, 10.0
-#: Probability of residuals as small as those that are noted, and the smallest ratio to the errors that is written.
-TOO_GOOD, LEAST_RATIO = 1e-3, 1e-3
 #: Successive residuals are correlated from this many standard deviations of von Neumann's ratio on.
 FOLLOWING = 3.0
 #: The given moduli contradict the friction if the fit differs from them by more standard errors.
@@ -175,8 +173,10 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit:
     """Return notes on doubts about the residuals and the friction."""
     points = outcome.start.observations.points
     notes: list[str] = list(implausible(points.at_one_load(outcome.curves)))
+    if error_scale == 1.0 and not notes and "errors-from-scatter" not in codes(points.notes):
+        return too_small(_residuals(best), freedom_of(best, len(points)), "as that of an assumed Coulomb friction")
     if error_scale == 1.0:
-        return tuple(notes) or _too_small(best)
+        return tuple(notes)
     scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"
     away = _residuals(best)
     follow = _follow_each_other(best, away)
@@ -207,25 +207,6 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit:
             )
         )
     return tuple(notes)
-
-
-def _too_small(best: Weighed[Problem]) -> tuple[Note, ...]:
-    """Return a note if the residuals are smaller than the errors by more than chance explains."""
-    from scipy.special import chdtr
-
-    points = best.problem.observations.points
-    away, freedom = _residuals(best), freedom_of(best, len(points))
-    if freedom < 1.0 or "errors-from-scatter" in codes(points.notes) or chdtr(freedom, away @ away) > TOO_GOOD:
-        return ()
-    ratio = float(away @ away) / freedom
-    note = Note(
-        "errors-not-scatter",
-        f"The residuals are {1.0 / max(np.sqrt(ratio), LEAST_RATIO):.2g} times smaller than the standard errors of the "
-        "friction: these are too large, or the points share them, as the error of an assumed Coulomb friction; the "
-        "bands, which take the errors of the points as independent, are then too narrow.",
-        values={"scale": float(np.sqrt(ratio))},
-    )
-    return (note,)
 
 
 def _residuals(best: Weighed[Problem]) -> Array:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from viscofric.notes import Note
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -20,6 +22,8 @@ LARGEST_DAMPING, LEAST_DAMPING = 1e12, 1e-9
 TINY = 1e-300
 #: … with which a draw ends: its place need not be known better than to a hundredth of its scatter.
 DRAW_CONVERGED = 1e-4
+#: Probability of residuals as small as those that are noted, and the smallest ratio to the errors that is written.
+TOO_GOOD, LEAST_RATIO = 1e-3, 1e-3
 
 
 class Minimum(NamedTuple):
@@ -109,3 +113,23 @@ def correlation(residuals: Array) -> float:
     n = len(residuals)
     ratio = float(np.sum(np.diff(residuals) ** 2) / (residuals @ residuals))
     return float((1.0 - 0.5 * ratio) * np.sqrt((n**2 - 1.0) / (n - 2.0)))
+
+
+def too_small(residuals: Array, freedom: float, example: str) -> tuple[Note, ...]:
+    """Return a note if residuals over given standard errors are smaller than chance explains: errors are shared.
+
+    `example` is a clause about a shared error.
+    """
+    from scipy.special import chdtr
+
+    chi2 = float(residuals @ residuals)
+    if freedom < 1.0 or chdtr(freedom, chi2) > TOO_GOOD:
+        return ()
+    ratio = max(float(np.sqrt(chi2 / freedom)), LEAST_RATIO)
+    note = Note(
+        "errors-not-scatter",
+        f"The residuals are {1.0 / ratio:.2g} times smaller than the given standard errors: these are too large, or "
+        f"shared by the points, {example}; the bands, which take them as independent, are then too narrow.",
+        values={"factor": ratio},
+    )
+    return (note,)

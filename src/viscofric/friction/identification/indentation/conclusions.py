@@ -13,7 +13,7 @@ from viscofric.friction.identification.indentation.result import FittedRecord, M
 from viscofric.friction.identification.indentation.setting_up import LEAST_POINTS
 from viscofric.friction.identification.indentation.tables import ReboundRecord
 from viscofric.friction.identification.iteration import freedom_of
-from viscofric.friction.identification.posterior import correlation
+from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import ROUGHNESS
 from viscofric.notes import Note
 from viscofric.rheology.spectra.quality import FROM_INDENTATION, SpectrumFit
@@ -87,7 +87,7 @@ def conclude(
         error_scale=error_scale,
         roughness=problem.smoothness.roughness,
         common_errors=_common_errors(usable, posterior),
-        notes=(*usable.notes, *_doubts(fitted, error_scale), *narrow),
+        notes=(*usable.notes, *_doubts(fitted, error_scale), *_shared(best, residuals, error_scale), *narrow),
     )
     return replace(found, material=_with_origin(found))
 
@@ -162,6 +162,17 @@ def _doubts(records: tuple[FittedRecord, ...], error_scale: float) -> list[Note]
                 )
             )
     return notes
+
+
+def _shared(best: Weighed[IndentationProblem], residuals: Array, error_scale: float) -> tuple[Note, ...]:
+    """Return a note if the residuals are much smaller than the errors that were given."""
+    contacts = best.problem.contacts
+    given = np.repeat([one.error is not None for one in contacts], [len(one) for one in contacts])
+    if error_scale > 1.0 or not np.any(given):
+        return ()
+    freedom = freedom_of(best, len(given)) * float(np.mean(given))
+    example = "which radius_error, load_error and zero_error account for"
+    return too_small(residuals[: len(given)][given], freedom, example)
 
 
 def _narrow(problem: IndentationProblem) -> list[Note]:
