@@ -123,6 +123,9 @@ END = 1.5  # decades
 #: … ln C is a random walk that starts from the density at the end of the measurement, with these standard deviations:
 #: of its start, and of its change over a factor of e in time.
 START, WALK = 0.5, 1.0
+#: Faster modes than those of the fit are fitted too, up to a limit that differs from sample to sample.  Slower
+#: ones are not: their compliance could grow without bound.
+FURTHER = 1.5  # of ln τ
 #: Modes beyond that contradict the sample are drawn again, so many times.
 TRIES = 10
 
@@ -190,7 +193,7 @@ class Refit:
         self.tau: Array | None = None
         self.apart = np.zeros(0)
         if ratio is not None:
-            edge = BEYOND * math.log(10.0) + self.spacing
+            edge = BEYOND * math.log(10.0) + FURTHER + self.spacing
             low, high = like.ends_of(lowest, highest)
             self.tau = lattice_between((low - edge, high + edge), ratio)
             away = np.abs(np.log(spectrum.tau)[:, None] - np.log(self.tau)).min(axis=1)
@@ -233,6 +236,7 @@ class Refit:
         if self.tau is None:
             return np.array(self.spectrum.tau)
         low, high = misfit.ends
+        low -= FURTHER * self.random.uniform()
         by = self.spacing * self.random.uniform()
         tau = np.exp(by) * lattice_between((low - by, high - by), math.exp(self.spacing))
         return np.append(tau, self.apart)
