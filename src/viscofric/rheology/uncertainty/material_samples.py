@@ -133,10 +133,10 @@ class MaterialSamples(Plotted, Items["Material"]):
         Where the spectrum misses what was measured by more than noise (`misfit`), this is added as another error of the
         logarithms of E' and E'', independent of those that were drawn.
 
-        Of random rubbers with 3 to 8 isotherms, 95 % bands held E' and E'' in 93 to 98 % at the ends of the measured
-        frequencies, within half a decade, and in 86 to 92 % up to a decade beyond (`benchmarks/rheology`).  Beyond,
-        limits depend on how far a spectrum may change there, and farther out they hold nothing that is known;
-        `to_dataset` states which frequencies were measured.
+        Of random rubbers with 3 to 8 isotherms, 95 % bands held 91 to 100 % of E' and E'' within half a decade of the
+        ends of the measured frequencies, and up to a decade beyond them 75 to 100 %, but 59 to 88 % of spectra of few
+        modes (`benchmarks/rheology`).  Farther out the limits hold nothing that is known.  `to_dataset` states which
+        frequencies were measured.
         """
         omega, level = in_si(angular_frequency, "rad/s", "angular_frequency"), share(level, "level", example=0.95)
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
