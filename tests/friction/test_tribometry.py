@@ -73,7 +73,7 @@ def test_four_runs_give_back_what_was_planted(
     np.testing.assert_allclose(curves.speed, [speed, 2 * speed] * 2, rtol=1e-12)
     assert curves.slip is not None
     np.testing.assert_allclose(curves.slip, slip_ratio * curves.speed, rtol=1e-12)
-    assert curves.notes == ()
+    assert codes(curves.notes) == (set() if np.ptp(runs.traction_force) else {"constant-force"})
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(1, 4)), max_size=12), st.integers(0, 1000))
@@ -616,3 +616,11 @@ def test_residuals_are_those_of_least_squares_with_and_without_the_fourth_coeffi
     expected = [target - one @ np.linalg.lstsq(one, target, rcond=None)[0] for one in (design, both)]
     for found, wanted in zip(residuals(design, crossed, operator, target), expected, strict=True):
         np.testing.assert_allclose(found, wanted, atol=1e-12)
+
+
+def test_a_force_that_never_changes_is_noted() -> None:
+    """As of a force cell that was not recorded: zero friction with zero error, at all speeds."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03)
+    stuck = replace(runs, traction_force=np.full(len(runs), 0.12))
+    assert "constant-force" in codes(separate(stuck).notes)
+    assert "constant-force" not in codes(separate(runs).notes)

@@ -228,6 +228,20 @@ def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]
     ]
 
 
+def constant_force(runs: TractionRuns) -> list[Note]:
+    """Return a note if all readings of the force are the same, as those of a force cell that was not recorded."""
+    force = runs.traction_force
+    if force.size < _FEWEST_FOR_OUTLIERS or np.ptp(force) > 0.0:
+        return []
+    note = Note(
+        "constant-force",
+        f"All {force.size} readings of the traction force are the same, {shown_number(float(force[0]), '.4g')} N, so "
+        "that all friction is zero; check whether the force was recorded.",
+        values={"readings": int(force.size), "force": float(force[0])},
+    )
+    return [note]
+
+
 def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[Note]]:
     """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed.
 

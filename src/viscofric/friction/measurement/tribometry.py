@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
-from viscofric.friction.measurement.doubts import doubts, outlier_notes, unnoticed_slip
+from viscofric.friction.measurement.doubts import constant_force, doubts, outlier_notes, unnoticed_slip
 from viscofric.friction.measurement.doubts import outliers as far_readings
 from viscofric.friction.measurement.drift import Drift
 from viscofric.friction.measurement.errors import BetweenRuns
@@ -209,6 +209,7 @@ class _Separation:
             *zeros.drift(load),
             *found.drift.notes(fits),
             *found.errors.notes,
+            *constant_force(runs),
             *doubts(fits, entries, zeros),
             *another_zero(runs, groups, zeros),
         ]
