@@ -164,3 +164,24 @@ def test_forces_in_two_groups_of_one_sign_are_noted() -> None:
     assert "two-groups-of-force" not in codes(separate(runs).notes)
     other = 25.0 * 0.1 * np.sign(runs.disc_speed - runs.ball_speed) * (runs.replicate > 3)
     assert "two-groups-of-force" in codes(separate(replace(runs, traction_force=runs.traction_force + other)).notes)
+
+
+@pytest.mark.parametrize(("noise", "replicates"), [(0.3, 3), (1.0, 3), (1.0, 10), (3.0, 3), (1.0, 2)])
+def test_scatter_of_few_readings_is_not_taken_for_two_groups(noise: float, replicates: int) -> None:
+    """Of 25 N; 540 configurations, of which each has two groups by chance with a probability of 1e-4."""
+    said = [
+        codes(separate(made, zero=0.0).notes) & {"unsigned-speeds", "two-groups-of-force"}
+        for made in (
+            traction_runs(
+                viscoelastic=lambda v, T: 0.03,
+                offset=0.0,
+                noise=noise,
+                replicates=replicates,
+                seed=seed,
+                speeds=np.geomspace(0.01, 0.3, 5),
+                temperatures=(303.15, 313.15, 323.15),
+            )
+            for seed in range(9)
+        )
+    ]
+    assert sum(map(bool, said)) <= 1

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,16 +15,26 @@ from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 from viscofric.notes import Note, Remedy, setting
 
 if TYPE_CHECKING:
+    from viscofric.arrays import Array
     from viscofric.friction.measurement.assumed_coulomb import Assumed
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
 
-#: Distance of the groups over their standard deviation: two halves of one normal distribution have 2.65.
-_APART = 6.0
-#: The same over the largest force of the condition: more than any variation between runs.
+#: Normal numbers, split at their largest gap: how many, their rms distance from the means of both parts, and the
+#: distance of these means that one split in 10⁴ exceeds, both in standard deviations (of 10⁵ draws each).
+_SPLITS = np.array(
+    [
+        [2, 3, 4, 5, 6, 8, 12, 20, 40],
+        [0.0, 0.241, 0.335, 0.402, 0.454, 0.531, 0.631, 0.740, 0.850],
+        [5.51, 5.11, 4.90, 4.66, 3.96, 3.83, 3.38, 3.16, 2.76],
+    ]
+)
+#: Distance of the groups over the largest force of the condition: more than any variation between runs.
 _OF_FORCE = 0.5
+#: Of pairs of readings, which tell nothing of their noise, this share of the configurations must be apart, and so many.
+_MOST, _FEWEST_PAIRS = 0.8, 5
 #: Smallest share of the readings in a group: fewer are outliers.
 _SHARE = 0.2
 # Speeds within this part of each other may have one nominal value.
@@ -50,25 +61,66 @@ class TwoGroups:
         return self.slides and self.low < 0.0 < self.high
 
 
-def two_groups(runs: TractionRuns, group: Condition, zeros: Zeros) -> TwoGroups | None:
-    """Return the groups of the configuration in which they are furthest apart; None if there is one group each."""
+class _Split(NamedTuple):
+    """Sorted forces of a configuration, N, below and above their largest gap, and whether it has slip."""
+
+    low: Array
+    high: Array
+    slides: bool
+
+    @property
+    def size(self) -> int:
+        """Number of readings."""
+        return int(self.low.size + self.high.size)
+
+    @property
+    def distance(self) -> float:
+        """Distance of both means, N."""
+        return float(self.high.mean() - self.low.mean())
+
+    @property
+    def squares(self) -> float:
+        """Sum of the squared distances from both means, N²."""
+        return float(self.low.size * self.low.var() + self.high.size * self.high.var())
+
+
+def _splits(runs: TractionRuns, group: Condition, zeros: Zeros) -> list[_Split]:
+    """Return the configurations of a condition that have two readings at least."""
     zero = zeros.of(group) if zeros.covers(group) else 0.0
     force = runs.traction_force[group.rows] - zero
-    least = _OF_FORCE * float(np.abs(force).max())
-    found = None
+    found = []
     for configuration in np.unique(group.configurations):
-        ordered = np.sort(force[group.configurations == configuration])
-        if ordered.size < 2:
-            continue
-        place = int(np.argmax(np.diff(ordered))) + 1
-        low, high = ordered[:place], ordered[place:]
-        distance = float(high.mean() - low.mean())
-        scatter = float(np.sqrt((low.size * low.var() + high.size * high.var()) / ordered.size))
-        few = min(low.size, high.size) < _SHARE * ordered.size
-        if distance > max(least, _APART * scatter) and not few:
-            found = TwoGroups(float(low.mean()), float(high.mean()), bool(np.any(group.slip_sign)))
-            least = distance
+        here = group.configurations == configuration
+        ordered = np.sort(force[here])
+        if ordered.size > 1:
+            place = int(np.argmax(np.diff(ordered))) + 1
+            found.append(_Split(ordered[:place], ordered[place:], bool(np.any(group.slip_sign))))
     return found
+
+
+def two_groups(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> dict[int, TwoGroups]:
+    """Return, by the place of their condition, forces of one configuration that fall into two groups.
+
+    The scatter is that of all conditions, as a few readings are far apart for their own scatter by chance.
+    """
+    every = [_splits(runs, group, zeros) for group in groups]
+    expected = sum(one.size * float(np.interp(one.size, *_SPLITS[:2])) ** 2 for splits in every for one in splits)
+    noise = math.sqrt(sum(one.squares for splits in every for one in splits) / expected) if expected > 0.0 else 0.0
+    found, count = {}, 0
+    for place, splits in enumerate(every):
+        largest = max((float(np.abs([one.low[0], one.high[-1]]).max()) for one in splits), default=0.0)
+        apart = [
+            one
+            for one in splits
+            if one.distance > max(_OF_FORCE * largest, noise * float(np.interp(one.size, _SPLITS[0], _SPLITS[2])))
+            and min(one.low.size, one.high.size) >= _SHARE * one.size
+        ]
+        count += len(apart)
+        if apart:
+            widest = max(apart, key=lambda one: one.distance)
+            found[place] = TwoGroups(float(widest.low.mean()), float(widest.high.mean()), widest.slides)
+    few = count < max(_FEWEST_PAIRS, _MOST * sum(map(len, every)))
+    return {} if expected == 0.0 and few else found
 
 
 def _two_groups_kept(groups: list[Condition], found: dict[int, TwoGroups]) -> list[str]:
@@ -137,7 +189,7 @@ class Grouping:
             raise InputError(
                 "traction runs contain no reading with the disc in motion: nothing to separate.", code="no-readings"
             )
-        split = {place: two for place, group in enumerate(groups) if (two := two_groups(runs, group, zeros))}
+        split = two_groups(runs, groups, zeros)
         mixed = {id(groups[place]) for place, two in split.items() if two.opposite}
         if mixed and mixed.union(map(id, poor)) == set(map(id, groups)):
             raise InputError(_unsigned(groups, split))
