@@ -298,8 +298,8 @@ def test_points_of_friction_say() -> None:
     with pytest.raises(vf.InputError) as caught:
         usable_points(replace(curves, viscoelastic=np.where(speed == speed[2], -1e-3, 0.01)), BALL, None, 1e-4)
     assert caught.value.words("page") == (
-        "viscoelastic friction is −0.001 at 38.61 mm/s and 26.9 °C: must be above zero; leave the point out, or check "
-        "the signs of the measurement."
+        "viscoelastic friction is −0.001 at 38.61 mm/s and 26.9 °C: must be above zero; leave out its whole speed or "
+        "temperature (points below zero alone would be a biased choice), or check the signs of the measurement."
     )
 
 

@@ -120,9 +120,11 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         raise InputError(
             f"viscoelastic friction is {shown_number(float(curves.viscoelastic[worst]), '.3g')} at "
             f"{shown_speed(float(curves.speed[worst]))} and "
-            f"{shown_celsius(float(curves.temperature[worst]))} °C: must be above zero; leave the point out",
+            f"{shown_celsius(float(curves.temperature[worst]))} °C: must be above zero; leave out its whole speed or "
+            "temperature",
             code="friction-not-positive",
-            remedy=Remedy(" with curves.select()", "", page="") + ", or check the signs of the measurement.",
+            remedy=Remedy(" with curves.select()", "", page="")
+            + " (points below zero alone would be a biased choice), or check the signs of the measurement.",
             values={
                 "viscoelastic": float(curves.viscoelastic[worst]),
                 "speed": float(curves.speed[worst]),
