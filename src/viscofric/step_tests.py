@@ -12,7 +12,7 @@ from viscofric.data import Deformation, Origin, set_columns, set_members, tensil
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.showing import Items, Plotted, Shown
-from viscofric.units import positive
+from viscofric.units import in_either, positive, shown_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,6 +31,7 @@ _RESPONSE = {
     "creep": ("creep_compliance", "1/Pa", "creep compliance"),
     "relaxation": ("relaxation_modulus", "Pa", "relaxation modulus"),
 }
+_RESPONSE_UNITS = [unit for _, unit, _ in _RESPONSE.values()]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,23 +46,28 @@ class StepTest(Shown):
         Since the step, ascending, without repeats, above zero, s.
     response : (n,) array
         Creep compliance J(t), 1/Pa, or relaxation modulus, Pa; positive, tensile or shear
-        (`StepTests.kind`, `StepTests.deformation`).
+        (`StepTests.kind`, `StepTests.deformation`).  Text and quantities have a unit of either.
+    unit : {"", "Pa", "1/Pa"}
+        Of the response, where it was given with one: it must be that of `StepTests.kind`.
 
     Raises
     ------
     InputError
-        If the arrays differ in length, or a value is not above zero and finite.
+        If the arrays differ in length, a value is not above zero and finite, or the units differ.
 
     Examples
     --------
     >>> import numpy as np
     >>> import viscofric as vf
     >>> warm = vf.readers.StepTest(298.15, np.array([0.1, 1.0, 10.0]), np.array([1.0e-7, 1.5e-7, 2.2e-7]))
+    >>> vf.readers.StepTest("25 degC", [0.1, 1.0], ["3.1 MPa", "2.4 MPa"]).unit
+    'Pa'
     """
 
     temperature: float
     time: Array
     response: Array
+    unit: str = ""
 
     if TYPE_CHECKING:  # what is given, converted when made
 
@@ -69,11 +75,17 @@ class StepTest(Shown):
             self,
             temperature: Quantity,
             time: Quantities,
-            response: ArrayLike,
+            response: Quantities | ArrayLike,
+            unit: str = "",
         ) -> None: ...
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of a step test"))
+        check_choice(self.unit, "unit", "", *_RESPONSE_UNITS)
+        units = [self.unit] if self.unit else _RESPONSE_UNITS
+        response, unit = in_either(self.response, units, "response of a step test")
+        object.__setattr__(self, "response", response)
+        object.__setattr__(self, "unit", self.unit or unit)
         set_columns(self, "time", "response", of="a step test", per="time")
         if np.any(np.diff(self.time) <= 0):
             raise InputError("the times of a step test must ascend without repeats.", code="not-ascending")
@@ -85,7 +97,7 @@ class StepTest(Shown):
         return (
             ("temperature", self.temperature, "°C"),
             ("time", self.time, "s"),
-            ("response", self.response),
+            ("response", self.response, self.unit),
         )
 
     def thinned(self, per_decade: int) -> StepTest:
@@ -98,8 +110,10 @@ class StepTest(Shown):
         part = np.floor(np.log10(self.time) * per_decade + 1e-9).astype(np.int64)
         number = np.unique(part, return_inverse=True)[1]
         count = np.bincount(number)
-        columns = (np.exp(np.bincount(number, weights=np.log(one)) / count) for one in (self.time, self.response))
-        return StepTest(self.temperature, *columns)
+        time, response = (
+            np.exp(np.bincount(number, weights=np.log(one)) / count) for one in (self.time, self.response)
+        )
+        return StepTest(self.temperature, time, response, self.unit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +161,13 @@ class StepTests(Origin, Plotted, Items[StepTest]):
         check_choice(self.kind, "kind", "creep", "relaxation")
         self._check_origin("the step tests")
         set_members(self, "tests", StepTest, lambda one: one.temperature)
+        for one in self.tests:
+            if one.unit not in ("", right := _RESPONSE[self.kind][1]):
+                raise InputError(
+                    f"tests: the response at {shown_celsius(one.temperature)} °C is in {one.unit}, but that of a "
+                    f"{self.kind} test is in {right}; give the kind that was measured.",
+                    code="wrong-unit",
+                )
 
     def _items(self) -> Sequence[StepTest]:
         return self.tests
@@ -245,7 +266,7 @@ class StepMasterCurve(Plotted):
         def __init__(
             self,
             time: Quantities,
-            response: ArrayLike,
+            response: Quantities | ArrayLike,
             temperature: Quantities,
             reference: Quantity,
             kind: StepKind,
@@ -253,6 +274,8 @@ class StepMasterCurve(Plotted):
 
     def __post_init__(self) -> None:
         check_choice(self.kind, "kind", "creep", "relaxation")
+        response, _ = in_either(self.response, [_RESPONSE[self.kind][1]], "response of a master curve")
+        object.__setattr__(self, "response", response)
         set_columns(self, "time", "response", "temperature", of="a master curve", per="point")
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         if np.any(np.diff(self.time) < 0):

@@ -18,6 +18,8 @@ from viscofric.arguments import LARGEST, insist_on, numbers, real
 from viscofric.errors import InputError, ViscofricError, not_imported, wrong_argument
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pint
     from numpy.typing import ArrayLike
 
@@ -279,6 +281,22 @@ def in_si(values: object, unit: str, name: str, *, infinite: bool = False, missi
     if _has_units(values):
         return to_si_in_shape(cast("Quantities", values), unit, name)
     return numbers(values, name, infinite=infinite, missing=missing)
+
+
+def in_either(values: object, units: Sequence[str], name: str) -> tuple[Array, str]:
+    """Return one number or many in SI, and the unit that they have, one of some; plain ones as they are, without one.
+
+    Raises InputError where they have none of the units, or not all the same.
+    """
+    if not _has_units(values):
+        return numbers(values, name, infinite=True, missing=True), ""
+    for unit in units[:-1]:
+        try:
+            return to_si_in_shape(cast("Quantities", values), unit, name), unit
+        except InputError as error:
+            if error.code != "wrong-unit":
+                raise
+    return to_si_in_shape(cast("Quantities", values), units[-1], name), units[-1]
 
 
 def _has_units(values: object) -> bool:

@@ -39,11 +39,26 @@ def curve(spectrum: vf.RetardationSpectrum, kind: str, noise: float = 0.0, time=
         ({"time": TIMES - TIMES[0]}, "wrong-length"),
         ({"response": -TIMES}, "wrong-length"),
         ({"response": TIMES[:-1]}, "wrong-length"),
+        ({"response": ["3 MPa"] * 30 + ["1 1/MPa"]}, "wrong-unit"),
+        ({"response": ["3 MPa"] * 31, "unit": "1/Pa"}, "wrong-unit"),
+        ({"unit": "MPa"}, "wrong-choice"),
     ],
 )
 def test_columns_that_are_no_test_are_refused(change, code):
     with refused(code):
         vf.readers.StepTest(300.0, **{"time": TIMES, "response": TIMES} | change)
+
+
+@pytest.mark.parametrize(("response", "unit", "kind"), [("3 MPa", "Pa", "relaxation"), ("3e12 1/MPa", "1/Pa", "creep")])
+def test_a_response_with_units_is_in_si_and_belongs_to_tests_of_its_kind(response, unit, kind):
+    warm = vf.readers.StepTest("27 degC", ["1 s", "1 min"], [response, response])
+    assert (warm.unit, list(warm.response)) == (unit, [3e6, 3e6])
+    assert vf.readers.StepTests((warm,), kind).thinned(2).tests[0].unit == unit
+    with refused("wrong-unit"):
+        vf.readers.StepTests((warm,), "creep" if kind == "relaxation" else "relaxation")
+    other = "1 1/MPa" if kind == "relaxation" else "1 MPa"
+    with refused("wrong-unit"):
+        vf.readers.StepMasterCurve([1.0], [other], [300.0], 300.0, kind)
 
 
 def test_shear_responses_become_tensile_ones():
