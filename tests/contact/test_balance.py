@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
 from marks import apart, slow
-from viscofric.contact.free.balance import CUTS, lag, opening
+from viscofric.contact.free.balance import lag, opening
 from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.contact.free.grids import Strip, Window
@@ -78,10 +78,10 @@ def test_opening_counts_gaps_beside_pressures() -> None:
 def test_lag_of_waves_left_out() -> None:
     short = SteadyMaterial(0.2, np.array([0.5, 0.3]), np.array([1e-7, 3e-7]))
     # All memories far below the cell: their mean, whatever the cut; the next term is λ = 3e-7.
-    for cut in CUTS:
+    for cut in LINE.cuts:
         assert lag(short, 1.0, cut) == pytest.approx(0.5e-7 + 0.9e-7, rel=1e-5)
     longer = SteadyMaterial(0.2, np.array([0.8]), np.array([0.5]))
-    lags = [lag(longer, 1.0, cut) for cut in CUTS]
+    lags = [lag(longer, 1.0, cut) for cut in LINE.cuts]
     assert lags[0] > lags[1] > lags[2] > 0.0  # shorter waves find the mode less compliant
     assert lag(SteadyMaterial(1.0, np.empty(0), np.empty(0)), 1.0, 1.0) == 0.0
 

@@ -54,7 +54,7 @@ def test_geometric_sequences_are_settled_with_the_error_that_is_left() -> None:
 
 
 def test_one_small_change_is_not_trusted() -> None:
-    """Earlier changes count, faded by the order 3/2 that square-root edges leave."""
+    """Earlier changes count, faded by no more than the order 3/2 that square-root edges leave."""
     assert settled(np.array([1.0, 1.1, 1.1])).error >= (1.0 - 1e-12) * 0.1 / 2.0**1.5
     assert settled(np.array([1.0, 1.1, 1.1, 1.1])).error >= (1.0 - 1e-12) * 0.1 / 2.0**3
 

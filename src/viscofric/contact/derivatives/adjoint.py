@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from viscofric.contact.complementarity import solve_on_contact
-from viscofric.contact.free.balance import CUTS, free_gap, lag, lag_changes, neighbours
+from viscofric.contact.free.balance import free_gap, lag, lag_changes, neighbours
 from viscofric.contact.free.estimates import friction_estimate
 from viscofric.contact.influence.moments import correlation, memory_moments
 from viscofric.contact.operators.convolution import bent_share
@@ -104,7 +104,7 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
     else:
         value = stage.balanced_friction
         by_pressure = operator.bent_dissipated_force_gradient(pressure) / (window.cell_area * total)
-        scale = lag(material, window.spacing, CUTS[1]) / (window.spacing**2 * total)
+        scale = lag(material, window.spacing, stage.cuts[1]) / (window.spacing**2 * total)
         gap = free_gap(pressure, stage.gap)
         by_pressure += scale * neighbours(gap)
         held = -scale * np.where(gap > 0.0, neighbours(pressure), 0.0)
@@ -126,7 +126,7 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
     lost, change = _lost(slope, bend, material.memory_lengths / window.spacing)
     by_length = material.compliances * change / material.memory_lengths
     gradient = gradient.plus(Gradient(0.0, lost, by_length, 0.0), -operator.unit / total)
-    gradient = gradient.plus(Gradient(*lag_changes(material, window.spacing, CUTS[1]), 0.0), stage.opening)
+    gradient = gradient.plus(Gradient(*lag_changes(material, window.spacing, stage.cuts[1]), 0.0), stage.opening)
     return Adjoint(gradient, field, by_load)
 
 

@@ -28,7 +28,7 @@ cell, Λ is their mean and F_t = Λ ∫ p ∂²h/∂x² dA holds exactly, on any
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -42,9 +42,6 @@ if TYPE_CHECKING:
     from viscofric.contact.operators.convolution import SteadyMaterial
 
 
-#: Shortest and longest wave that might be the first one left out, and the likely one: wavenumbers times the cell.
-#: From the closed form of the line contact, for E∞/E0 from 1.1 to 1e4 and v τ/a0 from 1e-6 to 1e6.
-CUTS: Final = (0.6, 1.0, 1.6)
 # Steps and range of the wavenumber's logarithm beyond the cut.
 _STEPS = 600
 _LONGEST = math.log(1e13)

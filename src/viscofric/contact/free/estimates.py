@@ -17,9 +17,10 @@ if TYPE_CHECKING:
 FEWEST_GRIDS = 3  # one change alone may be small by chance
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
 FRICTION_FLOOR = 1e-6
-# Least factor by which changes fall from grid to grid: those of the friction with the power 3/2 of the cell, since the
-# pressure rises like a square root at the edges; those of other numbers with its first power.
-_FADING, _SLOW_FADING = 0.5**1.5, 0.5
+# Factor by which changes fall from grid to grid at the least.  Those of the friction fall with the power 3/2 of the
+# cell on average, 0.35, since the pressure rises like a square root at the edges; those of other numbers with its first
+# power.  The rest is for chance.
+_FADING, _SLOW_FADING = 0.45, 0.6
 
 # Least errors, as parts of the difference between friction from the balanced energy and friction from the pressure: of
 # the former, and of the latter.
@@ -110,15 +111,12 @@ def least_error(stages: list[Stage], halvings: int) -> float:
 def settled(values: Array, fading: float = _FADING) -> Estimate:
     """Return the last of three or more values on nested grids, coarsest first, with an estimate of its error.
 
-    With changes d1 (the last) and d0 before it, the remainder of a geometric sequence is d1/(d0/d1 − 1).  The estimate
-    is no less than d1, nor than d0 and the one before times `fading` once and twice, since single changes may be small
-    by chance; `fading` is the factor by which changes decrease from grid to grid at the least.
+    The estimate is the largest of the last three changes, that before the last times `fading` and the one before times
+    its square, since single changes may be small by chance; `fading` is the factor by which changes decrease from grid
+    to grid at the least.  All further changes of a sequence that halves are as large as its last one.
     """
     changes = np.abs(np.diff(values))[-3:]
-    before, last = changes[-2:]
-    ratio = max(before / last, 1.25) if last > 0.0 else math.inf
-    faded = changes * fading ** np.arange(len(changes) - 1.0, -1.0, -1.0)
-    return Estimate(float(values[-1]), float(max(last / (ratio - 1.0), *faded)))
+    return Estimate(float(values[-1]), float(np.max(changes * fading ** np.arange(len(changes) - 1.0, -1.0, -1.0))))
 
 
 def error_of(stages: list[Stage], name: str) -> float:

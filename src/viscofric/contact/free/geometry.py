@@ -32,7 +32,11 @@ class Geometry:
     # many cells of a rim average it, but not the two at the ends of a strip.
     scatter: float
     finest: int  # default limit of the cells along the longer edge
+    # Longest and shortest wave that might be the first one that cells leave out, and between them the likely one:
+    # wavenumbers times the cell.  Of strips from the closed form, for E∞/E0 from 1.1 to 1e4 and v τ/a0 from 1e-6 to
+    # 1e6; of point contacts from solutions of random ones on finer grids.
+    cuts: tuple[float, float, float]
 
 
-POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048)
-LINE: Final = Geometry("line", 1, Strip, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536)
+POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, (0.8, 1.3, 2.0))
+LINE: Final = Geometry("line", 1, Strip, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, (0.6, 1.0, 1.6))

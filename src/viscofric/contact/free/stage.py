@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.free.balance import CUTS, lag, opening
+from viscofric.contact.free.balance import lag, opening
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -17,6 +17,11 @@ if TYPE_CHECKING:
     from viscofric.contact.free.grids import Extent, Grid
     from viscofric.contact.free.problem import Problem
     from viscofric.contact.operators.convolution import ConvolutionOperator
+
+
+# Where displacements are taken behind the cell centres, longer waves are left out: logarithm of the cut per shift, from
+# solutions of random contacts on finer grids.
+_CUT_BY_SHIFT = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,14 +66,21 @@ class Stage:
     @cached_property
     def balanced_friction(self) -> float:
         """Friction coefficient from the dissipated energy, with the part that cells leave out."""
-        return self._dissipated[1] + lag(self.operator.material, self.window.spacing, CUTS[1]) * self.opening
+        return self._dissipated[1] + lag(self.operator.material, self.window.spacing, self.cuts[1]) * self.opening
+
+    @property
+    def cuts(self) -> tuple[float, float, float]:
+        """Wavenumbers times the cell of the waves that might be the first ones left out; the second is likely."""
+        delay = math.exp(-_CUT_BY_SHIFT * self.operator.shift)
+        longest, likely, shortest = self.problem.geometry.cuts
+        return delay * longest, delay * likely, delay * shortest
 
     def left_out_range(self, spacing: float) -> float:
         """Uncertainty of the part of the friction coefficient that cells of a spacing leave out.
 
         From the wave that is taken for the first one left out.
         """
-        longest, shortest = (lag(self.operator.material, spacing, cut) for cut in (CUTS[0], CUTS[2]))
+        longest, shortest = (lag(self.operator.material, spacing, cut) for cut in self.cuts[::2])
         return (longest - shortest) * self.opening
 
     @cached_property
