@@ -146,6 +146,26 @@ def test_bands_over_frequency() -> None:
     assert ends.within_measured_frequencies.values.tolist() == [0.0, 1.0, 1.0, 0.0]
 
 
+def test_bands_beyond_the_measured_frequencies_have_a_note() -> None:
+    """1 to 10⁴ rad/s were measured at 30 °C; at 60 °C α is 1/100, so that these are 100 to 10⁶ rad/s there."""
+    law = vf.Arrhenius(activation_energy=1.2868e5, reference="30 degC")
+    solids = [vf.Material.standard_linear_solid(E0, 1e8, 1e-3) for E0 in np.linspace(0.9e6, 1.1e6, 20)]
+    materials = tuple(vf.Material(one.spectrum, shift=law) for one in solids)
+    C = np.array([one.spectrum.C for one in solids])
+    samples = vf.rheology.MaterialSamples(materials, C, np.full(C.shape, 1e-3), (1.0, 1e4))
+
+    def noted(omega: object, temperature: str) -> list[tuple[str, float, float]]:
+        band = samples.modulus_band(omega, temperature)
+        lower, _, upper = band
+        assert np.all(lower.real <= upper.real)
+        return [(one.code, one.values["points"], one.values["of"]) for one in band.notes]
+
+    assert noted([1.0, 1e4], "30 degC") == []
+    assert noted([0.5, 1.0, 2e4], "30 degC") == [("beyond-measured", 2, 3)]
+    assert noted([1.0, 200.0, 1e5], "60 degC") == [("beyond-measured", 1, 3)]
+    assert noted(0.0, "30 degC") == [("beyond-measured", 1, 1)]
+
+
 def test_measurements_and_master_curve(fit: vf.rheology.Superposition) -> None:
     sweeps = vf.IsothermalSweeps(fit.isotherms)
     data = sweeps.to_dataset()

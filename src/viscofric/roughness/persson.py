@@ -197,9 +197,8 @@ def _beyond_measured(material: Material, found: PerssonTheory) -> tuple[Note, ..
     frequency = found.speed[:, None] * found.wave_number
     if material.shift is not None and not np.isnan(found.temperature).any():
         frequency = frequency * material.shift(found.temperature[:, None, None] + found.temperature_rise_by_scale)
-    low, high = fit.frequency_range
     parts = np.diff(found.friction_by_scale, axis=-1, prepend=0.0)
-    beyond = np.where((low <= frequency) & (frequency <= high), 0.0, parts).sum(axis=-1)
+    beyond = np.where(fit.covers(frequency), 0.0, parts).sum(axis=-1)
     shares = np.divide(beyond, found.friction_coefficient, out=np.zeros_like(beyond), where=beyond > 0.0)
     return counted([fit.beyond_part(share) for share in shares.ravel().tolist()], shares.ravel().tolist())
 

@@ -12,7 +12,6 @@ from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.planning.plan import plan_cases
 from viscofric.notes import Note
 from viscofric.study.cases.sweep import place, place_in
-from viscofric.study.study_rubber import all_within
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -165,16 +164,12 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
         said = " ".join(record.warnings)
         text = f"In {len(wide)} of {len(found)} contacts (worst at {part.place(number)}): {said}"
         notes.append(Note("doubtful-contacts", text))
-    within = all_within(rubbers, [part.cases[number] for part, number, _ in found], [record for *_, record in found])
-    beyond = [one for one, known in zip(found, within, strict=True) if not known]
-    if beyond:
-        part, number, _ = beyond[0]
-        what = part.cases[number].FREQUENCIES
-        notes.append(
-            Note(
-                "beyond-measured",
-                f"In {len(beyond)} of {len(found)} contacts, such as {part.place(number)}, {what} beyond the "
-                "measured reduced frequencies: their friction depends on the extrapolated spectrum.",
-            )
-        )
+    for index, rubber in enumerate(rubbers):
+        own = [(part, number, one) for part, number, one in found if part.cases[number].material == index]
+        beyond = [one for one in own if rubber.is_within(one[0].cases[one[1]], one[2]) is False]
+        if beyond and rubber.spectrum_fit is not None:
+            part, number, _ = beyond[0]
+            subject = f"In {len(beyond)} of {len(own)} contacts, such as {part.place(number)}, "
+            subject += part.cases[number].FREQUENCIES
+            notes.append(rubber.spectrum_fit.beyond_note(subject, contacts=len(beyond), of=len(own)))
     return notes

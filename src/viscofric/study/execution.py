@@ -217,10 +217,9 @@ def tree_of(
     groups, about = material_groups(
         [rubber_groups(one.rubber, one.bands.samples) for one in rubbers], [one.rubber.attributes for one in rubbers]
     )
-    known = all(rubber.frequency_range is not None for rubber in rubbers)
 
     def within(part: Solved) -> list[bool] | None:
-        return all_within(rubbers, part.of_records, part.records) if known else None
+        return all_within(rubbers, part.of_records, part.records)
 
     interface = study_interface(contacts) if interface is None else interface
     rubbed = interface_columns(contacts, interface, requested)
@@ -238,9 +237,8 @@ def tree_of(
         groups["/prediction_master"] = master_prediction(along.records, along.cases[0].geometry, within(along), curves)
         if measured is not None:
             points: list[Any] = [None if isinstance(one, Failure) else one for one in at_points.outcomes]
-            pairs = zip(at_points.cases, points, strict=True)
-            inside = [one is not None and rubbers[0].is_within(case, one) for case, one in pairs]
-            groups |= measured.groups(points, inside if known else None, curves, rubbers[0].bands)
+            inside = all_within(rubbers, at_points.cases, points)
+            groups |= measured.groups(points, inside, curves, rubbers[0].bands)
     for one in singles:
         groups |= one.groups()
     checked = assumption_checks(contacts, requested, at_points, interface.law)

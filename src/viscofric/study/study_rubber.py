@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from viscofric.friction.cases.record import Record
     from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.laws import ShiftLaw
+    from viscofric.rheology.spectra.quality import SpectrumFit
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
     from viscofric.study.run_file.material import MaterialTable
     from viscofric.study.run_file.settings import UncertaintyTable
@@ -62,29 +63,25 @@ class StudyRubber:
         return self.rubber.material
 
     @property
-    def frequency_range(self) -> tuple[float, float] | None:
-        """Reduced angular frequencies of the measurement, rad/s; None if unknown."""
-        fit = getattr(self.material.spectrum, "fit", None)
-        return None if fit is None else fit.frequency_range
+    def spectrum_fit(self) -> SpectrumFit | None:
+        """Fit of the spectrum with the measured range of frequencies; None if unknown."""
+        return getattr(self.material.spectrum, "fit", None)
 
-    def is_within(self, case: Case, record: Record) -> bool:
-        """Whether a contact's frequencies, reduced by α(T), were measured, where that is known.
+    def is_within(self, case: Case, record: Record) -> bool | None:
+        """Whether a contact's frequencies, reduced by α(T), were measured; None where that is not known.
 
         They are v/a for an indenter, and 2πv/λ for the shortest and the longest wavelength of a rough surface.
         """
-        fit = getattr(self.material.spectrum, "fit", None)
-        if fit is None:
-            return True
+        if self.spectrum_fit is None:
+            return None
         rate = float(self.shift(record.temperature)) * record.speed
-        shortest, longest = case.lengths(record)
-        return bool(fit.covers(rate / longest, rate / shortest))
+        return bool(self.spectrum_fit.covers(rate / np.array(case.lengths(record))).all())
 
     def doubts(self, temperatures: Sequence[float]) -> list[Note]:
         """Return notes about extrapolation, and about curves that do not lie on the master curve."""
         requested = np.array(temperatures)
         beyond = requested[np.asarray(self.shift.extrapolates(requested))]
-        spectrum = self.material.spectrum
-        fit = spectrum.fit if isinstance(spectrum, RetardationSpectrum) else None
+        fit = self.spectrum_fit
         # The warnings of a predefined material are reported nowhere else.
         said = list(map(note_of, fit.notes)) if self.rubber.fit is None and fit is not None else []
         if fit is None:
@@ -115,9 +112,14 @@ class StudyRubber:
         return said
 
 
-def all_within(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Record]) -> list[bool]:
-    """Return for each solved case whether its frequencies were measured, where that is known."""
-    return [rubbers[case.material].is_within(case, record) for case, record in zip(cases, records, strict=True)]
+def all_within(
+    rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Record | None]
+) -> list[bool] | None:
+    """Return for each case whether it was solved and its frequencies were measured; None if a range is not known."""
+    if any(rubber.spectrum_fit is None for rubber in rubbers):
+        return None
+    pairs = zip(cases, records, strict=True)
+    return [one is not None and bool(rubbers[case.material].is_within(case, one)) for case, one in pairs]
 
 
 def band_columns(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Any]) -> BandColumns | None:

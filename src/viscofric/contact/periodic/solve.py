@@ -349,10 +349,12 @@ def _beyond_measured(
     fit = getattr(solid.spectrum, "fit", None)
     if fit is None or friction == 0.0 or not all(map(math.isfinite, solid.velocity)):
         return ()
-    low, high = fit.frequency_range
     qx, qy = wave_number(surface.shape, surface.spacing)
     frequency = np.abs(solid.velocity[0] * qx + solid.velocity[1] * qy)
-    waves[(low <= frequency) & (frequency <= high)] = 0.0
+    measured = fit.covers(frequency)
+    if measured.all():
+        return ()
+    waves[measured] = 0.0
     share = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, waves) / friction)
     said: tuple[Note, ...] = fit.beyond_part(share)
     return said

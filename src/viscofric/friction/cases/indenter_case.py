@@ -81,7 +81,7 @@ class IndenterCase(Case):
     poisson_ratio: float = 0.3
     sample: int | None = None
 
-    FREQUENCIES: ClassVar[str] = "the contact's frequency v/a lies"
+    FREQUENCIES: ClassVar[str] = "the contact's reduced frequency αv/a lies"
     HAS_MASTER_CURVE: ClassVar[bool] = True
     LOGARITHMIC: ClassVar[Mask] = LOGARITHMIC
 

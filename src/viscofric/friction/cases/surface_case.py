@@ -71,7 +71,7 @@ class SurfaceCase(Case):
     poisson_ratio: float = 0.3
     sample: int | None = None
 
-    FREQUENCIES: ClassVar[str] = "some frequencies 2πv/λ of the surface's wavelengths lie"
+    FREQUENCIES: ClassVar[str] = "some reduced frequencies 2παv/λ of the surface's waves lie"
     HAS_MASTER_CURVE: ClassVar[bool] = False
     LOGARITHMIC: ClassVar[Mask] = _LOGARITHMIC
 

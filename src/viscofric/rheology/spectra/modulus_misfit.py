@@ -101,12 +101,16 @@ class Misfit(ABC):
     def relative(self, tau: Array) -> tuple[Array, Array]:
         """Return rows (…, 1 + n) and what strengths should make of them for a start: relative errors of compliances."""
 
+
+class CurveMisfit(Misfit):
+    """The misfit of one master curve, which other points may replace."""
+
     @abstractmethod
-    def of(self, rates: Array, logarithms: Array) -> Misfit:
+    def of(self, rates: Array, logarithms: Array) -> CurveMisfit:
         """Return the same for other rates and natural logarithms (N, m)."""
 
 
-class ModulusMisfit(Misfit):
+class ModulusMisfit(CurveMisfit):
     """Differences of ln E' and ln E'' between modes and a measurement.
 
     `angular_frequency` (N,) ascends, in rad/s; `measured` (N,) is E' + iE'' in Pa.

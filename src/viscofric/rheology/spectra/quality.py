@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +28,7 @@ _REACHED = "reached by the sweeps"
 #: Code of the note on contacts at frequencies at which the material was not measured.
 BEYOND = "beyond-measured"
 _LITTLE = 0.01  # part of the friction that may rest on the extrapolated modulus without a note
+_ROUNDING = 1e-6  # frequencies beyond the measured ones by this part of them were measured
 #: A spectrum fits what was measured if it is off by this at most.
 LARGEST_MISFIT = 0.05  # decades, rms of E' and of E''
 
@@ -114,38 +114,33 @@ class SpectrumFit(Shown):
             measured_storage=None if measured is None else (b * measured[0], b * measured[1]),
         )
 
-    def covers(self, lowest: float, highest: float) -> bool:
-        """Whether angular frequencies were measured, rad/s; the elastic limits, 0 and infinity, need no frequency."""
-        low, high = self.frequency_range
-        return lowest == 0.0 or math.isinf(highest) or (low <= lowest and highest <= high)
+    def covers(self, frequency: ArrayLike) -> Any:
+        """Whether each angular frequency was measured, rad/s; the elastic limits, 0 and infinity, need no frequency."""
+        value = np.asarray(frequency, dtype=float)
+        return covers(self.frequency_range, value) | (value == 0.0) | np.isinf(value)
 
     def beyond(self, frequency: ArrayLike, what: str = "frequency v/a") -> tuple[Note, ...]:
         """Return a note on contacts whose frequency, one or (n,), rad/s, was not measured; `what` it is."""
         every = np.atleast_1d(np.asarray(frequency, dtype=float))
-        beyond = [one for one in every.tolist() if not self.covers(one, one)]
-        if not beyond:
+        beyond = every[~self.covers(every)]
+        if not beyond.size:
             return ()
-        first, last = min(beyond), max(beyond)
-        at = "T" if every.size == 1 else f"At {len(beyond)} of {every.size} points t"
+        first, last = float(beyond.min()), float(beyond.max())
+        at = "T" if every.size == 1 else f"At {beyond.size} of {every.size} points t"
         subject = f"{at}he contact's {what}, {first:.3g}{'' if first == last else f' to {last:.3g}'} rad/s, lies"
-        return self._beyond_note(subject, points=len(beyond), of=every.size, lowest=first, highest=last)
+        return (self.beyond_note(subject, points=beyond.size, of=every.size, lowest=first, highest=last),)
 
     def beyond_part(self, share: float) -> tuple[Note, ...]:
         """Return a note on the part of a rough contact's friction at frequencies that were not measured."""
         if share <= _LITTLE:
             return ()
-        return self._beyond_note(
-            f"For {share:.0%} of the friction the frequencies 2πv/λ of the pressure lie", share=share
+        return (
+            self.beyond_note(f"For {share:.0%} of the friction the frequencies 2πv/λ of the pressure lie", share=share),
         )
 
-    def _beyond_note(self, subject: str, **values: float) -> tuple[Note, ...]:
-        low, high = self.frequency_range
-        said = (
-            f"{subject} beyond those at which the material was {'identified' if self.from_contact else 'measured'}, "
-            f"{low:.3g} to {high:.3g} rad/s: the result there rests on the extrapolated modulus, and so do its "
-            "limits, which may be far from the truth."
-        )
-        return (Note(BEYOND, said, values={**values, "low": low, "high": high}),)
+    def beyond_note(self, subject: str, **values: float) -> Note:
+        """Return the note on results at frequencies that were not measured; `subject` begins its sentence."""
+        return beyond_note(self.frequency_range, subject, "identified" if self.from_contact else "measured", **values)
 
     @property
     def from_friction(self) -> bool:
@@ -231,6 +226,22 @@ class SpectrumFit(Shown):
 
     def _measured(self, end: int) -> str:
         return "" if self.measured_storage is None else f", {shown_modulus(self.measured_storage[end])}"
+
+
+def covers(frequency_range: tuple[float, float], frequency: ArrayLike) -> Any:
+    """Whether each angular frequency lies in a measured range, rad/s; `frequency` is one, or has any shape."""
+    value = np.asarray(frequency, dtype=float)
+    return (frequency_range[0] * (1.0 - _ROUNDING) <= value) & (value <= frequency_range[1] * (1.0 + _ROUNDING))
+
+
+def beyond_note(frequency_range: tuple[float, float], subject: str, known: str = "measured", **values: float) -> Note:
+    """Return the note on results at frequencies beyond a range at which the material is known."""
+    low, high = frequency_range
+    said = (
+        f"{subject} beyond those at which the material was {known}, {low:.3g} to {high:.3g} rad/s: the result there "
+        "rests on the extrapolated modulus, and so do its limits, which may be far from the truth."
+    )
+    return Note(BEYOND, said, values={**values, "low": low, "high": high})
 
 
 def _misfit(**rms: float | None) -> dict[str, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, Modes, descend
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST, CurveMisfit, Misfit, Modes, descend
 
 #: Strengths tried, from too strong to too weak; each fit starts from the one before.
 STRENGTHS = np.geomspace(1.0, 1e-5, 26)
@@ -94,7 +94,7 @@ def corner(misfit: Misfit, fits: list[Modes]) -> int:
     return 2 + int(np.argmin(bend[2:-2]))  # towards more roughness the curve turns clockwise
 
 
-def cross_validated(misfit: Misfit, tau: Array, isotherm: Array) -> int:
+def cross_validated(misfit: CurveMisfit, tau: Array, isotherm: Array) -> int:
     """Return the index of the strength that best predicts isotherms left out of the fit.
 
     The isotherms, identified by the temperature (N,) of each point, are distributed over `FOLDS` folds in turn; single

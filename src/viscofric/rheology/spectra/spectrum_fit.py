@@ -14,7 +14,7 @@ from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.spectra import regularised, sparse
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, judged_jointly, solid_modes
-from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
+from viscofric.rheology.spectra.modulus_misfit import CurveMisfit, Misfit, Modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.sparse import lattice, nonnegative_modes
 from viscofric.rheology.spectra.step_misfit import by_rate, frequencies_of, joint_misfit, misfit_of, rates_of
@@ -219,7 +219,7 @@ def _sparse(
 
 
 def _regularised(
-    misfit: Misfit, tau_ratio: float, master_curve: Curve, regularisation: float | str | None
+    misfit: CurveMisfit, tau_ratio: float, master_curve: Curve, regularisation: float | str | None
 ) -> tuple[Modes, float, tuple[str, ...]]:
     tau = lattice(misfit, tau_ratio)
     if len(tau) < LEAST_SMOOTH:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from viscofric.arrays import Array, ComplexArray, Mask
 from viscofric.data import MasterCurve
-from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, ModulusMisfit
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST, CurveMisfit, Misfit, ModulusMisfit
 from viscofric.step_tests import StepMasterCurve
 
 #: Step responses from a time t on determine E(ω) up to this part of 1/t.  Relaxations faster than t have ended in E(t),
@@ -33,7 +33,7 @@ FASTER = 10.0
 NODES = 14
 
 
-class StepMisfit(Misfit):
+class StepMisfit(CurveMisfit):
     """Differences between modes and a step response; `rates` (N,) 1/t ascend, `moduli` (N,) are 1/J or E in Pa."""
 
     glass_within = True
@@ -139,10 +139,6 @@ class JointMisfit(Misfit):
         """Say which of the residuals belong to rates from one to another."""
         return np.concatenate([part.at_rates(low, high) for part in self.parts])
 
-    def of(self, rates: Array, logarithms: Array) -> Misfit:
-        """Refuse: points of several kinds have no common logarithms."""
-        raise NotImplementedError
-
     def relaxed(self, tau: Array) -> NDArray[Any]:
         """Return the compliance of modes of strength one, kind by kind."""
         return np.concatenate([part.relaxed(tau) for part in self.parts])
@@ -206,7 +202,7 @@ def contour() -> tuple[ComplexArray, ComplexArray]:
     return z, 2.0 / (1j * NODES) * np.exp(z) * slope / z
 
 
-def misfit_of(curve: MasterCurve | StepMasterCurve) -> Misfit:
+def misfit_of(curve: MasterCurve | StepMasterCurve) -> CurveMisfit:
     """Return what a fit to a master curve minimises."""
     if not isinstance(curve, StepMasterCurve):
         return ModulusMisfit(curve.angular_frequency, curve.complex_modulus)

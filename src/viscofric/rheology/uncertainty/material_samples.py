@@ -11,6 +11,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on_function
 from viscofric.datasets import dataset
+from viscofric.rheology.spectra.quality import beyond_note, covers
 from viscofric.showing import Items, Plotted
 from viscofric.units import in_si, share
 
@@ -21,25 +22,27 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from viscofric.arrays import Array
+    from viscofric.notes import Note
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.residuals import SystematicMisfit
     from viscofric.showing import Rows
     from viscofric.units import Quantity
 
 
-#: Frequencies beyond the measured ones by no more than this, in decades, were measured.
-ROUNDING = 1e-6
-
-
-class Band(NamedTuple):
-    """Lower limit, middle (the median) and upper limit, each an array of one shape.
-
-    Limits of complex moduli hold for E' (their real part) and for E'' (their imaginary part) separately.
-    """
-
+class _Limits(NamedTuple):
     lower: NDArray[Any]
     middle: NDArray[Any]
     upper: NDArray[Any]
+
+
+class Band(_Limits):
+    """Lower limit, middle (the median) and upper limit, each an array of one shape.
+
+    Limits of complex moduli hold for E' (their real part) and for E'' (their imaginary part) separately.  `notes` are
+    sentences on doubts about them.
+    """
+
+    notes: tuple[Note, ...] = ()
 
 
 class StandardErrors(NamedTuple):
@@ -126,7 +129,8 @@ class MaterialSamples(Plotted, Items["Material"]):
         Returns
         -------
         Band
-            Of complex moduli in the shape of `angular_frequency`, Pa; pointwise, not for the curve as a whole.
+            Of complex moduli in the shape of `angular_frequency`, Pa; pointwise, not for the curve as a whole.  Its
+            `notes` have `beyond-measured` where frequencies were not measured.
 
         Notes
         -----
@@ -141,11 +145,22 @@ class MaterialSamples(Plotted, Items["Material"]):
         omega, level = in_si(angular_frequency, "rad/s", "angular_frequency"), share(level, "level", example=0.95)
         moduli = np.array([material.complex_modulus(omega, temperature) for material in self.materials])
         storage, loss = _limits(moduli.real, level), _limits(moduli.imag, level)
+        reduced = np.abs(omega) * 10.0 ** self._log10_alpha(temperature)
         if self.misfit is not None and np.any(self.misfit.size):
-            reduced = np.log10(np.abs(omega) + 1e-300) + self._log10_alpha(temperature)
-            missed = NormalDist().inv_cdf(0.5 + 0.5 * level) * self.misfit.at(reduced)
+            missed = NormalDist().inv_cdf(0.5 + 0.5 * level) * self.misfit.at(np.log10(reduced + 1e-300))
             storage, loss = _widened(storage, missed[..., 0]), _widened(loss, missed[..., 1])
-        return Band(*(real + 1j * imaginary for real, imaginary in zip(storage, loss, strict=True)))
+        found = Band(*(real + 1j * imaginary for real, imaginary in zip(storage, loss, strict=True)))
+        found.notes = self._beyond(reduced)
+        return found
+
+    def _beyond(self, reduced: Array) -> tuple[Note, ...]:
+        """Return a note on reduced frequencies that were not measured."""
+        beyond = reduced[~covers(self.frequency_range, reduced)]
+        if not beyond.size:
+            return ()
+        subject = f"{beyond.size} of {reduced.size} reduced frequencies, {beyond.min():.3g} to {beyond.max():.3g} rad/s"
+        values = {"points": beyond.size, "of": reduced.size, "lowest": beyond.min(), "highest": beyond.max()}
+        return (beyond_note(self.frequency_range, f"{subject}, lie", **{name: float(values[name]) for name in values}),)
 
     def to_dataset(
         self, angular_frequency: ArrayLike, temperature: Quantity | None = None, level: float = 0.95
@@ -167,9 +182,7 @@ class MaterialSamples(Plotted, Items["Material"]):
         omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         level = share(level, "level", example=0.95)
         band = self.modulus_band(omega, temperature, level)
-        reduced = np.log10(omega) + self._log10_alpha(temperature)
-        low, high = np.log10(self.frequency_range)
-        within = ((reduced >= low - ROUNDING) & (reduced <= high + ROUNDING)).astype(float)
+        within = covers(self.frequency_range, omega * 10.0 ** self._log10_alpha(temperature)).astype(float)
         columns = {"within_measured_frequencies": (within, "1", "whether the frequency was measured")}
         for part, take in {"storage": np.real, "loss": np.imag}.items():
             for end, limit in {"lower": band.lower, "upper": band.upper}.items():

@@ -162,10 +162,6 @@ class Beside(Misfit):
         """Return rows and aims of a start, in which the given compliance is left out."""
         return self.misfit.relative(tau)
 
-    def of(self, rates: Array, logarithms: Array) -> Misfit:
-        """Refuse: the given compliance belongs to the rates."""
-        raise NotImplementedError
-
 
 class Refit:
     """Fits samples of a master curve as a fitted spectrum was; InputError if it was not fitted.

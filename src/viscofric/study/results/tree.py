@@ -253,8 +253,8 @@ def setting(study: Study, sweep: Sweep, rubbers: Sequence[StudyRubber]) -> dict[
         values = getattr(study.conditions, name)
         if len(values) == 1:
             known[name] = float(values[0])
-    if len(rubbers) == 1 and rubbers[0].frequency_range is not None:
-        known["frequency_range"] = rubbers[0].frequency_range
+    if len(rubbers) == 1 and (fit := rubbers[0].spectrum_fit) is not None:
+        known["frequency_range"] = fit.frequency_range
     if study.uncertainty.members or any(rubber.bands.samples is not None for rubber in rubbers):
         known["seed"] = study.uncertainty.seed
     return known

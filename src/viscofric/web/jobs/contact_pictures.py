@@ -12,8 +12,7 @@ from scipy.ndimage import uniform_filter
 from viscofric.contact.fields.surface import surface_displacement
 from viscofric.contact.solution import ERRORS, ContactSolution
 from viscofric.datasets import plain
-from viscofric.notes import Note, codes, listed
-from viscofric.rheology.spectra.quality import BEYOND
+from viscofric.notes import Note, listed
 from viscofric.web.figures.contact import contact_view
 
 if TYPE_CHECKING:
@@ -210,14 +209,12 @@ def pictures(
         measured at the contact's frequencies, 0 where it is extrapolated, null where that is not known.
     """
     case = requested.case
-    known = requested.rubber.frequency_range is not None
-    within = requested.rubber.is_within(case, case.record(solution)) if known else None
-    noted = BEYOND in codes(solution.warnings)
+    within = requested.rubber.is_within(case, case.record(solution))
     shared: dict[str, Any] = {
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
-        **listed("warnings", [*solution.warnings, *_doubts(requested, beyond=within is False and not noted)]),
+        **listed("warnings", [*solution.warnings, *_extrapolated(requested)]),
     }
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
     found: dict[str, Any] = drawn(requested, case, solution)
@@ -226,15 +223,10 @@ def pictures(
     return found | contact_view(found, case)
 
 
-def _doubts(requested: RequestedContact, *, beyond: bool) -> list[Note]:
-    """Tell where the rubber is extrapolated, in temperature or in frequency."""
+def _extrapolated(requested: RequestedContact) -> list[Note]:
+    """Return notes on a temperature at which the shift factor is extrapolated."""
     # Warnings on the material itself belong to other steps.
-    said = [note for note in requested.rubber.doubts([requested.case.temperature]) if note.code == "extrapolated"]
-    if beyond:
-        what = requested.case.FREQUENCIES
-        text = "beyond those at which the rubber was measured: the friction rests on the extrapolated modulus."
-        said.append(Note(BEYOND, f"{what[0].upper()}{what[1:]} {text}"))
-    return said
+    return [note for note in requested.rubber.doubts([requested.case.temperature]) if note.code == "extrapolated"]
 
 
 def _of_indenter(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:

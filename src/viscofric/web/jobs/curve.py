@@ -253,7 +253,7 @@ def _of_rubbers(contacts: Contacts, *, known: bool) -> list[str]:
     return [
         words
         for one in contacts.rubbers
-        if (one.frequency_range is not None) == known
+        if (one.spectrum_fit is not None) == known
         for words in one.doubts(temperatures)
     ]
 
@@ -312,7 +312,7 @@ def _doubts(contacts: Contacts, case: Any, outcome: Outcome) -> list[str]:
     rubber: StudyRubber = contacts.rubbers[case.material]
     requested = contacts.study.solver.accuracy * abs(outcome.friction_coefficient)
     found = {
-        "extrapolated": not rubber.is_within(case, outcome),
+        "extrapolated": rubber.is_within(case, outcome) is False,
         "shift": bool(np.any(rubber.shift.extrapolates(np.array([case.temperature])))),
         "strain": bool(outcome.warnings),
         "unresolved": outcome.friction_error > _UNRESOLVED * requested,

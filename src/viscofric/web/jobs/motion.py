@@ -150,7 +150,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     # as of the friction curve: what is unknown is a note, what is doubtful a warning
     doubts, notes = rubber.doubts([case.temperature]), list(rubber.rubber.notes)
     warnings = list(solved.warnings)
-    (notes if rubber.frequency_range is None else warnings).extend(doubts)
+    (notes if rubber.spectrum_fit is None else warnings).extend(doubts)
     data = solved.to_dataset()
     shown, over_time = (
         motion_view(data, contacts, f"{whole.steps} steps, {whole.rejected_steps} rejected"),
