@@ -71,6 +71,7 @@ def _identify(curves: Any = _CURVES, indenter: Any = _BALL, **settings: Any) -> 
     return vf.identify_material(curves, indenter=indenter, **settings)
 
 
+_SHARED = "level_error common_error drift_error coulomb_level_error"
 #: verb -> the arguments that are tried, and of these that may be left out, for which None is right
 _VERBS: dict[Callable[..., object], tuple[str, str]] = {
     _separate: ("runs outliers speed_tolerance temperature_tolerance", "zero coulomb"),
@@ -88,7 +89,7 @@ _VERBS: dict[Callable[..., object], tuple[str, str]] = {
     vf.FrictionCurves.from_solutions: ("solutions", ""),
     _RUNS.select: ("", "rows steps except_steps"),
     _identify: (
-        "curves indenter levels limit modes samples seed accuracy prior_error poisson_ratio",
+        f"curves indenter levels limit modes samples seed accuracy prior_error poisson_ratio {_SHARED}",
         "load shift anchor prior reference",
     ),
     _anchor: ("modulus angular_frequency temperature part error", ""),

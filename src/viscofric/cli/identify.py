@@ -106,11 +106,26 @@ def _typed(name: str) -> str:
 
 #: Options that are settings of `identify_material` as they stand.
 _SETTINGS = ("load", "reference", "poisson_ratio", "modes", "samples", "seed", "accuracy", "name", "workers")
+#: Errors of friction that points have in common.
+_SHARED = {
+    "level_error": "shared by the points of a temperature, another one at each",
+    "common_error": "shared by all points, e.g. of the calibration of force and load",
+    "drift_error": "per decade of speed, shared by all points",
+    "coulomb_level_error": "by that of Coulomb friction, as a part of it, shared by all points",
+}
 _EXAMPLE = """\b
 Example:
   viscofric identify curves.csv --ball "9.525 mm" --out rubber.json \\
       --anchor-modulus "8 MPa" --anchor-frequency "1 Hz" --anchor-temperature "30 degC"
 """
+
+
+def _shared_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    for name, words in reversed(_SHARED.items()):
+        words = f"Relative standard error of friction {words}."
+        option = f"--{name.replace('_', '-')}"
+        function = click.option(option, type=float, default=0.0, show_default=True, help=words)(function)
+    return function
 
 
 @click.command(name="identify", epilog=_EXAMPLE)
@@ -132,6 +147,7 @@ Example:
 @click.option(
     "--prior-error", type=float, default=0.02, show_default=True, help="Relative standard error of the prior."
 )
+@_shared_options
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option("--modes", type=int, default=30, show_default=True, help="Least number of retardation times.")
 @click.option(
@@ -178,7 +194,7 @@ def command(
 
         shape = chosen_indenter(parameters)
         known = None if beside is None else find_rubber(beside, "beside")
-        options = {name: parameters[name] for name in _SETTINGS}
+        options = {name: parameters[name] for name in (*_SETTINGS, *_SHARED)}
         options |= _prior(parameters)
         if anchor is not None:
             options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
@@ -207,7 +223,7 @@ def command(
 
 def chosen(parameters: dict[str, Any]) -> dict[str, Any]:
     """Return the parameters other than those of the indenter and the separation; those not given are None."""
-    names = (*_SETTINGS, "shift", "prior", "prior_band", "prior_error")
+    names = (*_SETTINGS, *_SHARED, "shift", "prior", "prior_band", "prior_error")
     return {name: parameters[name] for name in parameters if name in names or name.startswith("anchor_")}
 
 

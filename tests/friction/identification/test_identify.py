@@ -217,6 +217,72 @@ def test_an_error_that_all_points_share_is_noted() -> None:
     assert "errors-not-scatter" in codes(found.notes)
 
 
+def _with_errors_in_common(kind: str, size: float) -> vf.FrictionCurves:
+    """Friction at three temperatures with an error in common, and scatter of 0.5 %."""
+    curves = closed_form_curves(*WARM)
+    decades = np.log10(curves.speed / np.sqrt(curves.speed.min() * curves.speed.max()))
+    coulomb = np.full(len(curves), 0.5 * curves.viscoelastic.mean())
+    away = {
+        "common_error": np.full(len(curves), size),
+        "drift_error": size * decades,
+        "coulomb_level_error": size * coulomb / curves.viscoelastic,
+        "level_error": size * np.array([1.0, -1.0, 1.0])[np.searchsorted(WARM, curves.temperature)],
+    }[kind]
+    scatter = 0.005 * np.random.default_rng(3).standard_normal(len(curves))
+    friction = curves.viscoelastic * np.exp(away + scatter)
+    same = {"coulomb": coulomb, "coulomb_error": 0.01 * coulomb, "coulomb_scatter": 0.01 * coulomb}
+    return replace(curves, viscoelastic=friction, viscoelastic_error=0.005 * friction, **same)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("closed_form")
+@pytest.mark.parametrize("kind", ["common_error", "drift_error", "coulomb_level_error", "level_error"])
+def test_bands_hold_with_errors_in_common_that_are_given(kind: str) -> None:
+    """Errors of 5 %; residuals do not show them, so that bands are as narrow as without, and miss what was planted."""
+    curves = _with_errors_in_common(kind, 0.05)
+    missed, width = [], []
+    for given in ({}, {kind: 0.05}):
+        found = vf.identify_material(curves, anchor=planted_anchor(), reference=REFERENCE, **given, **FEW)
+        omega = np.geomspace(*found.frequency_range, 12)
+        planted, E = RUBBER.complex_modulus(omega).imag, found.material.complex_modulus(omega).imag
+        spread = np.log([one.complex_modulus(omega).imag for one in found.samples.materials]).std(axis=0, ddof=1)
+        factors = found.shift_factors
+        away = (factors.log10_values - RUBBER.shift.log10(factors.temperatures)) / np.maximum(
+            factors.standard_errors, 1e-3
+        )
+        missed.append(max(np.max(np.abs(np.log(E / planted)) / spread), np.max(np.abs(away))))
+        width.append(np.median(spread))
+        assert found.chi2 / found.freedom < 2.0
+    assert missed[0] > 3.0
+    assert missed[1] < 2.5  # one standard error was planted, with scatter on top
+    assert width[1] > 1.3 * width[0]
+
+
+@pytest.mark.usefixtures("closed_form")
+def test_the_fitted_friction_is_that_of_the_material_without_errors_in_common() -> None:
+    exact = closed_form_curves(*WARM)
+    curves = _with_errors_in_common("level_error", 0.05)
+    found = vf.identify_material(
+        curves, anchor=planted_anchor(), shift=RUBBER.shift, level_error=0.05, common_error=0.01, **FEW
+    )
+    # Errors of opposite sign at three temperatures nearly cancel in their common curve.
+    assert np.max(np.abs(np.log(found.friction.viscoelastic / exact.viscoelastic))) < 0.045
+    assert found.rms < 0.01
+
+
+@pytest.mark.parametrize(
+    ("given", "code"),
+    [
+        ({"level_error": -0.1}, "level-error"),
+        ({"drift_error": 1.0}, "level-error"),
+        ({"coulomb_level_error": 0.1}, "no-coulomb"),
+    ],
+)
+def test_errors_in_common_that_cannot_be_used_are_refused(given: dict[str, float], code: str) -> None:
+    with refused(code):
+        vf.identify_material(closed_form_curves(*WARM), **given, **FEW)
+
+
 @pytest.mark.usefixtures("closed_form")
 @pytest.mark.parametrize(
     ("friction", "expected"),

@@ -23,7 +23,7 @@ from viscofric.friction.identification.identified import IdentifiedBand
 from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedMaterial, LevelFit
-from viscofric.notes import Note, codes
+from viscofric.notes import Note, Remedy, codes
 from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
@@ -38,6 +38,12 @@ if TYPE_CHECKING:
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
+#: What to do where errors are shared.
+SHARED = Remedy(
+    "; give the shared part as common_error, level_error, drift_error or coulomb_level_error.",
+    "; give the shared part as --common-error, --level-error, --drift-error or --coulomb-level-error.",
+    page="; viscofric identify has options for the shared part.",
+)
 #: Residuals this many standard deviations above their expectation enlarge the errors.
 DOUBTFUL = 3.0
 #: … and this many times as large as the errors, and larger than the limit of identification, they indicate a model that
@@ -174,7 +180,8 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit:
     points = outcome.start.observations.points
     notes: list[str] = list(implausible(points.at_one_load(outcome.curves)))
     if error_scale == 1.0 and not notes and "errors-from-scatter" not in codes(points.notes):
-        return too_small(_residuals(best), freedom_of(best, len(points)), "as that of an assumed Coulomb friction")
+        example = "as that of an assumed Coulomb friction"
+        return too_small(_residuals(best), freedom_of(best, len(points)), example, SHARED)
     if error_scale == 1.0:
         return tuple(notes)
     scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"
@@ -265,9 +272,9 @@ def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCu
     problem, place = posterior.best.problem, posterior.best.minimum.place
     points = problem.observations.points
     value, _ = problem.modelled(place)
-    drawn = np.array([problem.modelled(row)[0] for row in posterior.drawn])
+    drawn = np.array([problem.modelled(row)[0] - problem.common_errors(row) for row in posterior.drawn])
     lower, upper = np.exp(limits(drawn) + points.raised)
-    friction = np.exp(value + points.raised)
+    friction = np.exp(value - problem.common_errors(place) + points.raised)
     measured = outcome.curves.select(points.rows)
     solved = problem.friction.solved
     relative = 0.0 if solved is None else float(solved.error.max())

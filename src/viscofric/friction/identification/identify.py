@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 from viscofric.arguments import insist_on_function, text, whole_number
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.conclusions import Outcome, conclude
 from viscofric.friction.identification.iteration import identify
 from viscofric.friction.identification.moduli import Known, anchored, known_part
-from viscofric.friction.identification.points import usable_points
-from viscofric.friction.identification.setting_up import alone_or_many, problem_of, shifts_of
+from viscofric.friction.identification.points import SharedErrors, usable_points
+from viscofric.friction.identification.setting_up import alone_or_many, problem_of, shifts_of, with_shared_errors
 from viscofric.friction.identification.solving import Contacts
 from viscofric.processes import Workers
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, positive
+from viscofric.units import checked_poisson_ratio, positive, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -43,6 +43,10 @@ def identify_material(
     prior: Known | None = None,
     prior_band: tuple[Quantity, Quantity] | None = None,
     prior_error: Quantity = 0.02,
+    level_error: Quantity = 0.0,
+    common_error: Quantity = 0.0,
+    drift_error: Quantity = 0.0,
+    coulomb_level_error: Quantity = 0.0,
     reference: Quantity | None = None,
     poisson_ratio: Quantity = 0.5,
     modes: int = 30,
@@ -77,6 +81,15 @@ def identify_material(
         that it was measured or fitted at.
     prior_error : float or str
         Relative standard error of E' and E'' of the prior, four values of each per decade; samples have their own.
+    level_error : float or str
+        Relative standard error of friction that all points of a temperature share, another one at each temperature,
+        such as 0.01 for samples changed between temperatures, or the difference of runs that `separate` notes.
+    common_error : float or str
+        Relative standard error of friction that all points share, such as of the calibration of force and load.
+    drift_error : float or str
+        Relative standard error of friction per decade of speed, the same at all temperatures.
+    coulomb_level_error : float or str
+        Relative standard error, shared by all points, of the Coulomb friction of the curves, which was subtracted.
     reference : float, str or pint.Quantity, optional
         Temperature at which the material is described, K if a plain number; without it, that of `shift`, or of the
         shift factors that are found.
@@ -126,7 +139,8 @@ def identify_material(
     that of fits to other errors, of the measurement and of the prior (randomised maximum likelihood).
 
     Errors of the points are taken as independent.  Those of replicates are moderated towards a common scatter.  Errors
-    that all speeds of a run share, which `separate` notes with their size, are not modelled.  Contacts are solved
+    that points share cannot be seen in the residuals: a fit follows them.  Those that are given (`level_error` …) are
+    unknowns with these standard errors, and widen all bands; others are not in the bands.  Contacts are solved
     without shear: a note gives the effect of measured Coulomb friction on a half-space of the Poisson ratio; for thin
     rubber call `check_assumptions` with the material found, and its thickness.
 
@@ -159,6 +173,12 @@ def identify_material(
     poisson_ratio = checked_poisson_ratio(poisson_ratio)
     _check_numbers(modes=modes, samples=samples, seed=seed)
     limit, prior_error, accuracy = _checked_parts(limit=limit, prior_error=prior_error, accuracy=accuracy)
+    errors = _checked_errors(
+        level_error=level_error,
+        common_error=common_error,
+        drift_error=drift_error,
+        coulomb_level_error=coulomb_level_error,
+    )
     levels = _checked_levels(levels)
     text(name, "name")
     insist_on_function(progress, "progress")
@@ -166,6 +186,7 @@ def identify_material(
     points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy)
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
+    points, shifts = with_shared_errors(points, shifts, errors.columns(points, curves))
     moduli = anchored(one for one in anchors if isinstance(one, ModulusAnchor))
     if prior is None and prior_band is not None:
         raise InputError(f"prior_band = {brief(prior_band)}: belongs to a prior; give it too.", code="no-prior")
@@ -197,6 +218,15 @@ def _checked_parts(**parts: Quantity) -> list[float]:
         if value >= 1.0:
             raise InputError(f"{name} = {value:g}: must be a relative error above 0 and below 1.", code="out-of-range")
     return list(found.values())
+
+
+def _checked_errors(**parts: Quantity) -> SharedErrors:
+    found = {name: to_si(value, "dimensionless", name) for name, value in parts.items()}
+    for name, value in found.items():
+        if not 0.0 <= value < 1.0:
+            words = "must be zero or above, and below 1 (all of the friction)."
+            raise wrong_argument(name, parts[name], words, "level-error")
+    return SharedErrors(**{name.removesuffix("_error"): value for name, value in found.items()})
 
 
 def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -40,6 +40,7 @@ class Points:
     forces: Array  # (n,), measured loads, N or N/m
     raised: Array  # (n,), ln of the measured friction over that of the contact under `load`
     rows: Integers  # (n,), rows of the curves that the points come from
+    shared: Array  # (n, k), errors of log_friction that points have in common, k independent ones of one standard error
     notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -61,7 +62,7 @@ class Points:
 
     def chosen(self, keep: Mask) -> Points:
         """Return some of the points, by a mask (n,)."""
-        columns = ("log_speed", "log_load", "log_friction", "error", "number", "forces", "raised", "rows")
+        columns = ("log_speed", "log_load", "log_friction", "error", "number", "forces", "raised", "rows", "shared")
         return replace(self, **{name: getattr(self, name)[keep] for name in columns})
 
 
@@ -155,8 +156,39 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         forces=forces,
         raised=rule.strain * relative,
         rows=rows,
+        shared=np.zeros((len(rows), 0)),
         notes=tuple(notes),
     )
+
+
+class SharedErrors(NamedTuple):
+    """Relative standard errors of friction that points have in common; see `identify_material`."""
+
+    level: float = 0.0
+    common: float = 0.0
+    drift: float = 0.0
+    coulomb_level: float = 0.0
+
+    def columns(self, points: Points, curves: FrictionCurves) -> Array:
+        """Return the errors of ln μ of points of these curves, (n, k), one column for each independent error."""
+        measured = curves.select(points.rows)
+        found = []
+        if self.common > 0.0:
+            found.append(np.full(len(points), self.common))
+        if self.drift > 0.0:
+            decades = np.log10(measured.speed)
+            found.append(self.drift * (decades - 0.5 * (decades.min() + decades.max())))
+        if self.coulomb_level > 0.0:
+            if measured.coulomb is None:
+                raise InputError(
+                    f"coulomb_level_error = {self.coulomb_level:g}: the friction curves have no Coulomb friction; leave "
+                    "it out.",
+                    code="no-coulomb",
+                )
+            found.append(self.coulomb_level * measured.coulomb / measured.viscoelastic)
+        if self.level > 0.0:
+            found += [np.where(points.number == one, self.level, 0.0) for one in np.unique(points.number)]
+        return np.array(found).reshape(-1, len(points)).T
 
 
 def relative_errors(curves: FrictionCurves) -> Array:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -115,10 +115,10 @@ def correlation(residuals: Array) -> float:
     return float((1.0 - 0.5 * ratio) * np.sqrt((n**2 - 1.0) / (n - 2.0)))
 
 
-def too_small(residuals: Array, freedom: float, example: str) -> tuple[Note, ...]:
+def too_small(residuals: Array, freedom: float, example: str, remedy: Remedy | None = None) -> tuple[Note, ...]:
     """Return a note if residuals over given standard errors are smaller than chance explains: errors are shared.
 
-    `example` is a clause about a shared error.
+    `example` is a clause about a shared error, `remedy` the end of the sentence.
     """
     from scipy.special import chdtr
 
@@ -129,7 +129,9 @@ def too_small(residuals: Array, freedom: float, example: str) -> tuple[Note, ...
     note = Note(
         "errors-not-scatter",
         f"The residuals are {1.0 / ratio:.2g} times smaller than the given standard errors: these are too large, or "
-        f"shared by the points, {example}; the bands, which take them as independent, are then too narrow.",
+        f"shared by the points, {example}; the bands, which take them as independent, are then too narrow"
+        + ("." if remedy is None else ""),
+        remedy=remedy,
         values={"factor": ratio},
     )
     return (note,)

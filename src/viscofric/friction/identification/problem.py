@@ -79,6 +79,11 @@ class Shifts:
         covariance = LN10**2 * _covariance(shift, temperatures)
         return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())
 
+    def widened(self, log_alpha_error: Array) -> Shifts:
+        """Return the prior with additional standard errors (t,) of ln α."""
+        covariance = np.linalg.inv(self.whitening.T @ self.whitening) + np.diag(log_alpha_error**2)
+        return replace(self, whitening=_whitening(covariance))
+
     def row(self, temperature: float) -> Array:
         """Return the weights (t,) in ln α at a temperature, linear in 1/T; InputError clearly outside their range."""
         low, high = self.temperatures[0], self.temperatures[-1]
@@ -250,9 +255,18 @@ class Problem(SpectrumProblem):
     contacts: tuple[SolvedContact, ...] = ()  # contacts whose size was measured
 
     @property
+    def others(self) -> int:
+        """Number of errors that the points have in common."""
+        return self.observations.points.shared.shape[1]
+
+    @property
     def point_errors(self) -> Array:
         """Standard errors of ln μ (n,)."""
         return self.observations.points.error
+
+    def common_errors(self, unknowns: Array) -> Array:
+        """Return the errors of ln μ that points have in common (n,)."""
+        return np.asarray(self.observations.points.shared @ unknowns[len(unknowns) - self.others :])
 
     def with_errors(self, errors: Array) -> Self:
         """Return the problem with other standard errors of ln μ (n,)."""
@@ -260,13 +274,13 @@ class Problem(SpectrumProblem):
         return replace(self, observations=replace(self.observations, points=points))
 
     def modelled(self, unknowns: Array) -> tuple[Array, Array]:
-        """Return the modelled ln μ of every point (n,), and its derivatives (n, p)."""
+        """Return the modelled ln μ of every point (n,), with the errors in common, and its derivatives (n, p)."""
         compliances, log_alpha = self.split(unknowns)
         points = self.observations.points
         value, change, slope = self.friction(compliances, points.log_speed + log_alpha[points.number], points.log_load)
         moved = np.zeros((len(points), len(log_alpha)))
         moved[np.arange(len(points)), points.number] = slope
-        return value, np.concatenate([change, moved], axis=1)
+        return value + self.common_errors(unknowns), np.concatenate([change, moved, points.shared], axis=1)
 
     def measured(self, unknowns: Array) -> tuple[Array, Array]:
         """Return the residuals of the measurements (r,), friction first, and their derivatives (r, p)."""
@@ -283,10 +297,14 @@ class Problem(SpectrumProblem):
             row = self.shifts.row(contact.temperature)
             away, moved, slope = contact.away(compliances, float(row @ log_alpha))
             values.append(np.array([away]))
-            changes.append(np.concatenate([moved, slope * row])[None, :])
+            changes.append(self._padded(np.concatenate([moved, slope * row])[None, :]))
         return np.concatenate(values), np.concatenate(changes)
 
     def _modulus(self, one: ModulusObservation, compliances: Array, log_alpha: Array) -> tuple[Array, Array]:
         row = self.shifts.row(one.temperature)
         away, moved, slope = one.away(compliances, self.smoothness.tau, float(row @ log_alpha))
-        return away, np.concatenate([moved, slope[:, None] * row], axis=1)
+        return away, self._padded(np.concatenate([moved, slope[:, None] * row], axis=1))
+
+    def _padded(self, change: Array) -> Array:
+        """Return derivatives (r, p) of what does not depend on the errors in common."""
+        return np.pad(change, ((0, 0), (0, self.others)))

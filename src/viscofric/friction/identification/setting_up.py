@@ -12,7 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.moduli import ModulusObservation
-from viscofric.friction.identification.problem import EXPECTED, Observations, Problem, Shifts, Smoothness
+from viscofric.friction.identification.problem import EXPECTED, OVERLAPPING, Observations, Problem, Shifts, Smoothness
 from viscofric.friction.shifting.refusals import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
@@ -23,6 +23,7 @@ from viscofric.units import shown_celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.identification.moduli import Block
     from viscofric.friction.identification.points import Points
@@ -39,6 +40,8 @@ LEAST_PER_DECADE = 2.5
 #: contact's frequencies affect it from one side only, and a spectrum may end there, so that no smoothness is assumed
 #: for them.  Of a narrow band this is a quarter on either side.
 ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
+#: A smaller slope d ln μ/d ln v counts as this where errors in common move a curve along it.
+LEAST_SLOPE = 0.05
 #: Slope of the indenter at the contact's edge for a first guess of the level, and the standard deviation of ln |E|
 #: about it where nothing is known: for a ball, slopes from 0.06 to 0.4 are within two standard deviations.
 GUESSED_SLOPE = 0.15
@@ -100,6 +103,26 @@ def shifts_of(
         notes = (*notes, *found.notes, f"{np.count_nonzero(~kept)} points were left out with them.")
     chosen = replace(points.chosen(kept), temperatures=found.temperatures, number=number[kept], notes=notes)
     return chosen, Shifts.unknown(found.temperatures, nearest, found)
+
+
+def with_shared_errors(points: Points, shifts: Shifts, shared: Array) -> tuple[Points, Shifts]:
+    """Return the points with errors in common (n, k), and shifts that may differ accordingly from those of the overlap.
+
+    An error moves the curve of a temperature along a slope by as much as it differs there from a line over all points:
+    a line in the reduced speed tilts the master curve and moves no curve along it.
+    """
+    points = replace(points, shared=shared)
+    if not shared.shape[1] or not shifts.found or len(shifts.middle) == 1:
+        return points, shifts
+    lines = np.stack([np.ones(len(points)), points.log_speed + shifts.middle[points.number]], axis=1)
+    away = shared - lines @ np.linalg.lstsq(lines, shared, rcond=None)[0]
+    moved = np.zeros(len(shifts.middle))
+    for one in np.unique(points.number):
+        rows = points.number == one
+        slope = abs(np.polyfit(points.log_speed[rows], points.log_friction[rows], 1)[0]) if rows.sum() > 1 else 0.0
+        moved[one] = OVERLAPPING * np.linalg.norm(away[rows].mean(axis=0)) / max(slope, LEAST_SLOPE)
+    moved[shifts.temperatures == shifts.reference] = 0.0
+    return points, shifts.widened(moved)
 
 
 def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputError:
