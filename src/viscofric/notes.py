@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -180,6 +181,17 @@ def counted(
 def records(notes: Iterable[str]) -> list[dict[str, Any]]:
     """Return notes as JSON."""
     return [note_of(note).record() for note in notes]
+
+
+def note_attributes(notes: Iterable[str]) -> dict[str, str]:
+    """Return notes as attributes of a data set, none without notes: sentences, one a line, and records as JSON."""
+    found = [note_of(note) for note in notes]
+    return {"notes": "\n".join(found), "note_records": dumped(records(found))} if found else {}
+
+
+def dumped(record: Any) -> str:
+    """Return records of notes as JSON on one line."""
+    return json.dumps(plain(record, None), ensure_ascii=False)
 
 
 def listed(name: str, notes: Iterable[str], reader: Reader = "python") -> dict[str, list[Any]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ from refusals import refused
 from viscofric.errors import DataFileError
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.friction.curves import FrictionCurves
-from viscofric.notes import codes
+from viscofric.notes import Note, Remedy, codes, note_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -96,6 +97,28 @@ def test_any_finite_numbers_come_back(
     same(replace(found, notes=()), curves)  # what no rubber has is noted, once
     vf.write_friction_curves(found, tmp_path / "any.csv")
     same(vf.read_friction_curves(tmp_path / "any.csv"), found)
+
+
+def test_notes_come_back_with_their_codes_and_values(tmp_path: Path) -> None:
+    n = np.array([1.0, 2.0])
+    said = (
+        Note(
+            "few-replicates",
+            'A "quoted" sentence: with, commas',
+            "run 1",
+            Remedy("; a", "; b"),
+            {"of": np.float64(3.0)},
+        ),
+        Note("", "A sentence without a code."),
+        Note("", '{"no": "record"}'),
+    )
+    curves = FrictionCurves(n, 300.0 * n, n, 0.1 * n, 0.01 * n, 0.01 * n, np.ones(2), source="made up", notes=said)
+    vf.write_friction_curves(curves, tmp_path / "noted.csv")
+    found = vf.read_friction_curves(tmp_path / "noted.csv")
+    same(found, curves)
+    assert [one.record() for one in found.notes[:3]] == [one.record() for one in curves.notes]
+    stored = json.loads(curves.points_dataset().attrs["note_records"])
+    assert [note_of(one).code for one in stored] == ["few-replicates", "", ""]
 
 
 def test_a_table_of_another_tribometer_is_read(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import math
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,7 @@ from viscofric.errors import DataFileError, InputError, short_notes
 from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
-from viscofric.notes import Note
+from viscofric.notes import Note, dumped, note_of
 from viscofric.readers.given_files import bytes_of
 from viscofric.readers.headings import quantity_of
 from viscofric.readers.one_table import table_of
@@ -81,7 +82,7 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
         raise InputError("friction curves without an entry make no file.", code="empty-list")
     text = io.StringIO()
     remarks = [("source", curves.source), ("assumption", curves.assumption)]
-    remarks += [("note", note) for note in curves.notes]
+    remarks += [("note", dumped(one.record()) if one.code else one) for one in map(note_of, curves.notes)]
     text.write(f"# {_TITLE}\n")
     text.writelines(f"# {name}: {' '.join(words.split())}\n" for name, words in remarks if words.strip())
     columns = {}
@@ -292,5 +293,13 @@ def _remarks(path: str) -> dict[str, list[str]]:
     for line in lines[1:]:
         name, colon, words = line.partition(": ")
         if colon and name in found:
-            found[name].append(words)
+            found[name].append(_note(words) if name == "note" else words)
     return found
+
+
+def _note(words: str) -> str:
+    """Return a note with its code, or the sentence alone where it has none."""
+    try:
+        return note_of(json.loads(words)) if words.startswith("{") else words
+    except (ValueError, TypeError, KeyError):
+        return words

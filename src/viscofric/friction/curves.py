@@ -15,6 +15,7 @@ from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
 from viscofric.friction.solved_columns import columns_of
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE, nominal_rows
+from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error
 from viscofric.showing import Plotted
 from viscofric.units import Quantity, positive, share, shown_celsius
@@ -409,7 +410,8 @@ class FrictionCurves(Plotted):
             "point",
             {name: column for name, column in columns.items() if name not in _COORDINATES},
             coordinates={name: columns[name] for name in _COORDINATES if name in columns},
-            attributes={"source": self.source, "notes": "\n".join(self.notes), "assumption": str(self.assumption)},
+            attributes={"source": self.source, "notes": "", "assumption": str(self.assumption)}
+            | note_attributes(self.notes),
         )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.heat.result import HeatColumns
+from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error, total_friction
 from viscofric.showing import Plotted
 
@@ -119,8 +120,7 @@ class PerssonTheory(Plotted):
                 "speed": (self.speed, "m/s", "sliding speed"),
                 "wave_number": (self.wave_number, "rad/m", "wave number"),
             },
-            attributes={"pressure": self.pressure, "error": self.error}
-            | ({"notes": "\n".join(self.notes)} if self.notes else {}),
+            attributes={"pressure": self.pressure, "error": self.error} | note_attributes(self.notes),
         )
 
 

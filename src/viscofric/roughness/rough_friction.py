@@ -14,6 +14,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.result import SolvedHeatColumns
 from viscofric.lazy import renamed
+from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error, total_friction
 from viscofric.showing import Plotted
 from viscofric.units import share
@@ -163,7 +164,7 @@ class RoughFriction(Plotted):
                 "speed": (self.speed, "m/s", "sliding speed"),
                 "surface": (list(self.surfaces), "1", "name of the surface"),
             },
-            attributes={"pressure": self.pressure} | ({"notes": "\n".join(self.notes)} if self.notes else {}),
+            attributes={"pressure": self.pressure} | note_attributes(self.notes),
         )
 
 

@@ -16,7 +16,7 @@ from viscofric.friction.shifting.collapse import Collapse, collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
 from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
-from viscofric.notes import Note
+from viscofric.notes import Note, note_attributes
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress
 from viscofric.rheology.interface.friction import OF_LIMIT
 from viscofric.rheology.interface.law import InterfaceLaw
@@ -214,8 +214,9 @@ class ShearStress(Plotted):
                 "reference_temperature": reference,
                 "level_error": self.level_error,
                 "area_error": self.area_error,
-                "notes": "\n".join(str(note) for note in self.notes),
-            },
+                "notes": "",
+            }
+            | note_attributes(self.notes),
         )
 
 
