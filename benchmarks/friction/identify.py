@@ -2,7 +2,8 @@
 
 Usage: python benchmarks/friction/identify.py [--seeds N] [--first SEED] [--material NAME] [--json FILE]
        python benchmarks/friction/identify.py --few {replicates,errors} [--spectrum {smooth,ending,modes}]
-                                              [--rubbers N] [--seeds N] [--first SEED] [--json FILE]
+                                              [--shared {none,undeclared,declared} …] [--first-order]
+                                              [--samples N] [--rubbers N] [--seeds N] [--first SEED] [--json FILE]
 
 Nine temperatures from 30 to 90 °C, ten speeds from 20 to 200 mm/s, a ball of 9.525 mm under 25 N; friction is solved
 to 1e-4 with retardation times that the fit does not hold.  α(T) is found too; one modulus, |E| at 1 rad/s and 30 °C, is
@@ -16,6 +17,11 @@ same).  Their spectra are smooth; or what the prior does not expect: they end at
 frequencies (ending), or have one mode per decade (modes).  The row ± has the standard error of the mean over the
 measurements: what is found at the frequencies of one measurement errs together.  "lowest" is the share of E'' at the
 lowest of the contact's frequencies, and "± E'' %" half the median width of the intervals of E''.
+
+With --shared, friction also has errors that points share: of all points (5 %), per decade of speed (3 %) and of each
+temperature (2 %), drawn anew for each measurement; they are given to the identification (declared) or not.  With
+--first-order, planted friction and fit are those of the closed form to first order in the loss: no contact is solved,
+which tests the statistics alone in a tenth of the time.
 """
 
 from __future__ import annotations
@@ -24,6 +30,7 @@ import argparse
 import json
 import os
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +39,8 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.errors import ViscofricError
+from viscofric.friction.identification.forward import FirstOrder
+from viscofric.friction.identification.solving import Contacts
 
 BALL = vf.Ball(radius="9.525 mm")
 KELVIN = np.array([30.0, 35.0, 40.0, 46.0, 52.0, 60.0, 68.0, 78.0, 90.0]) + 273.15
@@ -60,6 +69,23 @@ FEW_KELVIN, FEW_SPEEDS = np.array([30.0, 40.0, 52.0, 66.0]) + 273.15, np.geomspa
 FEW_SCATTER, FEW_REPLICATES = 0.03, 4
 #: Decades between the modes of drawn rubbers, and where they end, log10 s.
 SPECTRA = {"smooth": (0.37, 5.0), "ending": (0.37, 2.0), "modes": (1.0, 5.0)}
+
+
+VARIANTS = ("none", "undeclared", "declared")
+#: Standard errors that points share, as arguments of `identify_material`.
+SHARED = {"common_error": 0.05, "drift_error": 0.03, "level_error": 0.02}
+
+
+def with_shared_errors(curves: vf.FrictionCurves, seed: int) -> vf.FrictionCurves:
+    """Return friction with errors that points share."""
+    random = np.random.default_rng([seed, 1])
+    decades = np.log10(curves.speed)
+    kelvins, number = np.unique(curves.temperature, return_inverse=True)
+    logarithm = SHARED["common_error"] * random.standard_normal()
+    logarithm += SHARED["drift_error"] * random.standard_normal() * (decades - decades.mean())
+    logarithm += SHARED["level_error"] * random.standard_normal(len(kelvins))[number]
+    names = ("viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
+    return replace(curves, **{name: getattr(curves, name) * np.exp(logarithm) for name in names})
 
 
 def drawn_rubber(number: int, kind: str = "smooth") -> vf.Material:
@@ -114,12 +140,12 @@ def measured(
     )
 
 
-def identified(material: vf.Material, curves: vf.FrictionCurves) -> dict[str, Any]:
+def identified(material: vf.Material, curves: vf.FrictionCurves, **settings: Any) -> dict[str, Any]:
     """Identify, and compare with what was planted."""
     modulus = float(abs(material.complex_modulus(FREQUENCY, KELVIN[0])))
     anchor = vf.friction.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)
     begin = time.process_time()
-    found = vf.identify_material(curves, indenter=BALL, anchor=anchor, reference=KELVIN[0])
+    found = vf.identify_material(curves, indenter=BALL, anchor=anchor, reference=KELVIN[0], **settings)
     seconds = time.process_time() - begin
     low, high = found.frequency_range
     omega = np.geomspace(low, high, 25)
@@ -153,6 +179,9 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--material", choices=MATERIALS, help="only this one")
     parser.add_argument("--few", choices=("replicates", "errors"), help="drawn rubbers, few replicates")
     parser.add_argument("--spectrum", choices=SPECTRA, default="smooth", help="of the drawn rubbers")
+    parser.add_argument("--shared", choices=VARIANTS, nargs="+", default=["none"], help="errors that points share")
+    parser.add_argument("--first-order", action="store_true", help="solve no contacts")
+    parser.add_argument("--samples", type=int, default=200, help="materials drawn for the intervals")
     parser.add_argument("--rubbers", type=int, default=13, help="how many are drawn")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
@@ -162,31 +191,51 @@ def main(arguments: list[str] | None = None) -> None:
         options.json.write_text(json.dumps(results, indent=1, ensure_ascii=False), encoding="utf-8")
 
 
+def solved(rubber: vf.Material) -> vf.FrictionCurves:
+    """Return the friction of a drawn rubber."""
+    return vf.predict_friction(rubber, BALL, speeds=FEW_SPEEDS, temperatures=FEW_KELVIN, load="25 N", accuracy=1e-3)
+
+
+def of_first_order(rubber: vf.Material) -> vf.FrictionCurves:
+    """Return the friction of a drawn rubber to first order in the loss."""
+    kelvin, speed = (column.ravel() for column in np.meshgrid(FEW_KELVIN, FEW_SPEEDS, indexing="ij"))
+    spectrum = rubber.modes_at()
+    first = FirstOrder(BALL, 25.0, 0.75, spectrum.tau)
+    found = first(np.log([1.0 / spectrum.E_inf, *spectrum.C]), np.log(speed * rubber.shift(kelvin)))
+    none, ones = np.zeros(speed.size), np.ones(speed.size, int)
+    return vf.FrictionCurves(speed, kelvin, 25.0 * ones, np.exp(found.log_friction), none, none, ones)
+
+
 def few(options: argparse.Namespace) -> dict[str, Any]:
     """Identify drawn rubbers from few replicates."""
-    print(f"{'':10}" + "".join(f"{heading:>9}" for heading in HEADINGS))
-    rows, refused = [], {}
+    results: dict[str, Any] = {name: {"scattered": [], "refused": {}} for name in options.shared}
+    if options.first_order:
+        Contacts.solved = lambda contacts, problem, unknowns, step: problem  # type: ignore[method-assign]
+    print(f"{'':12}" + "".join(f"{heading:>9}" for heading in HEADINGS))
     for number in range(options.rubbers):
         rubber = drawn_rubber(number, options.spectrum)
-        exact = vf.predict_friction(
-            rubber, BALL, speeds=FEW_SPEEDS, temperatures=FEW_KELVIN, load="25 N", accuracy=1e-3
-        )
+        exact = of_first_order(rubber) if options.first_order else solved(rubber)
         for seed in range(options.first, options.first + options.seeds):
-            name = f"{number}, {seed}"
             told = options.few == "replicates"
-            curves = measured(exact, 1000 * number + seed, FEW_SCATTER, FEW_REPLICATES, told=told)
-            try:
-                rows.append(identified(rubber, curves))
-            except ViscofricError as error:
-                refused[name] = str(error)
-                print(f"{name}: {error}", flush=True)
-            else:
-                show(name, rows[-1])
-    mean = {key: float(np.mean([row[key] for row in rows])) for key in rows[0]} if rows else {}
-    if len(rows) > 1:
-        show("mean", mean)
-        show("±", {key: float(np.std([row[key] for row in rows], ddof=1) / np.sqrt(len(rows))) for key in mean})
-    return {"few": options.few, "spectrum": options.spectrum, "scattered": rows, "refused": refused, "mean": mean}
+            alone = measured(exact, 1000 * number + seed, FEW_SCATTER, FEW_REPLICATES, told=told)
+            together = with_shared_errors(alone, 1000 * number + seed)
+            for variant, result in results.items():
+                name = f"{number}, {seed} {variant[:1]}"
+                curves, given = alone if variant == "none" else together, dict(SHARED) if variant == "declared" else {}
+                try:
+                    result["scattered"].append(identified(rubber, curves, samples=options.samples, **given))
+                except ViscofricError as error:
+                    result["refused"][name] = str(error)
+                    print(f"{name}: {error}", flush=True)
+                else:
+                    show(name, result["scattered"][-1])
+    for variant, result in results.items():
+        rows = result["scattered"]
+        mean = result["mean"] = {key: float(np.mean([row[key] for row in rows])) for key in rows[0]} if rows else {}
+        if len(rows) > 1:
+            show(f"mean {variant[:1]}", mean)
+            show("±", {key: float(np.std([row[key] for row in rows], ddof=1) / np.sqrt(len(rows))) for key in mean})
+    return {"few": options.few, "spectrum": options.spectrum, "first_order": options.first_order, "results": results}
 
 
 def many(options: argparse.Namespace) -> dict[str, Any]:
@@ -195,7 +244,7 @@ def many(options: argparse.Namespace) -> dict[str, Any]:
     for name in [options.material] if options.material else MATERIALS:
         material = MATERIALS[name]()
         exact = vf.predict_friction(material, BALL, speeds=SPEEDS, temperatures=KELVIN, load="25 N", accuracy=1e-4)
-        print(f"\n{name}\n{'':10}" + "".join(f"{heading:>9}" for heading in HEADINGS))
+        print(f"\n{name}\n{'':12}" + "".join(f"{heading:>9}" for heading in HEADINGS))
         exactly = identified(material, measured(exact, None))
         show("no noise", exactly)
         rows, refused = [], {}
@@ -218,7 +267,7 @@ def show(title: str, row: dict[str, Any]) -> None:
     """Print a row."""
     percent = {key: 100.0 * row[key] for key in ("modulus", "loss", "width")}
     print(
-        f"{title:10}{row['seconds']:9.1f}{row['steps']:9.1f}{row['decades']:9.1f}{percent['modulus']:9.3f}"
+        f"{title:12}{row['seconds']:9.1f}{row['steps']:9.1f}{row['decades']:9.1f}{percent['modulus']:9.3f}"
         f"{percent['loss']:9.3f}{row['alpha']:9.4f}{row['chi2']:9.2f}"
         + "".join(f"{row[key]:9.2f}" for key in ("in |E|", "in E'", "in E''", "in α", "lowest"))
         + f"{percent['width']:9.2f}",

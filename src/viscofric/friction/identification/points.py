@@ -181,8 +181,8 @@ class SharedErrors(NamedTuple):
         if self.coulomb_level > 0.0:
             if measured.coulomb is None:
                 raise InputError(
-                    f"coulomb_level_error = {self.coulomb_level:g}: the friction curves have no Coulomb friction; leave "
-                    "it out.",
+                    f"coulomb_level_error = {self.coulomb_level:g}: the friction curves have no Coulomb friction; "
+                    "leave it out.",
                     code="no-coulomb",
                 )
             found.append(self.coulomb_level * measured.coulomb / measured.viscoelastic)

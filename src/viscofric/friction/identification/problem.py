@@ -82,7 +82,7 @@ class Shifts:
     def widened(self, log_alpha_error: Array) -> Shifts:
         """Return the prior with additional standard errors (t,) of ln α."""
         covariance = np.linalg.inv(self.whitening.T @ self.whitening) + np.diag(log_alpha_error**2)
-        return replace(self, whitening=_whitening(covariance))
+        return replace(self, whitening=_whitening(np.asarray(covariance, dtype=np.float64)))
 
     def row(self, temperature: float) -> Array:
         """Return the weights (t,) in ln α at a temperature, linear in 1/T; InputError clearly outside their range."""
@@ -257,7 +257,7 @@ class Problem(SpectrumProblem):
     @property
     def others(self) -> int:
         """Number of errors that the points have in common."""
-        return self.observations.points.shared.shape[1]
+        return int(self.observations.points.shared.shape[1])
 
     @property
     def point_errors(self) -> Array:

@@ -219,7 +219,7 @@ def _sparse(
 
 
 def _regularised(
-    misfit: CurveMisfit, tau_ratio: float, master_curve: Curve, regularisation: float | str | None
+    misfit: Misfit, tau_ratio: float, master_curve: Curve, regularisation: float | str | None
 ) -> tuple[Modes, float, tuple[str, ...]]:
     tau = lattice(misfit, tau_ratio)
     if len(tau) < LEAST_SMOOTH:
@@ -234,6 +234,7 @@ def _regularised(
     if regularisation == "l-curve":
         place = regularised.corner(misfit, fits)
     else:
+        assert isinstance(misfit, CurveMisfit)  # of several curves the L-curve is used
         place = regularised.cross_validated(misfit, tau, by_rate(master_curve))
     strength = float(regularised.STRENGTHS[place])
     if 0 < place < len(fits) - 1:

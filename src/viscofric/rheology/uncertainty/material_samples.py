@@ -159,8 +159,13 @@ class MaterialSamples(Plotted, Items["Material"]):
         if not beyond.size:
             return ()
         subject = f"{beyond.size} of {reduced.size} reduced frequencies, {beyond.min():.3g} to {beyond.max():.3g} rad/s"
-        values = {"points": beyond.size, "of": reduced.size, "lowest": beyond.min(), "highest": beyond.max()}
-        return (beyond_note(self.frequency_range, f"{subject}, lie", **{name: float(values[name]) for name in values}),)
+        values = {
+            "points": beyond.size,
+            "of": reduced.size,
+            "lowest": float(beyond.min()),
+            "highest": float(beyond.max()),
+        }
+        return (beyond_note(self.frequency_range, f"{subject}, lie", "measured", **values),)
 
     def to_dataset(
         self, angular_frequency: ArrayLike, temperature: Quantity | None = None, level: float = 0.95
