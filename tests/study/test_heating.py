@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -11,12 +11,14 @@ import pytest
 import viscofric as vf
 from viscofric.errors import ConvergenceError, StudyError
 from viscofric.friction.cases.case import Rubbers
+from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.notes import codes
 from viscofric.report.captions import captions
 from viscofric.report.figures.heating import heated_parts_figure, heating_figure, temperature_map_figure
 from viscofric.report.figures.histories import histories_figure
 from viscofric.report.texts.study import scope
 from viscofric.rheology.shifts.vertical_shift import DensityShift
+from viscofric.rheology.spectra.quality import BEYOND, SpectrumFit
 from viscofric.study.cases import heating as cases
 from viscofric.study.checking import check_study
 from viscofric.study.histories import Histories, material_notes
@@ -205,6 +207,28 @@ def test_an_interface_makes_the_heat_and_is_warm_itself(tmp_path: Path) -> None:
     np.testing.assert_allclose(data["total_friction"], data["friction_coefficient"] + data["interface_friction"])
     assert float(data["slip"]) == 0.1
     assert data.attrs["heat_of"] == "interface"
+
+
+def test_heated_contacts_at_frequencies_that_were_not_measured_are_noted() -> None:
+    case: Any = IndenterCase(0, vf.Cylinder("10 mm"), 333.15, 0.05, 500.0)
+    contact = {"indenter": case.indenter, "temperature": 333.15, "load": 500.0, "accuracy": 0.1}
+    heating = vf.Heating(rubber=FILLED_RUBBER, counterface=STEEL)
+    rubber = vf.synthetic_fluoroelastomer()
+
+    def noted(low: float, high: float) -> tuple[str, ...]:
+        fit = SpectrumFit(None, None, False, False, (low, high), notes=("Of the fit.",))
+        known = replace(rubber, spectrum=replace(rubber.modes_at(), fit=fit))
+        lean = Rubbers([known], {}).without_notes(case)
+        record = cases.solve_heated(lean, speeds=(0.05,), heating=heating, **contact)
+        curves = vf.predict_friction(
+            known, speeds=0.05, temperatures=333.15, heating=heating,
+            **{name: value for name, value in contact.items() if name != "temperature"},
+        )  # fmt: skip
+        assert record.warnings == tuple(str(one) for one in curves.notes if one.code == BEYOND)
+        return record.warnings
+
+    assert noted(1e-9, 1e9) == ()
+    assert len(noted(1e-9, 1e-6)) == 1
 
 
 @pytest.mark.slow

@@ -184,7 +184,7 @@ class Heatings(Singles):
 
     def _arguments(self, case: Any, first: int, second: int) -> dict[str, Any]:
         body: dict[str, Any]
-        material = self._rubbers.without_fit(case)
+        material = self._rubbers.without_notes(case)
         if material.shift is None:
             raise InputError("heating: needs a material with shift factors.", code="no-shift")
         if isinstance(case, SurfaceCase):

@@ -113,7 +113,7 @@ def _task(case: Any, rubbers: Rubbers, history: History, study: Study, label: st
     if coulomb is None or heating is None:
         heat, material = {}, Material(rubbers.modes(case), poisson_ratio=rubbers.of(case).poisson_ratio)
     else:
-        heat, material = {"heating": heating.heating(coulomb, None)}, rubbers.without_fit(case)
+        heat, material = {"heating": heating.heating(coulomb, None)}, rubbers.without_notes(case)
     arguments = {
         "material": material,
         **heat,

@@ -232,12 +232,12 @@ class Rubbers:
             )
         return drawn[case.sample - 1]
 
-    def without_fit(self, case: Case) -> Material:
-        """Return the material of a case without its fit, which is large and does not affect the result."""
+    def without_notes(self, case: Case) -> Material:
+        """Return the material of a case as modes, without the notes on their fit."""
         key = case.material, case.sample
         if key not in self._lean:
             material = self.of(case)
-            self._lean[key] = replace(material, spectrum=replace(material.modes_at(None), fit=None))
+            self._lean[key] = replace(material, spectrum=_without_notes(material, None))
         return self._lean[key]
 
     def shifts(self, case: Case) -> tuple[float, float]:
@@ -256,10 +256,7 @@ class Rubbers:
         kelvin = None if at_reference or material.shift is None else case.temperature
         key = case.material, case.sample, kelvin
         if key not in self._modes:
-            modes = material.modes_at(kelvin)
-            # Notes on the fit, and all on that of a table, belong to the material rather than to its contacts.
-            fit = modes.fit if isinstance(material.spectrum, RetardationSpectrum) else None
-            self._modes[key] = replace(modes, fit=None if fit is None else replace(fit, notes=()))
+            self._modes[key] = _without_notes(material, kelvin)
         return self._modes[key]
 
     def reference(self, case: Case) -> float:
@@ -294,6 +291,14 @@ class Rubbers:
         contact = moved(family, speed=ratio * family.speed)
         modes, label = self.modes(family, at_reference=True), family.node_label(ratio)
         return contact.task(modes, self.of(family).poisson_ratio, settings, fields=False, label=label)
+
+
+def _without_notes(material: Material, kelvin: float | None) -> RetardationSpectrum:
+    """Return the modes of a material without notes, which belong to the material rather than to its contacts."""
+    modes = material.modes_at(kelvin)
+    # Nothing is known of the fit of a table.
+    fit = modes.fit if isinstance(material.spectrum, RetardationSpectrum) else None
+    return replace(modes, fit=None if fit is None else replace(fit, notes=()))
 
 
 def moved(case: Case, **changes: Any) -> Case:

@@ -15,6 +15,7 @@ from viscofric.friction.cases.surfaces import TOLERANCE, surface_of, unit_vector
 from viscofric.friction.prediction import predict_friction
 from viscofric.heat.result import COLUMNS as HEAT_COLUMNS
 from viscofric.notes import note_of
+from viscofric.rheology.spectra.quality import BEYOND
 from viscofric.roughness.ensemble import predict_rough_friction
 from viscofric.roughness.rough_friction import HeatedRoughFriction
 
@@ -33,8 +34,8 @@ COLUMNS = {
     "interface_friction": ("coulomb", "1", "friction coefficient of the interface with heating"),
     "interface_error": ("coulomb_error", "1", "standard error of the friction coefficient of the interface"),
 }
-#: Notes of the curves that the study has anyway: of the isothermal contacts, or counted over all cases.
-_KEPT = ("interface-extrapolated", "interface-pressure", "loss-beyond", "mean-heat-left-out", "states-beyond")
+#: Notes of the curves that are kept; others the study has anyway: of isothermal contacts, or counted over all cases.
+_KEPT = (BEYOND, "interface-extrapolated", "interface-pressure", "loss-beyond", "mean-heat-left-out", "states-beyond")
 
 
 def solve_heated(
