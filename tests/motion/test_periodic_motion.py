@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,8 @@ from viscofric.motion.memory import Modes
 from viscofric.motion.periodic import PeriodicMover
 from viscofric.motion.problem import Problem
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
+from viscofric.notes import note_of
+from viscofric.rheology.spectra.quality import SpectrumFit
 
 if TYPE_CHECKING:
     from viscofric.motion.mover import Observation
@@ -358,3 +361,24 @@ def test_memory_is_finite_for_instant_steps() -> None:
     assert found.memory[0, 0] == pytest.approx([1.0, 2.0 * np.exp(0.5j)])
     assert found.dissipated == 0.0
     assert math.isclose(found.stored, 2.5)
+
+
+def test_sliding_at_frequencies_that_were_not_measured_is_noted_as_in_steady_motion() -> None:
+    """Waves of 1 and 1/3 mm have 63 and 189 rad/s at 10 mm/s; six relaxation times after the start motion is steady."""
+    surface = profile(64)
+    history = vf.motion.History(time=[0.0, 0.1], pressure="20 kPa", position=[0.0, 1e-3], before="at rest")
+
+    def shares(low: float, high: float) -> list[list[float]]:
+        fit = SpectrumFit(None, None, False, False, (low, high))
+        material = vf.Material(replace(SLS.modes_at(), fit=fit))
+        steady = vf.solve_periodic(material, surface, speed=0.01, pressure="20 kPa")
+        over_time = vf.motion.solve_transient(material, surface, history, accuracy=1e-3)
+        return [
+            [note.values["share"] for note in map(note_of, one.warnings) if note.code == "beyond-measured"]
+            for one in (steady, over_time)
+        ]
+
+    assert shares(1e-3, 1e9) == [[], []]
+    (steady,), (over_time,) = shares(100.0, 1e9)
+    assert 0.05 < steady < 0.95
+    assert over_time == pytest.approx(steady, rel=0.05)

@@ -9,12 +9,15 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import scipy.fft
 
 from viscofric.arguments import insist_on_function
 from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.periodic.solve import beyond_measured
 from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.motion.history import History
 from viscofric.motion.march import march
@@ -411,17 +414,43 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]]) ->
 def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
     """Return a note where an indenter slides faster than its material was measured; each start is slow."""
     fit = problem.schedule.spectrum.fit
-    if fit is None or problem.kind == "periodic":
+    if fit is None or len(moments) < 2:
         return ()
+    place, clock = (np.array([getattr(one.instant, name) for one in moments]) for name in ("position", "clock"))
+    if isinstance(problem.indenter, PeriodicSurface):
+        return _beyond_on_waves(problem, problem.indenter, moments[1:], np.diff(place, axis=0), np.diff(clock))
     extents = [one.seen.extents for one in moments[1:]]
     half = np.array(
         [0.5 * (one["front"] + one["rear"]) if "front" in one else one["contact_radius"] for one in extents]
     )
-    place, clock = (np.array([getattr(one.instant, name) for one in moments]) for name in ("position", "clock"))
-    path = np.hypot(*np.diff(place, axis=0).T) if len(place) > 1 else np.zeros(0)
+    path = np.hypot(*np.diff(place, axis=0).T)
     scale = half * np.diff(clock)
     rate = np.divide(path, scale, out=np.zeros_like(path), where=scale > 0.0)
     return fit.beyond(np.where(rate > fit.frequency_range[1], rate, 0.0))
+
+
+def _beyond_on_waves(
+    problem: Problem, surface: PeriodicSurface, moments: list[Moment[Any]], paths: Array, clocks: Array
+) -> tuple[Note, ...]:
+    """Return the note on the pressure of the largest friction, as if it slid on at the reduced speed of that moment."""
+    friction = [
+        math.hypot(*one.seen.friction_force) if one.field is not None and clock > 0.0 and path.any() else 0.0
+        for one, path, clock in zip(moments, paths, clocks, strict=True)
+    ]
+    chosen = int(np.argmax(friction))
+    field = moments[chosen].field
+    if field is None or friction[chosen] == 0.0:
+        return ()
+    velocity = paths[chosen] / clocks[chosen]
+    toward = tuple((velocity / math.hypot(*velocity)).tolist())
+    material, layer = problem.material, problem.layer
+    solid = SlidingSolid(
+        problem.schedule.spectrum, material.poisson_ratio, tuple(velocity.tolist()), layer, problem.counterface, toward
+    )
+    transfer = solid.transfer(surface.shape, surface.spacing)
+    waves: Any = scipy.fft.rfft2(field.pressure)
+    whole = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
+    return beyond_measured(surface, solid, transfer, waves, whole)
 
 
 def _half_length(extents: Mapping[str, float]) -> float:

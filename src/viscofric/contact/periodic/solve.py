@@ -291,7 +291,7 @@ def _assemble(
     waves = scipy.fft.rfft2(pressure)
     by_energy = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
     lateral = dissipation(transfer, surface.shape, surface.spacing, (-toward[1], toward[0]), waves)
-    extrapolated = _beyond_measured(surface, solid, transfer, waves, by_energy)
+    extrapolated = beyond_measured(surface, solid, transfer, waves, by_energy)
     del waves
     error = abs(by_pressure - by_energy)
     if coarser is not None and work.coarser_pressure is not None:
@@ -339,7 +339,7 @@ def _assemble(
     return solution, steepness
 
 
-def _beyond_measured(
+def beyond_measured(
     surface: PeriodicSurface, solid: SlidingSolid, transfer: ComplexArray | Array, waves: ComplexArray, friction: float
 ) -> tuple[Note, ...]:
     """Return a note if much of the friction force per area comes from waves at frequencies that were not measured.
