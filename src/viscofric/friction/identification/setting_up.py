@@ -119,7 +119,8 @@ def with_shared_errors(points: Points, shifts: Shifts, shared: Array) -> tuple[P
     moved = np.zeros(len(shifts.middle))
     for one in np.unique(points.number):
         rows = points.number == one
-        slope = abs(np.polyfit(points.log_speed[rows], points.log_friction[rows], 1)[0]) if rows.sum() > 1 else 0.0
+        speed = points.log_speed[rows] - points.log_speed[rows].mean()
+        slope = abs(float(speed @ points.log_friction[rows])) / max(float(speed @ speed), 1e-300)
         moved[one] = OVERLAPPING * np.linalg.norm(away[rows].mean(axis=0)) / max(slope, LEAST_SLOPE)
     moved[shifts.temperatures == shifts.reference] = 0.0
     return points, shifts.widened(moved)

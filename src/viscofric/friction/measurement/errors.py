@@ -207,7 +207,8 @@ def _of_common(fits: list[Fit], common: dict[int, float]) -> list[str]:
     text = (
         f"{where([fits[place].group for place in common], len(fits))} runs differ by the same amount at all "
         "speeds, so that the errors of the speeds of one temperature are not independent: they have a common error of "
-        f"{100.0 * level:.2g} % of viscoelastic friction (level_error = {level:.2g} in shift_friction)."
+        f"{100.0 * level:.2g} % of viscoelastic friction (level_error = {level:.2g} in shift_friction and "
+        "identify_material)."
     )
     return [Note("errors-shared-by-speeds", text)]
 
