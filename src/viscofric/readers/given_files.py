@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import cast
@@ -11,7 +11,8 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
-from viscofric.readers.source import Source
+from viscofric.readers.headings import Vocabulary
+from viscofric.readers.source import Source, Test, checked_sheet
 from viscofric.units import Quantity, kelvin_hint, positive, shown_celsius
 
 
@@ -62,7 +63,29 @@ def bytes_of(path: str) -> bytes:
     return read_bytes(path)
 
 
-def insist_on_different(sources: Sequence[Source]) -> None:
+def sources_of(
+    paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]],
+    reader: str,
+    vocabulary: Vocabulary,
+    temperature: Quantity | Sequence[Quantity | None] | None,
+    unit: str | None,
+    columns: Mapping[str, str] | None,
+    sheet: str | None,
+    test: Test = "frequency",
+) -> list[Source]:
+    """Return the content of files given one by one or as lists, with what the user says of them; no file twice."""
+    files = files_of(paths, reader)
+    given = temperatures_of(temperature, len(files))
+    named, one_sheet = vocabulary.checked(columns), checked_sheet(sheet)
+    sources = [
+        Source(path, bytes_of(path), kelvin, unit or "", named, one_sheet, test)
+        for path, kelvin in zip(files, given, strict=True)
+    ]
+    _insist_on_different(sources)
+    return sources
+
+
+def _insist_on_different(sources: Sequence[Source]) -> None:
     """Refuse files that would count twice."""
     seen: dict[object, Source] = {}
     for source in sources:

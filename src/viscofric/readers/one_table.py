@@ -39,6 +39,11 @@ def one_table(source: Source, vocabulary: Vocabulary) -> Table:
         table = table_of_text(source.path, source.text)
         columns = vocabulary.columns([column.heading for column in table.columns])
         return replace(table, columns=columns, vocabulary=vocabulary)
+    return only_table(source, vocabulary)
+
+
+def only_table(source: Source, vocabulary: Vocabulary) -> Table:
+    """Return the one table of a text or a workbook that has the columns of a vocabulary."""
     tables = find_tables(source, vocabulary)
     if len(tables) > 1:
         shown = ", ".join(map(repr, tables))

@@ -126,6 +126,11 @@ class Table:
         values = self.vocabulary.header_values(self.columns, missing)
         return DataFileError(self.path, Note(code, problem, remedy=remedy, values=values))
 
+    def wrong_cell(self, row: int, place: int, right: str, code: str = "not-positive") -> DataFileError:
+        """Return an error about a cell, which must be `right`."""
+        problem = f"{self.rows[row][place].strip()} in column {self.columns[place].heading!r} must be {right}."
+        return DataFileError(self.path, problem, int(self.lines[row]), code=code)
+
     def unused(self, used: Collection[int]) -> list[Column]:
         """Return the columns with a name at all other places."""
         return [column for place, column in enumerate(self.columns) if place not in used and column.name]

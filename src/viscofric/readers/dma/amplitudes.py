@@ -12,12 +12,9 @@ from viscofric.arrays import Indices
 from viscofric.data import Deformation
 from viscofric.errors import DataFileError, short_notes
 from viscofric.notes import Note
-from viscofric.readers.dma.checks import usable
-from viscofric.readers.dma.isotherms import opening
-from viscofric.readers.dma.names import NOT_SAID
-from viscofric.readers.dma.ramps import by_frequency, legs
+from viscofric.readers.dma.ramps import by_frequency, legs, points_of
 from viscofric.readers.dma.read import read_files
-from viscofric.readers.dma.readings import AS_SWEEPS, Points, joined
+from viscofric.readers.dma.readings import AS_SWEEPS, Points
 from viscofric.readers.dma.sweep_checks import SWEPT_AMPLITUDE
 from viscofric.units import Quantity
 
@@ -84,27 +81,21 @@ def read_amplitude_sweep(
     readings = read_files(
         paths, "read_amplitude_sweep", "amplitude", deformation, temperature, modulus_unit, columns, sheet
     )
-    source, kind, notes = opening(readings, deformation)
-    if deformation is None and all(one.deformation is None for one in readings):
-        raise DataFileError(source, NOT_SAID)
-    points = joined(readings)
-    keep, on_left_out = usable(points, source)
+    points, keep, found = points_of(readings, deformation)
     keep = keep[points.strain_amplitude[keep] > 0.0]
     taken = _longest(points, keep) if len(keep) else keep
     if not len(taken):
         raise DataFileError(
-            source,
+            found.source,
             f"no frequency was held over {FEWEST} strain amplitudes that differ by more than a factor of "
             f"{SWEPT_AMPLITUDE:g}; this is no amplitude sweep",
             code="no-amplitude-sweep",
             remedy=AS_SWEEPS,
         )
-    notes += [*on_left_out, *_on_left_out(points, keep, taken), *_on_temperature(points, taken)]
+    notes = short_notes([*found.notes, *_on_left_out(points, keep, taken), *_on_temperature(points, taken)])
     strain, (storage, loss, frequency, kelvin) = _averaged(points, taken)
-    formats = ", ".join(dict.fromkeys(one.format for one in readings))
-    return AmplitudeSweep(
-        strain, storage, loss, float(frequency.mean()), float(kelvin.mean()), kind, source, short_notes(notes), formats
-    )
+    held = float(frequency.mean()), float(kelvin.mean())
+    return AmplitudeSweep(strain, storage, loss, *held, found.deformation, found.source, notes, found.formats)
 
 
 def _longest(points: Points, keep: Indices) -> Indices:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from viscofric.readers.dma.instruments.ta_steps import RAMP
 from viscofric.readers.dma.isotherms import opening
 from viscofric.readers.dma.names import NOT_SAID
 from viscofric.readers.dma.read import read_files
-from viscofric.readers.dma.readings import AS_SWEEPS, Points, joined
+from viscofric.readers.dma.readings import AS_SWEEPS, Points, Readings, joined
 from viscofric.readers.dma.sweep_checks import HELD_FREQUENCY
 from viscofric.units import Quantity, celsius, to_si
 
@@ -47,6 +47,26 @@ def legs(values: Array, reversal: float) -> list[slice]:
                 first = extreme + 1
             rising, extreme = not rising, place
     return [*found, slice(first, len(values))]
+
+
+class Stated(NamedTuple):
+    """What files state of a test: their names, the kind of deformation, the formats, and notes."""
+
+    source: str
+    deformation: Deformation
+    formats: str
+    notes: list[Note]
+
+
+def points_of(readings: Sequence[Readings], deformation: Deformation | None) -> tuple[Points, Indices, Stated]:
+    """Return all points, those that are usable, and what the files state; raise `DataFileError` without deformation."""
+    source, kind, notes = opening(readings, deformation)
+    if deformation is None and all(one.deformation is None for one in readings):
+        raise DataFileError(source, NOT_SAID)
+    points = joined(readings)
+    keep, on_left_out = usable(points, source)
+    formats = ", ".join(dict.fromkeys(one.format for one in readings))
+    return points, keep, Stated(source, kind, formats, [*notes, *on_left_out])
 
 
 #: A ramp has so many points at least.
@@ -106,12 +126,8 @@ def read_ramps(
         check_choice(direction, "direction", "heating", "cooling")
     rate = None if heating_rate is None else to_si(heating_rate, "K/s", "heating_rate")
     readings = read_files(paths, "read_ramps", "temperature", deformation, None, modulus_unit, columns, sheet)
-    source, kind, notes = opening(readings, deformation)
-    if deformation is None and all(one.deformation is None for one in readings):
-        raise DataFileError(source, NOT_SAID)
-    points = joined(readings)
-    keep, on_left_out = usable(points, source)
-    rows, on_direction = _one_direction(points, keep, direction, source)
+    points, keep, found = points_of(readings, deformation)
+    rows, on_direction = _one_direction(points, keep, direction, found.source)
     ramps, short = [], []
     for held in by_frequency(points, rows):
         if len(held) < FEWEST or np.ptp(points.temperature[held]) <= RAMP:
@@ -123,20 +139,19 @@ def read_ramps(
         ramps.append(TemperatureRamp(frequency, *(column[order] for column in columns_of)))
     if not ramps:
         raise DataFileError(
-            source,
+            found.source,
             f"no frequency was held over more than {RAMP:g} K at {FEWEST} temperatures or more; this is no temperature "
             "ramp",
             code="no-ramp",
             remedy=AS_SWEEPS,
         )
-    notes += [*on_left_out, *on_direction]
+    notes = [*found.notes, *on_direction]
     if short:
         said = (
             f"{len(short)} points left out: their frequency was not held over a ramp ({points.named(sorted(short))})."
         )
         notes.append(Note("points-left-out", said))
-    formats = ", ".join(dict.fromkeys(one.format for one in readings))
-    return TemperatureRamps(tuple(ramps), kind, rate, source, short_notes(notes), formats)
+    return TemperatureRamps(tuple(ramps), found.deformation, rate, found.source, short_notes(notes), found.formats)
 
 
 def _one_direction(points: Points, keep: Indices, direction: str | None, source: str) -> tuple[Indices, list[Note]]:

@@ -23,9 +23,9 @@ from viscofric.readers.dma.isotherms import TracedSweeps, traced_sweeps
 from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables import delimited, reptate, workbook
-from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
+from viscofric.readers.given_files import sources_of
 from viscofric.readers.mtm.delimited import TRACTION
-from viscofric.readers.source import Source, Test, checked_sheet, insist_on_content, unit_conversion
+from viscofric.readers.source import Source, Test, insist_on_content, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
 from viscofric.units import Quantity
 
@@ -202,16 +202,9 @@ def read_files(
     """Read the points of a test from files of one specimen, neither sorted nor checked yet."""
     if deformation is not None:
         check_choice(deformation, "deformation", *DEFORMATIONS)
-    files = files_of(paths, reader)
-    given = temperatures_of(temperature, len(files))
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
-    named, one_sheet = DMA.checked(columns), checked_sheet(sheet)
-    sources = [
-        Source(path, bytes_of(path), kelvin, modulus_unit or "", named, one_sheet, test)
-        for path, kelvin in zip(files, given, strict=True)
-    ]
-    insist_on_different(sources)
+    sources = sources_of(paths, reader, DMA, temperature, modulus_unit, columns, sheet, test)
     readings = [_read(source) for source in sources]
     if modulus_unit is not None and not any(one.lacks_unit for one in readings):
         raise InputError(

@@ -11,13 +11,14 @@ import numpy as np
 
 from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
-from viscofric.notes import Note, Remedy, setting
+from viscofric.notes import Note, Remedy
 from viscofric.readers.dma.names import DMA
 from viscofric.readers.headings import Column, Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
+from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source
 from viscofric.readers.table import Table
-from viscofric.readers.tables import find_tables, holds_table, name_columns
+from viscofric.readers.tables import holds_table, name_columns
 
 NAME = "delimited text, one reading per row"
 
@@ -67,7 +68,8 @@ _COLDEST = "absolute zero"
 
 def read(source: Source) -> TractionReadings:
     """Return the rows of a table, or raise `DataFileError`."""
-    table = _table(source)
+    _refuse_sweeps(source)
+    table = only_table(source, TRACTION)
     lacking = missing(table)
     if lacking:
         problem = f"no column for {' or '.join(lacking)}; {TRACTION.example}, this one has {table.headings()}"
@@ -104,17 +106,6 @@ def read(source: Source) -> TractionReadings:
         step=rows(_whole_numbers(table, "step")),
         notes=tuple(notes),
     )
-
-
-def _table(source: Source) -> Table:
-    """Return the one table of a text or a workbook."""
-    _refuse_sweeps(source)
-    tables = find_tables(source, TRACTION)
-    if len(tables) > 1:
-        problem = f"the sheets {', '.join(map(repr, tables))} each contain a table of traction runs; choose one with "
-        remedy = setting("measurement.sheet", "Sheet", repr(next(iter(tables)))) + "."
-        raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
-    return next(iter(tables.values()))
 
 
 def _refuse_sweeps(source: Source) -> None:
@@ -178,14 +169,7 @@ def _positive(table: Table, what: str, unit: str, limit: str) -> Array:
 def _insist_on_positive(table: Table, place: int, values: Array, limit: str) -> None:
     bad = np.flatnonzero(values <= 0.0)
     if bad.size:
-        row = int(bad[0])
-        cell, heading = table.rows[row][place].strip(), table.columns[place].heading
-        raise DataFileError(
-            table.path,
-            f"{cell} in column {heading!r} must be above {limit}.",
-            int(table.lines[row]),
-            code="not-positive",
-        )
+        raise table.wrong_cell(int(bad[0]), place, f"above {limit}")
 
 
 def _whole_numbers(table: Table, what: str) -> Integers | None:
@@ -195,10 +179,8 @@ def _whole_numbers(table: Table, what: str) -> Integers | None:
     numbers = table.numbers(place)
     bad = np.flatnonzero((numbers != np.round(numbers)) | (np.abs(numbers) > LARGEST_COUNT))
     if bad.size:
-        row = int(bad[0])
-        cell, heading = table.rows[row][place].strip(), table.columns[place].heading
-        problem = f"{cell} in column {heading!r} must be a whole number, at most {LARGEST_COUNT:.0f}."
-        raise DataFileError(table.path, problem, int(table.lines[row]), code="not-a-whole-number")
+        right = f"a whole number, at most {LARGEST_COUNT:.0f}"
+        raise table.wrong_cell(int(bad[0]), place, right, "not-a-whole-number")
     return numbers.astype(np.int64)
 
 

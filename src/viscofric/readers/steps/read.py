@@ -23,8 +23,8 @@ from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.instruments.ta_steps import Table as StepTable
 from viscofric.readers.dma.names import NOT_SAID, said_by_columns, tools_in
-from viscofric.readers.given_files import bytes_of, files_of, insist_on_different, temperatures_of
-from viscofric.readers.source import Source, checked_sheet, insist_on_content
+from viscofric.readers.given_files import sources_of
+from viscofric.readers.source import Source, insist_on_content
 from viscofric.readers.steps import reptate
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
 from viscofric.readers.table import MISSING, Table, make_table
@@ -118,14 +118,7 @@ def read_step_tests(
         check_choice(kind, "kind", "creep", "relaxation")
     if deformation is not None:
         check_choice(deformation, "deformation", *DEFORMATIONS)
-    files = files_of(paths, "read_step_tests")
-    given = temperatures_of(temperature, len(files))
-    named, one_sheet = STEPS.checked(columns), checked_sheet(sheet)
-    sources = [
-        Source(path, bytes_of(path), kelvin, response_unit or "", named, one_sheet)
-        for path, kelvin in zip(files, given, strict=True)
-    ]
-    insist_on_different(sources)
+    sources = sources_of(paths, "read_step_tests", STEPS, temperature, response_unit, columns, sheet)
     parts = [part for source in sources for part in _parts(source, kind)]
     kinds = {part.kind for part in parts}
     if len(kinds) > 1:
@@ -140,10 +133,9 @@ def read_step_tests(
     notes: list[str] = list(dict.fromkeys(note for part in parts for note in part.notes))
     tests = _tests(parts, notes)
     if not tests:
-        raise DataFileError(files[0], f"no test has {LEAST_POINTS} usable points or more.", code="no-points")
-    return StepTests(
-        tuple(tests), parts[0].kind, stated, ", ".join(Path(one).name for one in files), tuple(notes), parts[0].format
-    )
+        raise DataFileError(sources[0].path, f"no test has {LEAST_POINTS} usable points or more.", code="no-points")
+    named = ", ".join(Path(one.path).name for one in sources)
+    return StepTests(tuple(tests), parts[0].kind, stated, named, tuple(notes), parts[0].format)
 
 
 def _stated(parts: Sequence[_Part]) -> Deformation:

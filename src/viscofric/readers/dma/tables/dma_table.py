@@ -241,9 +241,7 @@ def _temperature(
         kelvin = factor * table.numbers_or_missing(places["temperature"]) + offset
         cold = np.flatnonzero(kelvin <= 0.0)
         if cold.size:
-            row, place = int(cold[0]), places["temperature"]
-            problem = f"{_cell(table, row, place)} in column {table.columns[place].heading!r} must be above "
-            raise DataFileError(table.path, problem + "absolute zero.", int(table.lines[row]), code="not-positive")
+            raise table.wrong_cell(int(cold[0]), places["temperature"], "above absolute zero")
         return kelvin
     if source.temperature is not None:
         notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
@@ -289,9 +287,7 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
     if place is None or 2 * len(bad) <= len(values):
         return
     table.numbers(place)  # raises for the first cell that is empty or not a number
-    row = int(bad[0])
-    problem = f"{_cell(table, row, place)} in column {table.columns[place].heading!r} must be above zero."
-    raise DataFileError(table.path, problem, int(table.lines[row]), code="not-positive")
+    raise table.wrong_cell(int(bad[0]), place, "above zero")
 
 
 def _note_numbered(table: Table, notes: list[str]) -> None:
