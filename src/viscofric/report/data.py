@@ -56,26 +56,14 @@ def as_dataset(source: Any, *arguments: Any) -> xr.Dataset:
 
 
 class Moduli(NamedTuple):
-    """Moduli, one row per reading.
+    """Moduli, one row per reading."""
 
-    Parameters
-    ----------
-    temperature, angular_frequency : (n,) array
-        K, rad/s.
-    storage, loss : (n,) array
-        Pa.
-    symbol : str
-        E, or G for moduli measured in shear.
-    reference : float
-        K; NaN where none is stated.
-    """
-
-    temperature: Array
+    temperature: Array  # temperature, angular_frequency: (n,), K, rad/s
     angular_frequency: Array
-    storage: Array
+    storage: Array  # storage, loss: (n,), Pa
     loss: Array
-    symbol: str
-    reference: float
+    symbol: str  # E, or G for moduli measured in shear
+    reference: float  # K; NaN where none is stated
 
     @property
     def loss_tangent(self) -> Array:
@@ -193,26 +181,15 @@ def law_residuals(law: ShiftLaw, table: ShiftTable) -> xr.Dataset:
 
 
 class Predicted(NamedTuple):
-    """Predicted friction, one row per case.
+    """Predicted friction, one row per case."""
 
-    Parameters
-    ----------
-    speed, temperature, load : (n,) array
-        m/s, K, N.
-    friction : (n,) array
-    lower, upper : (n,) array
-        Limits of the 95 % band; NaN where there is none.
-    extrapolated : (n,) array of bool
-        Whether a case rests on frequencies that were not measured.
-    """
-
-    speed: Array
+    speed: Array  # speed, temperature, load: (n,), m/s, K, N
     temperature: Array
     load: Array
-    friction: Array
-    lower: Array
+    friction: Array  # (n,)
+    lower: Array  # lower, upper: (n,), limits of the 95 % band; NaN where there is none
     upper: Array
-    extrapolated: Mask
+    extrapolated: Mask  # (n,): whether a case rests on frequencies that were not measured
 
     def rows(self, mask: Mask) -> Predicted:
         """Return the rows of a mask in ascending speed."""
@@ -248,14 +225,7 @@ class Measured(NamedTuple):
 
 
 def measured(source: Friction | ReducedFriction, kind: str = "viscoelastic", speed: str = "speed") -> Measured:
-    """Return measured friction over the speed; NaN throughout where that kind was not measured.
-
-    Parameters
-    ----------
-    source : FrictionCurves, FrictionMasterCurve or xarray.Dataset
-    kind : {"viscoelastic", "coulomb"}
-    speed : {"speed", "reduced_speed"}
-    """
+    """Return measured friction over the speed; NaN throughout where that kind was not measured."""
     data = as_dataset(source)
     scatter = values(data, f"{kind}_scatter")  # infinite or absent where it is not known
     bars = np.where(np.isfinite(scatter), scatter, 0.0)

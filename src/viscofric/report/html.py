@@ -112,20 +112,8 @@ def find_browser(target: Path) -> str:
 def write_pdf(report: Path) -> Path:
     """Print a report as PDF (A4) beside it, with a browser of the Chromium family that is on the path.
 
-    Parameters
-    ----------
-    report : Path
-        From `write_report`.
-
-    Returns
-    -------
-    Path
-        The file written; one that is there is replaced.
-
-    Raises
-    ------
-    DataFileError
-        If there is no such browser, or it writes nothing.
+    `report`: from `write_report`.  Returns the file written; one that is there is replaced.  Raises
+    `DataFileError` if there is no such browser, or it writes nothing.
     """
     target = report.with_suffix(".pdf")
     browser = find_browser(target)

@@ -61,33 +61,15 @@ _SYMBOLS = {"speed": "$v$", "load": "$F$", "radius": "$R$", "thickness": "$h$"}
 
 @dataclass(frozen=True, eq=False)
 class SweepAxis:
-    """One dimension of the results that has more than one point.
+    """One dimension of the results that has more than one point."""
 
-    Parameters
-    ----------
-    name : str
-        Of the dimension.
-    columns : tuple of str
-        Coordinates along it; several where they are varied together.
-    title : str
-        What it is called: "temperature", "load and radius".
-    labels : tuple of str
-        What each point is called: "30 °C", "25 N, 10 mm".
-    position : (n,) array
-        Places of the points on a figure's axis, in the unit of `axis_label`.
-    axis_label : str
-        Label of a figure's axis along it.
-    is_ordered : bool
-        Whether its points are numbers.
-    """
-
-    name: str
-    columns: tuple[str, ...]
-    title: str
-    labels: tuple[str, ...]
-    position: Array
-    axis_label: str
-    is_ordered: bool
+    name: str  # of the dimension
+    columns: tuple[str, ...]  # coordinates along it; several where they are varied together
+    title: str  # What it is called: "temperature", "load and radius"
+    labels: tuple[str, ...]  # What each point is called: "30 °C", "25 N, 10 mm"
+    position: Array  # (n,): places of the points on a figure's axis, in the unit of `axis_label`
+    axis_label: str  # label of a figure's axis along it
+    is_ordered: bool  # whether its points are numbers
 
     def __len__(self) -> int:
         return len(self.labels)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
@@ -27,6 +27,47 @@ if TYPE_CHECKING:
 _MOST_CELLS = 256
 #: Share of the loaded cells within the colours of a pressure whose largest value means nothing.
 _SHARE_SHOWN = 0.98
+
+
+def pressure_mesh(axes: Axes, x: Array, y: Array, pressure: Array, highest: float | None = None) -> QuadMesh:
+    """Draw a pressure (nx, ny) seen from above, blank where there is none; the colours end at `highest`."""
+    mesh: QuadMesh = axes.pcolormesh(
+        x,
+        y,
+        np.ma.masked_equal(pressure.T, 0.0),
+        cmap=matplotlib.colormaps["viridis"],
+        vmin=0.0,
+        vmax=highest,
+        shading="nearest",
+        rasterized=True,
+    )
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    return mesh
+
+
+def highest_shown(*pressures: Array, share: float = 0.995) -> float:
+    """Return where the colours of pressures should end: one point at a sharp edge would leave all others dark."""
+    return float(np.quantile(np.concatenate([each[each > 0.0] for each in pressures]), share))
+
+
+def draw_outline(axes: Axes, x: Array, y: Array, pressure: Array) -> None:
+    """Draw the edge of a contact seen from above."""
+    # Averaged over three cells, the staircase of the loaded cells is a curve.
+    loaded = uniform_filter((pressure.T > 0.0).astype(float), 3, mode="constant")
+    axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
+
+
+def draw_profile(axes: Axes, x: Array, pressure: Array, **style: Any) -> None:
+    """Draw a pressure along a line, with a faint area below it."""
+    axes.fill_between(x, pressure, color=BLUE, alpha=0.15, linewidth=0.0)
+    axes.plot(x, pressure, color=BLUE, **style)
+
+
+def draw_arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """Draw an arrow between two places, in shares of the axes."""
+    arrow = {"arrowstyle": "->", "color": INK, "linewidth": 1.2}
+    axes.annotate("", end, start, "axes fraction", "axes fraction", arrowprops=arrow)
 
 
 def _along(solution: ContactSolution) -> Unit:
@@ -58,20 +99,12 @@ def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
     unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
     every = math.ceil(max(solution.pressure.shape) / _MOST_CELLS)
     x, y = solution.x[::every] / unit.size, solution.y[::every] / unit.size
-    pressure = solution.pressure[::every, ::every].T / pressure_unit.size
-    shown = np.ma.masked_equal(pressure, 0.0)
-    colours = matplotlib.colormaps["viridis"]
+    pressure = solution.pressure[::every, ::every] / pressure_unit.size
     # One cell at a sharp edge would leave all others dark.
-    highest = None if solution.diagnostics.peak_resolved else float(np.quantile(shown.compressed(), _SHARE_SHOWN))
-    mesh: QuadMesh = axes.pcolormesh(
-        x, y, shown, cmap=colours, vmin=0.0, vmax=highest, shading="nearest", rasterized=True
-    )
-    # Averaged over three cells, the staircase of the loaded cells is a curve.
-    loaded = uniform_filter((pressure > 0.0).astype(float), 3, mode="constant")
-    axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
+    highest = None if solution.diagnostics.peak_resolved else highest_shown(pressure, share=_SHARE_SHOWN)
+    mesh = pressure_mesh(axes, x, y, pressure, highest)
+    draw_outline(axes, x, y, pressure)
     axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
-    axes.set_aspect("equal")
-    axes.grid(visible=False)
     axes.set_xlabel(_label_along(solution))
     axes.set_ylabel(f"across $y$ ({unit.name})")
     _draw_motion(axes, solution)
@@ -82,14 +115,8 @@ def _draw_motion(axes: Axes, solution: ContactSolution) -> None:
     """Draw an arrow that shows where the indenter goes."""
     if solution.speed == 0.0:
         return
-    ends = ((0.03, 0.15), (0.15, 0.03))[solution.speed < 0.0]
-    axes.annotate(
-        "",
-        xy=(ends[1], 0.95),
-        xytext=(ends[0], 0.95),
-        xycoords="axes fraction",
-        arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.2},
-    )
+    start, end = ((0.03, 0.15), (0.15, 0.03))[solution.speed < 0.0]
+    draw_arrow(axes, (start, 0.95), (end, 0.95))
     axes.text(0.03, 0.91, "motion", transform=axes.transAxes, fontsize=8, va="top", color=INK)
 
 
@@ -103,8 +130,7 @@ def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
     """
     unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
     x, pressure = solution.x / unit.size, _centre(solution.pressure) / pressure_unit.size
-    axes.fill_between(x, pressure, color=BLUE, alpha=0.15, linewidth=0.0)
-    axes.plot(x, pressure, color=BLUE)
+    draw_profile(axes, x, pressure)
     centre = solution.centre_of_pressure / unit.size
     axes.axvline(0.0, color=GREY, linewidth=0.8)
     axes.axvline(centre, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="centre of pressure")

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-import matplotlib
 import numpy as np
-from scipy.ndimage import uniform_filter
 
-from viscofric.report.figures.rough import highest_shown, mark_motion, plot_pressure_of_period
+from viscofric.report.figures.contact import draw_arrow, draw_outline, draw_profile, highest_shown, pressure_mesh
+from viscofric.report.figures.rough import mark_motion, plot_pressure_of_period
 from viscofric.report.figures.style import BLUE, GREY, INK, ORANGE, VERMILION, WHITE, new_figure, slender_bar
 from viscofric.report.texts.numbers import megapascals, significant
 
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
 
 _MOST_CELLS = 200  # along an edge of a map; more do not show
 _MARGIN = 1.12  # of the shown region, over the largest contact
-#: Share of the loaded cells below the end of the colours: a few cells at a sharp edge do not darken all others.
-_SHARE_SHOWN = 0.995
 _MILLI, _MEGA = 1e-3, 1e6
 #: Mean pressures within this factor share a scale in MPa.
 _ALIKE = 1.8
@@ -34,28 +31,14 @@ _PRESSURE, _ALONG = "pressure $p$ (MPa)", "along the motion $x$ (mm) →"
 
 
 class Contact(NamedTuple):
-    """One solved contact with its fields; the indenter moves towards +x.
+    """One solved contact with its fields; the indenter moves towards +x."""
 
-    Parameters
-    ----------
-    title : str
-        "slowest", "most friction", …
-    conditions : str
-        "30 °C, 20 mm/s".
-    friction : float
-        Friction coefficient; NaN if it is not known.
-    x, y : (nx,) and (ny,) array
-        Cell centres from the indenter's axis, m; one y for a line contact.
-    pressure, displacement : (nx, ny) array
-        Pa; m into the solid.
-    """
-
-    title: str
-    conditions: str
-    friction: float
-    x: Array
+    title: str  # "slowest", "most friction", …
+    conditions: str  # "30 °C, 20 mm/s"
+    friction: float  # friction coefficient; NaN if it is not known
+    x: Array  # x, y: (nx,) and (ny,): Cell centres from the indenter's axis, m; one y for a line contact
     y: Array
-    pressure: Array
+    pressure: Array  # pressure, displacement: (nx, ny), Pa; m into the solid
     displacement: Array
 
     @property
@@ -110,21 +93,9 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
     every = math.ceil(max(along.size, across.size) / _MOST_CELLS)
     along, across = along[::every], across[::every]
     x, y = contact.x[along] / _MILLI, contact.y[across] / _MILLI
-    seen = pressure[np.ix_(along, across)].T
-    shown = np.ma.masked_equal(seen, 0.0)
-    mesh: QuadMesh = axes.pcolormesh(
-        x,
-        y,
-        shown,
-        cmap=matplotlib.colormaps["viridis"],
-        vmin=0.0,
-        vmax=highest,
-        shading="nearest",
-        rasterized=True,
-    )
-    # Averaged over three cells, the staircase of the loaded cells is a curve.
-    loaded = uniform_filter((seen > 0.0).astype(float), 3, mode="constant")
-    axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
+    seen = pressure[np.ix_(along, across)]
+    mesh = pressure_mesh(axes, x, y, seen, highest)
+    draw_outline(axes, x, y, seen)
     axes.plot([0.0], [0.0], marker="+", color=WHITE, markersize=9, markeredgewidth=1.2, linestyle="none")
     axes.plot(
         [contact.centre_of_pressure / _MILLI],
@@ -136,29 +107,19 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
         markeredgewidth=0.6,
         linestyle="none",
     )
-    axes.set_aspect("equal")
     axes.set_xlim(-reach / _MILLI, reach / _MILLI)
     axes.set_ylim(-reach / _MILLI, reach / _MILLI)
-    axes.grid(visible=False)
-    arrow = {"arrowstyle": "->", "color": INK, "linewidth": 1.1}
-    ends = {"xy": (0.21, 0.945), "xytext": (0.04, 0.945)}
-    axes.annotate("", xycoords="axes fraction", arrowprops=arrow, **ends)  # type: ignore[arg-type]
+    draw_arrow(axes, (0.04, 0.945), (0.21, 0.945))
     return mesh
 
 
 def plot_contact_profile(axes: Axes, contact: Contact, pressure: Array) -> None:
     """Draw the pressure on the centre line, and its mirror image: what differs is what causes the friction.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    contact : Contact
-    pressure : (nx, ny) array
-        Of the contact, in the unit of the axis.
+    `pressure` (nx, ny): of the contact, in the unit of the axis.
     """
     x, line = contact.x / _MILLI, contact.centre_line(pressure)
-    axes.fill_between(x, line, color=BLUE, alpha=0.15, linewidth=0.0)
-    axes.plot(x, line, color=BLUE, label="pressure on the centre line")
+    draw_profile(axes, x, line, label="pressure on the centre line")
     axes.plot(-x, line, color=GREY, linewidth=1.0, linestyle=(0, (1.5, 1.2)), label="mirror image")
     axes.axvline(0.0, color=INK, linewidth=0.8, label="indenter's axis")
     centre = contact.centre_of_pressure / _MILLI
@@ -173,7 +134,7 @@ def contacts_figure(contacts: Sequence[Contact]) -> Figure:
     scaled, label = _on_one_scale(contacts)
     maps, profiles, figure = _panels(len(contacts), contacts[0].is_line)
     reach = _MARGIN * max(contact.reach for contact in contacts)
-    highest = float(np.quantile(np.concatenate([each[each > 0.0] for each in scaled]), _SHARE_SHOWN))
+    highest = highest_shown(*scaled)
     for axes, contact, pressure in zip(maps, contacts, scaled, strict=False):
         mesh = plot_contact_map(axes, contact, pressure, reach=reach, highest=highest)
     for axes, contact, pressure in zip(profiles, contacts, scaled, strict=True):
@@ -226,15 +187,8 @@ def contact_title(contact: Contact) -> str:
 def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> None:
     """Draw the surface on the centre line before, in and behind a contact, with what has not yet recovered.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    contact : Contact
-        For its edges.
-    x : (n,) array
-        Places along the motion, from the axis, m, ascending.
-    displacement : (n,) array
-        Into the solid, m.
+    `contact`: for its edges; `x` (n,): places along the motion, from the axis, m, ascending; `displacement` (n,):
+    into the solid, m.
     """
     height = -displacement / 1e-6
     ahead = np.interp(-x, x, height, left=np.nan, right=np.nan)
@@ -267,11 +221,7 @@ def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> N
 def trail_figure(contacts: Sequence[Contact], trails: Sequence[tuple[Array, Array]]) -> Figure:
     """Return the surface along the centre lines of contacts, one above the other.
 
-    Parameters
-    ----------
-    contacts : sequence of Contact
-    trails : sequence of ((n,) array, (n,) array)
-        Of each contact, where (m) and how deep (m) the surface is displaced; see `plot_trail`.
+    `trails`: of each contact, where (m) and how deep (m) the surface is displaced; see `plot_trail`.
     """
     figure = new_figure(7.4, 0.9 + 1.75 * len(contacts))
     panels = figure.subplots(len(contacts), 1, squeeze=False, sharex=True)[:, 0]
@@ -285,18 +235,11 @@ def trail_figure(contacts: Sequence[Contact], trails: Sequence[tuple[Array, Arra
     return figure
 
 
-_MILLI, _MEGA = 1e-3, 1e6
-
-
 def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[float]) -> Figure:
     """Return maps of the pressure on a whole period of the surface; of a profile, the pressure along it.
 
-    Parameters
-    ----------
-    contacts : sequence of Contact
-        One to three, all of them of maps or all of profiles.
-    directions : sequence of float
-        Of the motion of each, from x towards y, radians.
+    `contacts`: one to three, all of them of maps or all of profiles; `directions`: of the motion of each, from x
+    towards y, radians.
     """
     is_line = contacts[0].is_line
     count = len(contacts)
@@ -309,9 +252,7 @@ def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[floa
         touching = f"{100.0 * np.mean(contact.pressure > 0.0):.3g} % in contact"
         title = f"{contact_title(contact)}, {touching}"
         if is_line:
-            line = contact.pressure[:, 0] / _MEGA
-            axes.fill_between(contact.x / _MILLI, line, color=BLUE, alpha=0.15, linewidth=0.0)
-            axes.plot(contact.x / _MILLI, line, color=BLUE, linewidth=0.9)
+            draw_profile(axes, contact.x / _MILLI, contact.pressure[:, 0] / _MEGA, linewidth=0.9)
             axes.set_title(title.replace("\n", ", "), fontsize=9.5, loc="left")
             axes.margins(x=0.0)
             continue

@@ -26,14 +26,8 @@ _MANY = 2_000  # points that are drawn as an image within the figure
 def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None) -> None:
     """Draw the error estimate and the energy balance of every case, over the friction coefficient.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    cases : xarray.Dataset
-        `speed`, `friction_coefficient`, `friction_error` and perhaps `energy_balance`, `interpolated` and
-        `interpolation_error` along `case`.
-    accuracy : float, optional
-        That was requested, relative: a line.
+    `cases`: `speed`, `friction_coefficient`, `friction_error` and perhaps `energy_balance`, `interpolated` and
+    `interpolation_error` along `case`; `accuracy`: that was requested, relative: a line.
     """
     x = _along(cases)
     friction = np.abs(values(cases, "friction_coefficient"))
@@ -57,11 +51,7 @@ def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None)
 def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
     """Draw how many cells along the longer edge the finest grid of every solved case has.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    cases : xarray.Dataset
-        `speed` and `cells` along `case`, and perhaps `interpolated`.
+    `cases`: `speed` and `cells` along `case`, and perhaps `interpolated`.
     """
     cells = values(cases, "cells")
     _points(axes, _along(cases), cells, ~interpolated(cases), GREEN, "s", True, "cells")
@@ -74,12 +64,7 @@ def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
 def convergence_figure(cases: xr.Dataset, *, accuracy: float | None = None) -> Figure | None:
     """Return errors and grids of all cases, or None where nothing is known of them.
 
-    Parameters
-    ----------
-    cases : xarray.Dataset
-        See `plot_errors` and `plot_cells`.
-    accuracy : float, optional
-        Relative.
+    `cases`: see `plot_errors` and `plot_cells`; `accuracy`: relative.
     """
     if not np.isfinite(values(cases, "friction_error")).any() or cases.sizes["case"] < 2:
         return None

@@ -22,11 +22,13 @@ from viscofric.report.figures.style import (
     GREY,
     INK,
     at_temperature,
+    legend_beside,
     looks,
     new_figure,
     origin,
     plain_numbers,
     speed_ticks,
+    temperature_handles,
 )
 from viscofric.report.results import nearest, nominal_temperatures, number
 from viscofric.report.texts.numbers import degrees
@@ -72,10 +74,7 @@ def plot_friction_curves(
     InputError
         If there is neither.
     """
-    if prediction is None and measurement is None:
-        raise InputError(
-            "there is no friction to draw: give a prediction, a measurement or both.", code="nothing-to-draw"
-        )
+    _insist_on_any(prediction, measurement)
     lines = None if prediction is None else predicted(prediction)
     points = None if measurement is None else measured(measurement)
     nominal = nominal_temperatures(*(part.temperature for part in (lines, points) if part is not None))
@@ -128,10 +127,7 @@ def plot_friction_master_curve(
     InputError
         If there is neither.
     """
-    if prediction is None and measurement is None:
-        raise InputError(
-            "there is no friction to draw: give a prediction, a measurement or both.", code="nothing-to-draw"
-        )
+    _insist_on_any(prediction, measurement)
     handles: list[Any] = []
     if prediction is not None:
         handles += _plot_line(axes, predicted(prediction), "predicted")
@@ -140,10 +136,7 @@ def plot_friction_master_curve(
     if measurement is not None:
         points = measured(measurement, speed="reduced_speed")
         nominal = nominal_temperatures(points.temperature)
-        handles += [
-            Line2D([], [], color=look.colour, marker=look.marker, linestyle="none", label=degrees(float(kelvin)))
-            for look, kelvin in zip(looks(nominal.size), nominal, strict=True)
-        ][::-1]
+        handles += temperature_handles(nominal)[::-1]
         _plot_measured(axes, points, nominal)
     at = reference_temperature
     if at is None and measurement is not None:
@@ -158,13 +151,8 @@ def plot_friction_master_curves(
 ) -> None:
     """Draw predicted friction of several rubbers against the reduced speed αv.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    predictions : mapping of str to FrictionCurves or xarray.Dataset
-        Name of the rubber -> its friction at the reference temperature; see `plot_friction_master_curve`.
-    reference_temperature : float, optional
-        K, for the label.
+    `predictions`: name of the rubber -> its friction at the reference temperature; see
+    `plot_friction_master_curve`; `reference_temperature`: K, for the label.
     """
     handles: list[Any] = []
     for look, (name, prediction) in zip(looks(len(predictions)), predictions.items(), strict=True):
@@ -200,12 +188,20 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction, *, synthetic: bool 
         )
     nominal = nominal_temperatures(points.temperature)
     _plot_measured(axes, points, nominal)
-    handles = [
-        Line2D([], [], color=look.colour, marker=look.marker, linestyle="none", label=degrees(float(kelvin)))
-        for look, kelvin in zip(looks(nominal.size), nominal, strict=True)
-    ]
     axes.set_xlabel(r"speed $v$ (mm/s)")
-    _finish(axes, handles[::-1], f"{origin(synthetic)} ± scatter", r"Coulomb friction coefficient $\mu_\mathrm{c}$")
+    _finish(
+        axes,
+        temperature_handles(nominal)[::-1],
+        f"{origin(synthetic)} ± scatter",
+        r"Coulomb friction coefficient $\mu_\mathrm{c}$",
+    )
+
+
+def _insist_on_any(*given: object) -> None:
+    if all(one is None for one in given):
+        raise InputError(
+            "there is no friction to draw: give a prediction, a measurement or both.", code="nothing-to-draw"
+        )
 
 
 def _plot_loads(axes: Axes, lines: Predicted, look: Any, *, alone: bool) -> None:
@@ -272,14 +268,7 @@ def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
         axes.set_ylim(0.0, max(axes.get_ylim()[1], _HEADROOM * axes.dataLim.y1))
     speed_ticks(axes.xaxis)
     plain_numbers(axes, "y")
-    axes.legend(
-        handles=handles,
-        title=title or None,
-        alignment="left",
-        loc="upper left",
-        bbox_to_anchor=(1.0, 1.0),
-        ncols=1 + len(handles) // 18,
-    )
+    legend_beside(axes, handles, title, ncols=1 + len(handles) // 18)
 
 
 def friction_figure(curves: FrictionCurves, *, synthetic: bool = False) -> Figure:
@@ -306,13 +295,8 @@ def predicted_figure(curves: FrictionCurves) -> Figure:
 def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None, *, synthetic: bool = False) -> Figure:
     """Return a figure of a friction master curve, and of its shift factors below it where they were found from it.
 
-    Parameters
-    ----------
-    master : FrictionMasterCurve
-    known : ShiftLaw, optional
-        Shift factors of the modulus, to compare with.
-    synthetic : bool
-        Whether to call the points synthetic instead of measured.
+    `known`: shift factors of the modulus, to compare with; `synthetic`: whether to call the points synthetic
+    instead of measured.
     """
     if not master.found:
         figure = new_figure(_WIDTH, _HEIGHT)

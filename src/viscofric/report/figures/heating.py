@@ -21,6 +21,7 @@ from viscofric.report.figures.style import (
     VERMILION,
     Unit,
     at_temperature,
+    legend_beside,
     new_figure,
     plain_numbers,
     slender_bar,
@@ -135,7 +136,7 @@ def plot_temperature_rise(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset)
     axes.set(xscale="log", yscale="log", ylabel=r"rise of temperature $\Delta T$ (K)")
     axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(kelvin))
     speed_ticks(axes.xaxis)
-    axes.legend(title="predicted mean rise", alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    legend_beside(axes, title="predicted mean rise")
 
 
 def _one_curve(curves: HeatedFrictionCurves | xr.Dataset) -> tuple[xr.Dataset, float]:

@@ -15,6 +15,7 @@ from viscofric.report.figures.style import (
     at_temperature,
     decade_ticks,
     legend_above,
+    logarithmic,
     new_figure,
 )
 from viscofric.report.results import number, values
@@ -69,13 +70,10 @@ def plot_identified_modulus(axes: Axes, found: Identified | xr.Dataset, known: M
         handles.append(axes.fill_between(frequency, *limits, **shade, label=f"{symbol}, 95 %"))
     if known is not None:
         handles += _plot_known(axes, known, frequency)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
     axes.set_xlim(frequency[0], frequency[-1])
     axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(modulus.reference))
     axes.set_ylabel("modulus (MPa)")
-    decade_ticks(axes.xaxis)
-    decade_ticks(axes.yaxis)
+    logarithmic(axes)
     legend_above(axes, handles, columns=3)
 
 
@@ -98,11 +96,7 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
 def identified_figure(found: Identified, known: Material | None = None) -> Figure:
     """Return a figure of an identified modulus.
 
-    Parameters
-    ----------
-    found : Identified
-    known : Material, optional
-        To compare with, at the reference temperature of the other.
+    `known`: to compare with, at the reference temperature of the other.
     """
     figure = new_figure()
     plot_identified_modulus(figure.subplots(), found, _at_reference(known, found))
@@ -118,11 +112,7 @@ def _at_reference(known: Material | None, found: Identified) -> Material | None:
 def indentation_figure(found: MaterialFromIndentation, known: Material | None = None) -> Figure:
     """Return a figure of a modulus identified from indentation, the fits of its records, and their residuals.
 
-    Parameters
-    ----------
-    found : MaterialFromIndentation
-    known : Material, optional
-        To compare with, such as one of sweeps, at the reference temperature of the other.
+    `known`: to compare with, such as one of sweeps, at the reference temperature of the other.
     """
     kinds = list(dict.fromkeys(one.quantity for one in found.records))
     figure = new_figure(height=3.4 * (1 + len(kinds)))
@@ -137,14 +127,7 @@ def indentation_figure(found: MaterialFromIndentation, known: Material | None = 
 
 
 def plot_fitted_record(axes: Axes, record: FittedRecord, colour: str = "C0") -> None:
-    """Draw one measured quantity of a record with its fit and 95 % limits.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    record : FittedRecord
-    colour : str
-    """
+    """Draw one measured quantity of a record with its fit and 95 % limits."""
     order = np.argsort(record.along, kind="stable")
     along = record.along[order]
     axes.errorbar(

@@ -15,6 +15,7 @@ from viscofric.report.figures.style import (
     INK,
     ORANGE,
     at_temperature,
+    legend_beside,
     looks,
     new_figure,
     origin,
@@ -104,7 +105,7 @@ def plot_shear_stress(
     speed_ticks(axes.xaxis)
     speed_ticks(axes.yaxis)
     title = f"points: {origin(synthetic)} ± standard error" + ("\nlines: fitted" if laws else "")
-    axes.legend(handles=handles, title=title, alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    legend_beside(axes, handles, title)
 
 
 def _plot_law(axes: Axes, line: xr.Dataset, dashes: Any, *, banded: bool) -> Line2D:
@@ -155,7 +156,7 @@ def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | Per
     axes.set_xlabel(r"speed $v$ (mm/s)" + "".join(at_temperature(one) for one in nominal.tolist()))
     speed_ticks(axes.xaxis)
     plain_numbers(axes, "y")
-    axes.legend(title="predicted", alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    legend_beside(axes, title="predicted")
 
 
 class _Parts(NamedTuple):

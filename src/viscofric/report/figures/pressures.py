@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import matplotlib
 import numpy as np
 
+from viscofric.report.figures.contact import draw_profile, pressure_mesh
 from viscofric.report.figures.motion import (
     moves,
     plot_force_depth,
@@ -16,7 +16,7 @@ from viscofric.report.figures.motion import (
     plot_transient,
     returns,
 )
-from viscofric.report.figures.style import BLUE, INK, Unit, new_figure, sequential_looks, unit_for
+from viscofric.report.figures.style import INK, Unit, new_figure, sequential_looks, unit_for
 from viscofric.report.texts.numbers import prefixed
 from viscofric.units import to_si_array
 
@@ -115,33 +115,22 @@ def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities
 def plot_pressure_frame(axes: Axes, frames: Frames, place: int) -> QuadMesh | None:
     """Draw the pressure at one of several times, on the scales that all have in common.
 
-    Returns
-    -------
-    matplotlib.collections.QuadMesh or None
-        Colours of a map, for a colour bar; none of a profile.
+    Returns colours of a map, for a colour bar; none of a profile.
     """
     field = frames.fields[place]
     axes.set_xlim(*frames.reach[0])
     axes.set_xlabel(f"$x$ ({frames.length.name})")
     if not frames.are_maps:
         x, pressure = _centre_line(field)
-        along, values = x / frames.length.size, pressure / frames.pressure.size
-        axes.fill_between(along, values, color=BLUE, alpha=0.15, linewidth=0.0)
-        axes.plot(along, values, color=BLUE)
+        draw_profile(axes, x / frames.length.size, pressure / frames.pressure.size)
         axes.set_ylim(0.0, 1.05 * frames.highest)
         axes.set_ylabel(f"pressure $p$ ({frames.pressure.name})")
         return None
     every = math.ceil(max(field.shape) / _MOST_CELLS)
     x, y = (np.asarray(field[name])[::every] / frames.length.size for name in field.dims)
-    shown = np.ma.masked_equal(np.asarray(field)[::every, ::every].T / frames.pressure.size, 0.0)
-    colours = matplotlib.colormaps["viridis"]
-    mesh: QuadMesh = axes.pcolormesh(
-        x, y, shown, cmap=colours, vmin=0.0, vmax=frames.highest, shading="nearest", rasterized=True
-    )
+    mesh = pressure_mesh(axes, x, y, np.asarray(field)[::every, ::every] / frames.pressure.size, frames.highest)
     if frames.has_axis:
         axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
-    axes.set_aspect("equal")
-    axes.grid(visible=False)
     axes.set_ylim(*frames.reach[1])
     axes.set_ylabel(f"$y$ ({frames.length.name})")
     return mesh
@@ -230,13 +219,7 @@ def _plot_pressures(axes: Axes, run: TransientSolution) -> None:
 
 
 def restitution_figure(curve: RestitutionCurve, title: str = "") -> Figure:
-    """Return a figure of the restitution of impacts.
-
-    Parameters
-    ----------
-    curve : RestitutionCurve
-    title : str
-    """
+    """Return a figure of the restitution of impacts."""
     figure = new_figure()
     plot_restitution(figure.subplots(), curve.to_dataset())
     if title:

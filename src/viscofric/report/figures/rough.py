@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 
+from viscofric.report.figures.contact import draw_arrow, highest_shown, pressure_mesh
 from viscofric.report.figures.style import INK, Look, Unit, decade_ticks, looks, new_figure, speed_ticks, unit_for
 from viscofric.units import shown_celsius
 
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
 _DASHES = ("-", "--", ":", "-.")
 #: More points along an edge than this do not show; maps draw every n-th.
 _MOST_POINTS = 512
-#: Share of the loaded points within the colours of a pressure.
-_SHARE_SHOWN = 0.995
 
 
 def _axes_of_map(axes: Axes, unit: Unit) -> None:
@@ -107,15 +106,8 @@ def plot_pressure_of_period(
 ) -> tuple[QuadMesh, str]:
     """Draw the pressure on one period of a rough surface seen from above, where there is any.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    x, y : (nx,) and (ny,) array
-        m.
-    pressure : (nx, ny) array
-        Pa.
-    highest : float, optional
-        Pressure at the end of the colours, Pa; 99.5 % of the loaded points are below if it is not given.
+    `x`, `y` (nx,) and (ny,), m; `pressure` (nx, ny): Pa; `highest`: pressure at the end of the colours, Pa; 99.5
+    % of the loaded points are below if it is not given.
     """
     every = math.ceil(max(pressure.shape) / _MOST_POINTS)
     # Contact patches are small: of n² points the highest pressure is drawn.
@@ -124,36 +116,16 @@ def plot_pressure_of_period(
     merged = merged.reshape(shape[0], every, shape[1], every).max(axis=(1, 3))
     unit, ends = unit_for(float(x[-1])), highest_shown(merged) if highest is None else highest
     size = unit_for(float(pressure.max()) if highest is None else highest, "Pa")
-    mesh = axes.pcolormesh(
-        x[: shape[0] * every : every] / unit.size,
-        y[: shape[1] * every : every] / unit.size,
-        np.ma.masked_equal(merged.T, 0.0) / size.size,
-        cmap=matplotlib.colormaps["viridis"],
-        vmin=0.0,
-        vmax=ends / size.size,
-        shading="nearest",
-        rasterized=True,
-    )
+    along, across = x[: shape[0] * every : every] / unit.size, y[: shape[1] * every : every] / unit.size
+    mesh = pressure_mesh(axes, along, across, merged / size.size, ends / size.size)
     _axes_of_map(axes, unit)
     return mesh, f"pressure ({size.name})"
-
-
-def highest_shown(*pressures: Array) -> float:
-    """Return where the colours of pressures should end: one point at a sharp edge would leave all others dark."""
-    return float(np.quantile(np.concatenate([each[each > 0.0] for each in pressures]), _SHARE_SHOWN))
 
 
 def mark_motion(axes: Axes, direction: tuple[float, float]) -> None:
     """Draw an arrow in the upper left corner along a unit vector."""
     reach = 0.06 * direction[0], 0.06 * direction[1]
-    axes.annotate(
-        "",
-        (0.1 + reach[0], 0.92 + reach[1]),
-        (0.1 - reach[0], 0.92 - reach[1]),
-        "axes fraction",
-        "axes fraction",
-        arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.4},
-    )
+    draw_arrow(axes, (0.1 - reach[0], 0.92 - reach[1]), (0.1 + reach[0], 0.92 + reach[1]))
 
 
 def plot_power_spectra(axes: Axes, spectra: Mapping[str, PowerSpectrum]) -> None:

@@ -14,8 +14,8 @@ from viscofric.report.figures.style import (
     INK,
     VERMILION,
     at_temperature,
-    decade_ticks,
     legend_above,
+    logarithmic,
     origin,
     temperature_scale,
 )
@@ -62,12 +62,9 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
     value = (measured.storage if modulus == "storage" else measured.loss) / _PASCAL_PER_MEGAPASCAL
     marker = "s" if modulus == "storage" else "o"
     scale = draw_by_temperature(axes, measured, measured.angular_frequency, value, marker)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
     axes.set_xlabel(r"angular frequency $\omega$ (rad/s)")
     axes.set_ylabel(modulus_label(measured.symbol, modulus))
-    decade_ticks(axes.xaxis)
-    decade_ticks(axes.yaxis)
+    logarithmic(axes)
     return scale
 
 
@@ -165,8 +162,7 @@ def plot_master_curve(
         bands += _shade_beyond(axes, float(frequency.min()), float(frequency.max()))
     axes.set_xlabel(_reduced_label(measured, reference_temperature))
     axes.set_ylabel("modulus (MPa)")
-    decade_ticks(axes.xaxis)
-    decade_ticks(axes.yaxis)
+    logarithmic(axes)
     legend_above(axes, handles + bands, columns=3 if bands else 2)
 
 
@@ -211,11 +207,10 @@ def plot_residuals(
             label=f"{symbol}, rms {rms:#.3g}",
         )
     axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=0)
-    axes.set_xscale("log")
     axes.set_ylim(-1.12 * largest, 1.12 * largest)
     axes.set_xlabel(_reduced_label(measured, reference_temperature))
     axes.set_ylabel(r"$\log_{10}\,\frac{\mathrm{measured}}{\mathrm{fit}}$")
-    decade_ticks(axes.xaxis)
+    logarithmic(axes, "x")
     legend_above(axes, handles)
 
 
@@ -297,8 +292,7 @@ def _draw_modes(axes: Axes, tau: Array, strength: Array, colour: str, marker: st
     axes.set_xlim(tau[shown].min() / 3.0, tau[shown].max() * 3.0)
     axes.vlines(tau[shown], axes.get_ylim()[0], strength[shown], color=colour, linewidth=1.1)
     axes.plot(tau[shown], strength[shown], marker, color=colour, markersize=4)
-    decade_ticks(axes.xaxis)
-    decade_ticks(axes.yaxis)
+    logarithmic(axes)
 
 
 def _draw_band(axes: Axes, samples: MaterialSamples) -> list[Any]:

@@ -14,8 +14,8 @@ from viscofric.report.figures.style import (
     INK,
     VERMILION,
     at_temperature,
-    decade_ticks,
     legend_above,
+    logarithmic,
     looks,
     plain_numbers,
 )
@@ -60,30 +60,11 @@ def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | 
     table = shift_table(shift_factors)
     if isinstance(law, str):
         law = _fitted(shift_factors, law)
-    handles: list[Any] = [
-        axes.errorbar(
-            table.temperature - CELSIUS_ZERO,
-            10.0**table.log10,
-            yerr=bars(table.log10, table.error),
-            fmt="o",
-            color=BLUE,
-            markersize=4.5,
-            elinewidth=1.0,
-            zorder=3,
-            label="isotherms, ± standard error",
-        )
-    ]
+    handles = [_points(axes, table, BLUE, "o", "isotherms, ± standard error")]
     if law is not None:
         handles += draw_law(axes, law, table.temperature)
     low, high = np.nanmin(table.log10), np.nanmax(table.log10)
-    room = 0.06 * max(high - low, 1.0)
-    axes.set_yscale("log")
-    axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
-    axes.set_xlabel("temperature (°C)")
-    axes.set_ylabel(r"shift factor $\alpha_T$")
-    plain_numbers(axes, "x")
-    decade_ticks(axes.yaxis)
-    legend_above(axes, handles, columns=1)
+    _finish(axes, low, high, 0.06 * max(high - low, 1.0), handles)
 
 
 def plot_vertical_shift(
@@ -199,13 +180,16 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
         lowest, highest = float(np.min(other.log10)), float(np.max(other.log10))
     handles.append(_points(axes, table, BLUE, "o", "from friction, ± standard error"))
     low, high = min(lowest, float(table.log10.min())), max(highest, float(table.log10.max()))
-    room = 0.08 * max(high - low, 0.5)
-    axes.set_yscale("log")
+    _finish(axes, low, high, 0.08 * max(high - low, 0.5), handles, at_temperature(table.reference, ", 1"))
+
+
+def _finish(axes: Axes, low: float, high: float, room: float, handles: list[Any], at: str = "") -> None:
+    """Give axes of shift factors their limits (log10), with room beyond them, and their labels."""
     axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
     axes.set_xlabel("temperature (°C)")
-    axes.set_ylabel(r"shift factor $\alpha_T$" + at_temperature(table.reference, ", 1"))
+    axes.set_ylabel(r"shift factor $\alpha_T$" + at)
     plain_numbers(axes, "x")
-    decade_ticks(axes.yaxis)
+    logarithmic(axes, "y")
     legend_above(axes, handles, columns=1)
 
 

@@ -6,13 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.report.figures.style import (
-    INK,
-    at_temperature,
-    decade_ticks,
-    legend_above,
-    temperature_scale,
-)
+from viscofric.report.figures.style import INK, at_temperature, legend_above, logarithmic, temperature_scale
 from viscofric.report.results import nearest, nominal_temperatures, number
 from viscofric.units import celsius
 
@@ -60,11 +54,8 @@ def plot_step_master_curve(axes: Axes, curve: xr.Dataset, *, synthetic: bool = F
         fitted = factor * np.asarray(curve[f"fitted_{name}"])
         order = np.argsort(time, kind="stable")
         handles += axes.plot(time[order], fitted[order], color=INK, linewidth=1.2, label="fitted")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
     axes.set_xlabel(r"reduced time $t/\alpha_T$ (s)" + at_temperature(number(curve.attrs, "reference_temperature")))
     axes.set_ylabel(label)
-    decade_ticks(axes.xaxis)
-    decade_ticks(axes.yaxis)
+    logarithmic(axes)
     legend_above(axes, handles, columns=2)
     return scale

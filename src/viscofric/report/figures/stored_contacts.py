@@ -38,11 +38,8 @@ class Shown(NamedTuple):
 def shown_contacts(tree: xr.DataTree) -> list[Shown]:
     """Return the slowest contact, that of the most friction and the fastest, of those whose fields are kept.
 
-    Parameters
-    ----------
-    tree : xarray.DataTree
-        Results; the groups below ``/fields`` hold `pressure` (Pa) and `displacement` (m) over `x` and `y` (m), and the
-        coordinates of their case.
+    `tree`: results; the groups below ``/fields`` hold `pressure` (Pa) and `displacement` (m) over `x` and `y`
+    (m), and the coordinates of their case.
     """
     found = _kept(tree)
     if not found:

@@ -51,70 +51,58 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def _isotherms(tree: xr.DataTree) -> Figure | None:
-    sweeps = group(tree, "isotherms")
-    if sweeps is None:
-        return None
-    figure = new_figure(9.0, 4.3)
+def _of(name: str, draw: Callable[..., None], *size: float) -> Callable[[xr.DataTree], Figure | None]:
+    """Return what draws a group of the results on a figure of a size, given the figure, the group and the tree."""
+
+    def drawn(tree: xr.DataTree) -> Figure | None:
+        data = group(tree, name)
+        if data is None:
+            return None
+        figure = new_figure(*size)
+        draw(figure, data, tree)
+        return figure
+
+    return drawn
+
+
+_PAIR = (9.0, 4.3)
+
+
+def _isotherms(figure: Figure, sweeps: xr.Dataset, tree: xr.DataTree) -> None:
     left, right = figure.subplots(1, 2)
     plot_isotherms(left, sweeps, "storage")
     temperature_bar(figure, plot_isotherms(right, sweeps, "loss"), [left, right])
-    return figure
 
 
-def _ramps(tree: xr.DataTree) -> Figure | None:
-    ramps = group(tree, "ramps")
-    if ramps is None:
-        return None
-    figure = new_figure(9.0, 4.3)
+def _ramps(figure: Figure, ramps: xr.Dataset, tree: xr.DataTree) -> None:
     left, right = figure.subplots(1, 2)
     plot_temperature_ramps(left, ramps)
     plot_temperature_ramps(right, ramps, "tan delta")
-    return figure
 
 
-def _superposition(tree: xr.DataTree) -> Figure | None:
-    sweeps = group(tree, "isotherms")
-    if sweeps is None:
-        return None
-    figure = new_figure(9.0, 4.3)
+def _superposition(figure: Figure, sweeps: xr.Dataset, tree: xr.DataTree) -> None:
     left, right = figure.subplots(1, 2)
     plot_van_gurp_palmen(left, sweeps)
     temperature_bar(figure, plot_cole_cole(right, sweeps), [left, right])
-    return figure
 
 
-def _master_curve(tree: xr.DataTree) -> Figure | None:
-    curve, spectrum = group(tree, "master_curve"), group(tree, "spectrum_curve")
-    if curve is None:
-        return None
-    figure = new_figure(6.2, 5.6)
+def _master_curve(figure: Figure, curve: xr.Dataset, tree: xr.DataTree) -> None:
+    spectrum = group(tree, "spectrum_curve")
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[2.6, 1.0])
     reference = reference_temperature(tree)
     band = spectrum if spectrum is not None and "storage_modulus_lower" in spectrum else None
     plot_master_curve(top, curve, spectrum, reference_temperature=reference, band=band, synthetic=is_synthetic(tree))
     plot_residuals(bottom, curve, reference_temperature=reference)
     top.set_xlabel("")
-    return figure
 
 
-def _step_master_curve(tree: xr.DataTree) -> Figure | None:
-    curve = group(tree, "step_master_curve")
-    if curve is None:
-        return None
-    figure = new_figure()
+def _step_master_curve(figure: Figure, curve: xr.Dataset, tree: xr.DataTree) -> None:
     axes = figure.subplots()
     temperature_bar(figure, plot_step_master_curve(axes, curve, synthetic=is_synthetic(tree)), [axes])
-    return figure
 
 
-def _shift_factors(tree: xr.DataTree) -> Figure | None:
-    factors = group(tree, "shift_factors")
-    if factors is None:
-        return None
-    figure = new_figure()
+def _shift_factors(figure: Figure, factors: xr.Dataset, tree: xr.DataTree) -> None:
     plot_shift_factors(figure.subplots(), factors, law_of(group(tree, "shift_law")))
-    return figure
 
 
 def _vertical_shift(tree: xr.DataTree) -> Figure | None:
@@ -126,25 +114,15 @@ def _vertical_shift(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def _spectrum(tree: xr.DataTree) -> Figure | None:
-    spectrum = group(tree, "spectrum")
-    if spectrum is None:
-        return None
-    figure = new_figure()
+def _spectrum(figure: Figure, spectrum: xr.Dataset, tree: xr.DataTree) -> None:
     plot_retardation_spectrum(figure.subplots(), spectrum)
-    return figure
 
 
-def _friction_shift_factors(tree: xr.DataTree) -> Figure | None:
-    found = group(tree, "friction_shift_factors")
-    if found is None:
-        return None
+def _friction_shift_factors(figure: Figure, found: xr.Dataset, tree: xr.DataTree) -> None:
     # Friction may reach beyond the sweeps.
     both = found.isel(temperature=np.isfinite(values(found, "known_log10_shift_factor")))
     names = {f"known_{name}": name for name in ("log10_shift_factor", "standard_error")}
-    figure = new_figure()
     plot_shift_comparison(figure.subplots(), found, both.drop_vars(names.values()).rename(names))
-    return figure
 
 
 def friction_against_speed(tree: xr.DataTree) -> Figure | None:
@@ -268,7 +246,7 @@ FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "heated_friction": heating_figure,
     "heated_parts": heated_parts_figure,
     "temperature_map": temperature_map_figure,
-    "friction_shift_factors": _friction_shift_factors,
+    "friction_shift_factors": _of("friction_shift_factors", _friction_shift_factors),
     "contacts_over_time": histories_figure,
     "impacts": impacts_figure,
     "contacts": contacts,
@@ -277,31 +255,22 @@ FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
 }
 #: … and of the rubber, or of each of several.
 RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
-    "master_curve": _master_curve,
-    "step_master_curve": _step_master_curve,
-    "spectrum": _spectrum,
-    "shift_factors": _shift_factors,
+    "master_curve": _of("master_curve", _master_curve, 6.2, 5.6),
+    "step_master_curve": _of("step_master_curve", _step_master_curve),
+    "spectrum": _of("spectrum", _spectrum),
+    "shift_factors": _of("shift_factors", _shift_factors),
     "vertical_shift": _vertical_shift,
-    "superposition": _superposition,
-    "isotherms": _isotherms,
-    "ramps": _ramps,
+    "superposition": _of("isotherms", _superposition, *_PAIR),
+    "isotherms": _of("isotherms", _isotherms, *_PAIR),
+    "ramps": _of("ramps", _ramps, *_PAIR),
 }
 
 
 def figure_images(tree: xr.DataTree, formats: tuple[str, ...] = ("png", "svg")) -> dict[str, dict[str, bytes]]:
     """Draw every figure that the results afford and return it as the content of image files.
 
-    Parameters
-    ----------
-    tree : xarray.DataTree
-        Results of a study.
-    formats : tuple of {"png", "svg"}
-
-    Returns
-    -------
-    dict
-        Name of the figure -> format -> bytes; the same bytes for the same results.  Figures of the second of several
-        rubbers end in ``_2``, and so on.
+    `tree`: results of a study.  Returns name of the figure -> format -> bytes; the same bytes for the same
+    results.  Figures of the second of several rubbers end in ``_2``, and so on.
     """
     images = _drawn(FRICTION_FIGURES, tree, formats) | _drawn(RUBBER_FIGURES, tree, formats)
     for place, (_, branch) in enumerate(rubbers(tree), 1):

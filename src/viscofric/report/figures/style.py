@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import (
     FixedFormatter,
     FixedLocator,
@@ -162,6 +163,27 @@ def decade_ticks(axis: Axis) -> None:
     axis.set_major_formatter(LogFormatterSciNotation(base=10.0))
     subs = [1.0] if decades > 6 else [float(digit) for digit in range(1, 10)]
     axis.set_minor_locator(LogLocator(base=10.0, subs=subs, numticks=200))
+
+
+def logarithmic(axes: Axes, which: Literal["x", "y", "xy"] = "xy") -> None:
+    """Make axes logarithmic, with ticks of decades; what is drawn afterwards does not move these."""
+    for axis in which:
+        axes.set(**{f"{axis}scale": "log"})
+        decade_ticks(getattr(axes, f"{axis}axis"))
+
+
+def legend_beside(axes: Axes, handles: Sequence[Any] | None = None, title: str = "", **style: Any) -> None:
+    """Put a legend to the right of the axes."""
+    style |= {} if handles is None else {"handles": list(handles)}
+    axes.legend(title=title or None, loc="upper left", bbox_to_anchor=(1.0, 1.0), alignment="left", **style)
+
+
+def temperature_handles(nominal: Array) -> list[Any]:
+    """Return what a legend shows of the points of some temperatures (K)."""
+    return [
+        Line2D([], [], color=look.colour, marker=look.marker, linestyle="none", label=degrees(float(kelvin)))
+        for look, kelvin in zip(looks(nominal.size), nominal, strict=True)
+    ]
 
 
 def _short_log_ticks(axis: Axis, low: float, high: float, plain: bool) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.report.data import moduli_of_sweeps
 from viscofric.report.figures.rubber import draw_by_temperature, modulus_label
-from viscofric.report.figures.style import BLUE, GREY, VERMILION, decade_ticks, legend_above, plain_numbers
+from viscofric.report.figures.style import BLUE, GREY, VERMILION, legend_above, logarithmic, plain_numbers
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,46 +43,28 @@ def plot_wicket(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappab
     scale = draw_by_temperature(axes, measured, measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss_tangent)
     axes.set_xlabel(modulus_label(measured.symbol, "storage"))
     axes.set_ylabel(r"loss tangent $\tan\delta$")
-    _both_logarithmic(axes)
+    logarithmic(axes)
     return scale
 
 
 def plot_cole_cole(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
     """Draw the loss against the storage modulus of every sweep, both in decades, coloured by temperature.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
-        See `plot_isotherms`; the points of a check are without their vertical shift.
-
-    Returns
-    -------
-    matplotlib.cm.ScalarMappable
-        Temperatures in °C to colours, for a colour bar.
+    Arguments and value are those of `plot_wicket`.
     """
     measured = moduli_of_sweeps(sweeps)
     storage, loss = measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss / _PASCAL_PER_MEGAPASCAL
     scale = draw_by_temperature(axes, measured, storage, loss)
     axes.set_xlabel(modulus_label(measured.symbol, "storage"))
     axes.set_ylabel(modulus_label(measured.symbol, "loss"))
-    _both_logarithmic(axes)
+    logarithmic(axes)
     return scale
 
 
 def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
     """Draw the loss tangent against the magnitude of the modulus of every sweep, coloured by temperature.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
-        See `plot_isotherms`; the points of a check are without their vertical shift.
-
-    Returns
-    -------
-    matplotlib.cm.ScalarMappable
-        Temperatures in °C to colours, for a colour bar.
+    Arguments and value are those of `plot_wicket`.
 
     References
     ----------
@@ -93,23 +75,14 @@ def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) ->
     scale = draw_by_temperature(axes, measured, magnitude, measured.loss_tangent)
     axes.set_xlabel(rf"modulus $|{measured.symbol}^*|$ (MPa)")
     axes.set_ylabel(r"loss tangent $\tan\delta$")
-    _both_logarithmic(axes)
+    logarithmic(axes)
     return scale
 
 
 def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
     """Draw the loss angle δ against the magnitude of the modulus of every sweep, coloured by temperature.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    sweeps : IsothermalSweeps, Superposition, sequence of Isotherm, xarray.Dataset, or SuperpositionCheck
-        See `plot_isotherms`; the points of a check are without their vertical shift.
-
-    Returns
-    -------
-    matplotlib.cm.ScalarMappable
-        Temperatures in °C to colours, for a colour bar.
+    Arguments and value are those of `plot_wicket`.
 
     References
     ----------
@@ -119,10 +92,9 @@ def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> Sca
     magnitude = np.hypot(measured.storage, measured.loss) / _PASCAL_PER_MEGAPASCAL
     angle = np.degrees(np.arctan2(measured.loss, measured.storage))
     scale = draw_by_temperature(axes, measured, magnitude, angle)
-    axes.set_xscale("log")
     axes.set_xlabel(rf"modulus $|{measured.symbol}^*|$ (MPa)")
     axes.set_ylabel(r"loss angle $\delta$ (°)")
-    decade_ticks(axes.xaxis)
+    logarithmic(axes, "x")
     plain_numbers(axes, "y")
     return scale
 
@@ -154,15 +126,7 @@ def plot_kramers_kronig(axes: Axes, agreement: KramersKronig) -> None:
     shown = np.concatenate([agreement.storage_deviation[judged], agreement.loss_deviation[judged]])
     largest = 1.15 * max(float(np.max(np.abs(shown), initial=0.0)), 1.5 * LARGEST_RMS)
     axes.set_ylim(-largest, largest)
-    axes.set_xscale("log")
     axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)")
     axes.set_ylabel(r"$\log_{10}$ of demanded over measured")
-    decade_ticks(axes.xaxis)
+    logarithmic(axes, "x")
     legend_above(axes, handles)
-
-
-def _both_logarithmic(axes: Axes) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    decade_ticks(axes.xaxis)
-    decade_ticks(axes.yaxis)

@@ -16,6 +16,7 @@ from viscofric.report.figures.style import (
     VERMILION,
     Look,
     decade_ticks,
+    legend_beside,
     looks,
     new_figure,
     plain_numbers,
@@ -58,15 +59,8 @@ def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence
     of them.  Where there are surfaces that differ by chance (`seed`), each is a thin line behind their mean, and the
     band is the mean's 95 % interval; points at which one of them was not solved have no mean.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    friction : xarray.Dataset
-        `friction_coefficient`, and perhaps `friction_lower` and `friction_upper`, over the axes of the layout (and
-        `sample` and `seed`) only.
-    layout : Layout
-    shown : sequence of int
-        Which points of the layout's lines are drawn.
+    `friction`: `friction_coefficient`, and perhaps `friction_lower` and `friction_upper`, over the axes of the
+    layout (and `sample` and `seed`) only; `shown`: which points of the layout's lines are drawn.
     """
     along, lines = layout.along, layout.lines
     x = along.position
@@ -90,16 +84,7 @@ def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence
 def plot_study(axes: Axes, friction: xr.Dataset) -> None:
     """Draw friction over the first panel of a study's results, with its labels.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    friction : xarray.Dataset
-        As `StudyResults.dataset`.
-
-    Raises
-    ------
-    InputError
-        If nothing varies.
+    `friction`: as `StudyResults.dataset`.  Raises `InputError` if nothing varies.
     """
     layout = layout_of(friction)
     if layout is None:
@@ -149,12 +134,8 @@ def line_looks(lines: SweepAxis | None, shown: Sequence[int]) -> list[Look]:
 def sweep_figure(friction: xr.Dataset, layout: Layout | None = None) -> Figure | None:
     """Return friction over all axes of a study: curves in one panel, or in small multiples with one scale.
 
-    Parameters
-    ----------
-    friction : xarray.Dataset
-        Labelled results; see `plot_sweep`.
-    layout : Layout, optional
-        What runs along the axis and what becomes lines and panels; chosen if not given.
+    `friction`: labelled results; see `plot_sweep`; `layout`: what runs along the axis and what becomes lines and
+    panels; chosen if not given.
     """
     layout = layout_of(friction) if layout is None else layout
     if layout is None or not np.isfinite(friction[_COEFFICIENT].values).any():
@@ -219,8 +200,7 @@ def _legend_beside(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequ
     if not np.isfinite(friction[_COEFFICIENT].values).all():
         handles.append(Line2D([], [], color=VERMILION, marker="x", linestyle="none", label="not solved"))
     if handles:
-        title = None if layout.lines is None else layout.lines.title
-        axes.legend(handles=handles, title=title, alignment="left", loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        legend_beside(axes, handles, "" if layout.lines is None else layout.lines.title)
 
 
 def columns_of(count: int) -> int:

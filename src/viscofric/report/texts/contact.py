@@ -33,11 +33,7 @@ _NO_RESULTS = ("speed", "temperature", "energy_balance", "complementarity", "cel
 def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, str]]:
     """Return what an engineer wants to know of a contact, as pairs of name and value.
 
-    Parameters
-    ----------
-    solution : ContactSolution
-    seconds : float
-        That it took.
+    `seconds`: that it took.
     """
     line = solution.geometry == "line"
     diagnostics = solution.diagnostics
@@ -148,13 +144,7 @@ def _centre(solution: ContactSolution) -> str:
 def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: float) -> dict[str, Any]:
     """Return a contact in plain types: inputs, results, errors, diagnostics, and the units of their names.
 
-    Parameters
-    ----------
-    inputs : dict
-        What was requested, in SI units and plain types.
-    solution : ContactSolution
-    seconds : float
-        That it took.
+    `inputs`: what was requested, in SI units and plain types; `seconds`: that it took.
     """
     from importlib.metadata import version
 

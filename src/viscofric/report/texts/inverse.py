@@ -80,15 +80,8 @@ def shift_words(
 ) -> list[tuple[str, str]]:
     """Return what is to be said of shifted friction curves, as pairs of name and value.
 
-    Parameters
-    ----------
-    master : FrictionMasterCurve
-    law : ParametricLaw, optional
-        Fitted to the shift factors.
-    agreement : ShiftAgreement, optional
-        With those of the modulus.
-    why : str
-        Why that law was chosen, if it was.
+    `law`: fitted to the shift factors; `agreement`: with those of the modulus; `why`: why that law was chosen, if
+    it was.
     """
     low, high = (1e3 * end for end in master.reduced_range)
     lines = [

@@ -61,11 +61,7 @@ def notes_on_errors(run: TransientSolution) -> tuple[Note, ...]:
 def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, str]]:
     """Return the main results of a contact over time, as pairs of name and value.
 
-    Parameters
-    ----------
-    run : TransientSolution
-    seconds : float
-        Computing time, s.
+    `seconds`: computing time, s.
     """
     force, energy = _FORCES[run.geometry]
     slides = bool(np.any(run.position != run.position[0]))
@@ -109,11 +105,7 @@ def _heat(run: TransientSolution) -> list[tuple[str, str]]:
 def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
     """Return the main results of a periodic state, as pairs of name and value.
 
-    Parameters
-    ----------
-    cycle : CycleSolution
-    seconds : float
-        Computing time, s.
+    `seconds`: computing time, s.
     """
     force, energy = _FORCES[cycle.run.geometry]
     stiffness = {"N": "N/m", "N/m": "Pa", "Pa": "Pa/m"}[force]
@@ -168,11 +160,7 @@ def _largest(run: TransientSolution) -> str:
 def impact_lines(hit: ImpactSolution, seconds: float) -> list[tuple[str, str]]:
     """Return the main results of an impact, as pairs of name and value.
 
-    Parameters
-    ----------
-    hit : ImpactSolution
-    seconds : float
-        Computing time, s.
+    `seconds`: computing time, s.
     """
     lines: list[tuple[str, str]] = []
     for number, one in enumerate(hit.contacts, 1):
@@ -203,13 +191,7 @@ def restitution_lines(curve: RestitutionCurve) -> list[str]:
 def impact_record(inputs: dict[str, Any], result: ImpactSolution | RestitutionCurve, seconds: float) -> dict[str, Any]:
     """Return an impact, or several, in plain types: inputs, results, and the units of their names.
 
-    Parameters
-    ----------
-    inputs : dict
-        What was requested, in SI units and plain types.
-    result : ImpactSolution or RestitutionCurve
-    seconds : float
-        Computing time, s.
+    `inputs`: what was requested, in SI units and plain types; `seconds`: computing time, s.
     """
     contacts = [one._asdict() for one in getattr(result, "contacts", ())]
     return {
@@ -228,14 +210,7 @@ def transient_record(
 ) -> dict[str, Any]:
     """Return a contact over time in plain types: inputs, results along time, and the units of their names.
 
-    Parameters
-    ----------
-    inputs : dict
-        What was requested, in SI units and plain types, without the history.
-    history : History
-    result : TransientSolution or CycleSolution
-    seconds : float
-        Computing time, s.
+    `inputs`: what was requested, in SI units and plain types, without the history; `seconds`: computing time, s.
     """
     run: Any = getattr(result, "run", result)
     columns = {name: getattr(history, name) for name in ("time", history.control, "position", "speed", "temperature")}
