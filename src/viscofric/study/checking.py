@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -152,43 +153,35 @@ class CheckedStudy:
 def check_study(study: Study, path: Path) -> CheckedStudy:
     """Read the data files of a study and make its materials, without solving any case.
 
-    Raises
-    ------
-    StudyError
-        With all errors in its data: one sentence for each material, and one for the measurement.
+    Raises `StudyError` with all errors in its data: one sentence for each material, and one for the measurement.
     """
     rubbers, measured = [], None
-    wrong: list[Note] = []
-    field = ""  # of the first error
+    wrong: list[tuple[Note, str]] = []  # with the field that each is about
     for number, material in enumerate(study.materials):
-        try:
+        with _noted(wrong, "material", f"material[{number}]" if len(study.materials) > 1 else ""):
             rubber = make_rubber(material)
             shift_of(rubber)(np.array(study.conditions.temperature))  # raises where one has no shift factor
-        except InputError as error:
-            wrong.append(error.note.at(f"material[{number}]" if len(study.materials) > 1 else ""))
-            field = field or error.field or "material"
-        else:
             rubbers.append(rubber)
     if study.measurement is not None:
-        try:
+        with _noted(wrong, "measurement"):
             measured = read_measurement(study.measurement)
-        except InputError as error:
-            wrong.append(error.note)
-            field = field or error.field or "measurement"
-    try:
+    with _noted(wrong, "surface", "surface"):
         sweep = study.sweep()
         if study.surface is not None:
             first: Any = sweep.cases[0]
             surface_of(first.surface)
-    except InputError as error:
-        wrong.append(error.note.at("surface"))
-        field = field or "surface"
     if study.history is not None and study.history.file is not None:
-        try:
+        with _noted(wrong, "history.file"):
             checked_table(study.history, study)
-        except InputError as error:
-            wrong.append(error.note)
-            field = field or error.field or "history.file"
     if wrong:
-        raise StudyError(f"{path}: its data cannot be used:", wrong, field=field)
+        raise StudyError(f"{path}: its data cannot be used:", [note for note, _ in wrong], field=wrong[0][1])
     return CheckedStudy(study, sweep, tuple(rubbers), measured)
+
+
+@contextmanager
+def _noted(wrong: list[tuple[Note, str]], field: str, place: str = "") -> Iterator[None]:
+    """Note an error in a part of a study, and go on with the next part."""
+    try:
+        yield
+    except InputError as error:
+        wrong.append((error.note.at(place), error.field or field))

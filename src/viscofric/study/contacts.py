@@ -29,19 +29,11 @@ _ROUNDING = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Some cases of a study with their results.
-
-    Attributes
-    ----------
-    outcomes : tuple of Record or Failure
-        Of each case.
-    sweep : Sweep or None
-        If the cases are those of a sweep.
-    """
+    """Some cases of a study with their results."""
 
     cases: tuple[Case, ...]
-    outcomes: tuple[Record | Failure, ...]
-    sweep: Sweep | None = None
+    outcomes: tuple[Record | Failure, ...]  # of each case
+    sweep: Sweep | None = None  # if the cases are those of a sweep
 
     def place(self, number: int) -> str:
         """Return the position of a case in words."""

@@ -16,7 +16,7 @@ from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.notes import Note
 from viscofric.study.cases.heating import COLUMNS, solve_heated, solve_temperature_map
 from viscofric.study.cases.singles import Singles
-from viscofric.study.results.tree import axis_coordinates, meaning_of
+from viscofric.study.results.tree import coordinate, coordinates_of
 from viscofric.thermal import BODIES
 from viscofric.units import shown_celsius
 
@@ -110,14 +110,14 @@ class Heatings(Singles):
             name: (long, column.reshape([dimensions[one] for one in long]), self._about(name))
             for name, column in values.items()
         }
-        coordinates = {
-            name: value
-            for axis in axes
-            for name, value in axis_coordinates(axis, meaning_of(self._sweep.geometry)).items()
-        }
-        coordinates |= self._heat_coordinates()
-        attributes: dict[str, Any] = {"counterface": _words(table.counterface), "rubber": _words(table.rubber)}
-        attributes |= {
+        coordinates = coordinates_of(axes, self._sweep.geometry)
+        if self._interface is None:
+            coordinates["coulomb"] = coordinate("coulomb", table.coulomb, COULOMB)
+        if self._slips[0] is not None:
+            coordinates["slip"] = coordinate("slip", self._slips, _SLIP)
+        attributes = {
+            "counterface": _words(table.counterface),
+            "rubber": _words(table.rubber),
             "average": table.average,
             "branch": table.branch,
             "passes": table.passes,
@@ -156,16 +156,6 @@ class Heatings(Singles):
     def _about(self, name: str) -> dict[str, str]:
         _, unit, words = COLUMNS[name]
         return {"units": unit, "long_name": words}
-
-    def _heat_coordinates(self) -> dict[str, Any]:
-        table, found = self._table, {}
-        coulomb = ("coulomb", list(table.coulomb)) if len(table.coulomb) > 1 else ((), table.coulomb[0])
-        if self._interface is None:
-            found["coulomb"] = (*coulomb, COULOMB)
-        if self._slips[0] is not None:
-            slip = ("slip", list(self._slips)) if len(self._slips) > 1 else ((), self._slips[0])
-            found["slip"] = (*slip, _SLIP)
-        return found
 
     def _task(self, cases: list[int], first: int, second: int) -> Task | Failure:
         case: Any = self._sweep.cases[cases[0]]

@@ -17,7 +17,7 @@ from viscofric.rheology.material import Material
 from viscofric.study.cases.history import solve_history
 from viscofric.study.cases.singles import Singles
 from viscofric.study.heating import COULOMB
-from viscofric.study.results.tree import axis_coordinates, meaning_of
+from viscofric.study.results.tree import coordinate, coordinates_of
 from viscofric.study.run_file.study import isothermal
 
 if TYPE_CHECKING:
@@ -82,14 +82,12 @@ class Histories(Singles):
         columns = self.columns(dimensions, "instant")
         if not columns:
             return None
-        meaning = meaning_of(self._sweep.geometry)
-        coordinates = {name: value for axis in axes for name, value in axis_coordinates(axis, meaning).items()}
+        coordinates = coordinates_of(axes, self._sweep.geometry)
         if self._table.file is None:
             about = {"units": "s", "long_name": "time at rest under the load before the sliding"}
-            coordinates["dwell"] = ("dwell", list(dwells), about) if len(dwells) > 1 else ((), dwells[0], about)
+            coordinates["dwell"] = coordinate("dwell", dwells, about)
         if self._coulomb:
-            values = ("coulomb", list(self._coulomb)) if len(self._coulomb) > 1 else ((), self._coulomb[0])
-            coordinates["coulomb"] = (*values, COULOMB)
+            coordinates["coulomb"] = coordinate("coulomb", self._coulomb, COULOMB)
         named = {f"{name}_over_time" if name in ("load", "temperature") else name: one for name, one in columns.items()}
         before = "repeated" if self._table.cycle else self._table.before
         return xarray.Dataset(named, coordinates, {"geometry": self._sweep.geometry, "before": before})

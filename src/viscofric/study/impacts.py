@@ -12,7 +12,7 @@ from viscofric.friction.cases.solving import Task
 from viscofric.study.cases.history import solve_hit
 from viscofric.study.cases.singles import Singles
 from viscofric.study.cases.sweep import shown
-from viscofric.study.results.tree import axis_coordinates, meaning_of
+from viscofric.study.results.tree import coordinates_of
 
 if TYPE_CHECKING:
     import xarray
@@ -77,8 +77,7 @@ class Impacts(Singles):
         columns = self.columns(dimensions)
         if not columns:
             return None
-        meaning = meaning_of("point")
-        coordinates = {name: value for axis in self._axes for name, value in axis_coordinates(axis, meaning).items()}
+        coordinates = coordinates_of(self._axes, "point")
         about = {"units": "m/s", "long_name": "speed of the impact"}
         coordinates["impact_speed"] = ("impact_speed", list(speeds), about)
         return xarray.Dataset(columns, coordinates, {"mass": self._table.mass, "gravity": self._table.gravity or 0.0})

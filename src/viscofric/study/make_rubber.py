@@ -50,12 +50,9 @@ def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
 
     With `liquids`, a liquid, which has no spectrum for contacts, becomes a table of its master curve, with a note.
 
-    Raises
-    ------
-    LiquidError
-        If it is a liquid, unless `liquids` is true.
-    DataFileError, SuperpositionError, InputError
-        If a file cannot be used or does not state tension or shear, or the fit fails.
+    Raises `LiquidError` if it is a liquid, unless `liquids` is true.  Raises `DataFileError`,
+    `SuperpositionError` or `InputError` if a file cannot be used or does not state tension or shear, or the fit
+    fails.
     """
     return at_strain(_at_small_strain(table, liquids), table)
 
@@ -128,16 +125,19 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
     )
 
 
+def _columns(table: MaterialTable) -> dict[str, Any]:
+    """Return what every reader of a test takes of the table: the deformation, and where its columns are."""
+    return {"deformation": table.deformation, "columns": table.columns, "sheet": table.sheet}
+
+
 def read_steps_of(table: MaterialTable) -> StepTests:
     """Read the creep or relaxation tests of [material]."""
     return read_step_tests(
         *table.steps,
         kind="creep" if table.creep is not None else "relaxation",
-        deformation=table.deformation,
         temperature=table.temperature,
         response_unit=table.modulus_unit,
-        columns=table.columns,
-        sheet=table.sheet,
+        **_columns(table),
     )
 
 
@@ -173,12 +173,7 @@ def _origin(table: MaterialTable) -> str:
 
 def _read_sweeps(table: MaterialTable) -> IsothermalSweeps:
     return read_dma(
-        *(table.dma or ()),
-        deformation=table.deformation,
-        temperature=table.temperature,
-        modulus_unit=table.modulus_unit,
-        columns=table.columns,
-        sheet=table.sheet,
+        *(table.dma or ()), temperature=table.temperature, modulus_unit=table.modulus_unit, **_columns(table)
     )
 
 
@@ -201,13 +196,7 @@ def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
 
 def read_ramps_of(table: MaterialTable) -> TemperatureRamps:
     """Read the temperature ramps of [material]."""
-    return read_ramps(
-        *(table.ramps or ()),
-        deformation=table.deformation,
-        modulus_unit=table.modulus_unit,
-        columns=table.columns,
-        sheet=table.sheet,
-    )
+    return read_ramps(*(table.ramps or ()), modulus_unit=table.modulus_unit, **_columns(table))
 
 
 def _from_ramps(table: MaterialTable, liquids: bool) -> Rubber:
@@ -240,11 +229,9 @@ def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubbe
     curve = read_master_curve(
         path,
         reference,
-        deformation=table.deformation,
         poisson_ratio=table.poisson_ratio,
         modulus_unit=table.modulus_unit,
-        columns=table.columns,
-        sheet=table.sheet,
+        **_columns(table),
     )
     shift: ShiftLaw | None = None
     if table.shift_factors is not None:

@@ -24,59 +24,27 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Rubber:
-    """A material with everything it was made from.
+    """A material with everything it was made from."""
 
-    Attributes
-    ----------
-    material : Material
-        With a shift, about the reference temperature.
-    source : str
-        Origin of a predefined material.
-    synthetic : bool
-        Whether it is synthetic, from the catalogue.
-    sweeps, fit : IsothermalSweeps, Superposition or None
-        None for a predefined material.
-    step_tests, step_fit : StepTests, StepSuperposition or None
-        Creep or relaxation tests, instead of sweeps or together with them.
-    joint : JointSuperposition or None
-        Of sweeps and step tests together; `fit` and `step_fit` are its parts.
-    master_curve : MasterCurve or None
-        Given instead of sweeps, or made of ramps.
-    ramps : RampSuperposition or None
-        Of temperature ramps, given instead of sweeps.
-    laws : LawComparison or None
-        Shift laws fitted to the measured shift factors.
-    shift_used : str
-        ``"measured"``, or the name of the law in use.
-    shift_origin : {"found", "given", "held"}
-        Shift factors found from the sweeps, read from a file, or found with some held fixed.
-    payne : PayneFit or None
-        Of an amplitude sweep.
-    strain : float or None
-        Tensile strain that the moduli were scaled to by it, a fraction.
-    linear : Material or None
-        The material at small strain then, as it was fitted.
-    notes : tuple of str
-        Warnings, changes and omissions, one sentence each.
-    """
-
-    material: Material
-    source: str = ""
-    synthetic: bool = False
-    sweeps: IsothermalSweeps | None = None
+    material: Material  # with a shift, about the reference temperature
+    source: str = ""  # origin of a predefined material
+    synthetic: bool = False  # whether it is synthetic, from the catalogue
+    sweeps: IsothermalSweeps | None = None  # sweeps, fit: None for a predefined material
     fit: Superposition | None = None
+    #: step_tests, step_fit: Creep or relaxation tests, instead of sweeps or together with them
     step_tests: StepTests | None = None
     step_fit: StepSuperposition | None = None
-    joint: JointSuperposition | None = None
-    master_curve: MasterCurve | None = None
-    ramps: RampSuperposition | None = None
-    laws: LawComparison[ParametricLaw] | None = None
-    shift_used: str = ""
+    joint: JointSuperposition | None = None  # of sweeps and step tests together; `fit` and `step_fit` are its parts
+    master_curve: MasterCurve | None = None  # given instead of sweeps, or made of ramps
+    ramps: RampSuperposition | None = None  # of temperature ramps, given instead of sweeps
+    laws: LawComparison[ParametricLaw] | None = None  # shift laws fitted to the measured shift factors
+    shift_used: str = ""  # ``"measured"``, or the name of the law in use
+    #: Shift factors found from the sweeps, read from a file, or found with some held fixed
     shift_origin: str = "found"
-    payne: PayneFit | None = None
-    strain: float | None = None
-    linear: Material | None = None
-    notes: tuple[str, ...] = ()
+    payne: PayneFit | None = None  # of an amplitude sweep
+    strain: float | None = None  # tensile strain that the moduli were scaled to by it, a fraction
+    linear: Material | None = None  # the material at small strain then, as it was fitted
+    notes: tuple[str, ...] = ()  # warnings, changes and omissions, one sentence each
 
     @property
     def law(self) -> ParametricLaw | None:

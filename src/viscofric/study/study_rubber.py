@@ -43,12 +43,8 @@ class StudyRubber:
     def of(cls, table: MaterialTable, uncertainty: UncertaintyTable, temperatures: Sequence[float]) -> StudyRubber:
         """Make a material for contacts at some temperatures.
 
-        Raises
-        ------
-        StudyError
-            If it has no spectrum, no shift, or no sweeps for bootstrap samples.
-        InputError
-            If a file cannot be used, or a temperature has no shift factor.
+        Raises `StudyError` if it has no spectrum, no shift, or no sweeps for bootstrap samples.  Raises
+        `InputError` if a file cannot be used, or a temperature has no shift factor.
         """
         rubber = make_rubber(table)
         shift = shift_of(rubber)
@@ -166,10 +162,7 @@ class BandColumns(NamedTuple):
 def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples | None:
     """Return bootstrap samples of a material; None without sweeps, scaled to a strain, or for 0 samples.
 
-    Raises
-    ------
-    InputError
-        If its spectrum was not fitted to its sweeps, or there are too few samples.
+    Raises `InputError` if its spectrum was not fitted to its sweeps, or there are too few samples.
     """
     spectrum = rubber.material.spectrum
     fit = None if rubber.strain is not None else rubber.superposed

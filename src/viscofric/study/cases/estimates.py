@@ -58,21 +58,13 @@ _ROUNDS = 8
 
 @dataclass(frozen=True)
 class Expectation:
-    """Estimated effort of a set of cases; all but the number of cases within a factor of about two.
+    """Estimated effort of a set of cases; all but the number of cases within a factor of about two."""
 
-    Attributes
-    ----------
-    cases, solves : int
-        Cases, and contacts to be solved for them.
-    seconds : float
-        Processor time of all, on one core of 2020, s.
-    memory, memory_per_process : float
-        Of the study with all records and fields, and of each solving process at most, bytes.
-    """
-
-    cases: int
+    cases: int  # cases, solves: cases, and contacts to be solved for them
     solves: int
-    seconds: float
+    seconds: float  # processor time of all, on one core of 2020, s
+    #: memory, memory_per_process: Of the study with all records and fields, and of each solving process at most,
+    #: bytes
     memory: float
     memory_per_process: float
 

@@ -30,19 +30,13 @@ CONDITIONS = ("load", "pressure", "direction", "temperature", "speed")
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """One dimension of the results.
+    """One dimension of the results."""
 
-    Attributes
-    ----------
-    name : str
-        "material", "sample", "radius" ("radius_x", "radius_y", "angle"), "seed", "thickness", "load", "pressure",
-        "direction", "temperature" or "speed"; of several that vary together, joined: "load_radius".
-    columns : dict of str to tuple
-        Coordinate → its values, one for each point of the axis, SI; names of materials, numbers of samples (0: the best
-        estimate).
-    """
-
+    #: "material", "sample", "radius" ("radius_x", "radius_y", "angle"), "seed", "thickness", "load", "pressure",
+    #: "direction", "temperature" or "speed"; of several that vary together, joined: "load_radius"
     name: str
+    #: Coordinate → its values, one for each point of the axis, SI; names of materials, numbers of samples (0: the
+    #: best estimate)
     columns: dict[str, Values]
 
     def __len__(self) -> int:
@@ -51,19 +45,12 @@ class Axis:
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """All cases of a study.
+    """All cases of a study."""
 
-    Attributes
-    ----------
-    axes : tuple of Axis
-        In the order material, sample, shape of the indenter or seed of the surface, thickness, load or pressure,
-        direction, temperature, speed; those with one point included.
-    cases : tuple of Case
-        One for each combination of the axes' points; the last axis runs fastest.
-    """
-
+    #: In the order material, sample, shape of the indenter or seed of the surface, thickness, load or pressure,
+    #: direction, temperature, speed; those with one point included
     axes: tuple[Axis, ...]
-    cases: tuple[Case, ...]
+    cases: tuple[Case, ...]  # one for each combination of the axes' points; the last axis runs fastest
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -42,24 +42,14 @@ _TABLES = (".csv", ".txt", ".tsv")
 
 @dataclass(frozen=True, eq=False)
 class CaseTable:
-    """Cases as rows.
-
-    Attributes
-    ----------
-    columns : dict of str to (n,) array
-        Coordinates and variables, SI.
-    units : dict of str to str
-    solved : (n,) array of bool
-    attributes : dict
-        Provenance.
-    """
+    """Cases as rows."""
 
     name: str
     coordinates: tuple[str, ...]
-    columns: dict[str, NDArray[Any]]
+    columns: dict[str, NDArray[Any]]  # coordinates and variables, SI
     units: dict[str, str]
-    solved: Mask
-    attributes: dict[Any, Any] = field(default_factory=dict)
+    solved: Mask  # (n,)
+    attributes: dict[Any, Any] = field(default_factory=dict)  # provenance
 
     @classmethod
     def of_file(cls, path: str | Path) -> CaseTable:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
@@ -62,11 +62,16 @@ def table_text(cases: xarray.Dataset) -> str:
     text = io.StringIO()
     for name, said in about(cases.attrs):
         text.write(f"# {name}: {said}\n" if said else f"# {name}\n")
+    write_columns(text, cases)
+    return text.getvalue()
+
+
+def write_columns(text: TextIO, dataset: xarray.Dataset) -> None:
+    """Write a data set as a table: a line of headings with units, and a row for each point."""
     writer = csv.writer(text, lineterminator="\n")
-    names, units, columns = columns_of(cases)
+    names, units, columns = columns_of(dataset)
     writer.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
     writer.writerows(zip(*(map(written, column) for column in columns), strict=True))
-    return text.getvalue()
 
 
 def read_table_text(text: str) -> tuple[dict[str, str], dict[str, str], dict[str, Any]]:

@@ -43,33 +43,18 @@ _LAST_DIGITS = 1e-12
 
 @dataclass(frozen=True)
 class VariableDifference:
-    """Difference of one variable over the common cases of two results.
-
-    Attributes
-    ----------
-    points : int
-        Cases that both solved.
-    largest, rms : float
-        Relative to the larger of the two values.
-    in_errors : float or None
-        The largest difference over the combined stated error; None without a stated error.
-    where : dict of str to float or str
-        Coordinates of the largest difference, SI.
-    first, second : float
-        The values there.
-    equal : bool
-        Whether all differences are within the tolerance, or without one within twice the combined stated errors.
-    """
+    """Difference of one variable over the common cases of two results."""
 
     name: str
     unit: str
-    points: int
-    largest: float
+    points: int  # cases that both solved
+    largest: float  # largest, rms: relative to the larger of the two values
     rms: float
-    in_errors: float | None
-    where: dict[str, float | str]
-    first: float
+    in_errors: float | None  # the largest difference over the combined stated error; None without a stated error
+    where: dict[str, float | str]  # coordinates of the largest difference, SI
+    first: float  # first, second: the values there
     second: float
+    #: Whether all differences are within the tolerance, or without one within twice the combined stated errors
     equal: bool
 
 

@@ -157,8 +157,7 @@ def prediction(
             continue
         variables[name] = labelled(name, whole)
     variables["failed"] = labelled("failed", (~solved).astype(np.int8))
-    coordinates = {name: value for axis in sweep.axes for name, value in axis_coordinates(axis, meaning).items()}
-    return xarray.Dataset(variables, coordinates)
+    return xarray.Dataset(variables, coordinates_of(sweep.axes, sweep.geometry))
 
 
 def master_prediction(
@@ -331,14 +330,20 @@ def _spread(values: Any, solved: Any, otherwise: int | None) -> Any:
     return whole
 
 
-def axis_coordinates(axis: Axis, meaning: Mapping[str, Meaning]) -> dict[str, Any]:
-    """Return the coordinates of an axis with units and long names."""
-    along: Any = axis.name if len(axis) > 1 else ()
+def coordinates_of(axes: Sequence[Axis], geometry: str) -> dict[str, Any]:
+    """Return the coordinates of axes with units and long names."""
+    meaning = meaning_of(geometry)
     return {
-        name: (along, list(values) if len(axis) > 1 else values[0], _attributes(name, meaning))
+        name: coordinate(axis.name, values, _attributes(name, meaning))
+        for axis in axes
         for name, values in axis.columns.items()
         if len(axis) > 1 or _is_informative(name, values)
     }
+
+
+def coordinate(dimension: str, values: Sequence[Any], about: Mapping[str, str]) -> Any:
+    """Return a coordinate along a dimension, or a scalar one of one value."""
+    return (dimension, list(values), about) if len(values) > 1 else ((), values[0], about)
 
 
 def _is_informative(name: str, values: tuple[float | str, ...]) -> bool:

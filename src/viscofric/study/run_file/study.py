@@ -245,24 +245,10 @@ def load_study(path: str | Path) -> Study:
 
     Examples
     --------
-    >>> from pathlib import Path
+    >>> from importlib.resources import files
     >>> import viscofric as vf
-    >>> lines = [
-    ...     "[material]",
-    ...     'catalogue = "synthetic fluoroelastomer"',
-    ...     "[indenter]",
-    ...     'radius = "9.525 mm"',
-    ...     "[conditions]",
-    ...     'load = "5 N"',
-    ...     'speed = "0.1 m/s"',
-    ...     'temperature = ["60 degC", "90 degC"]',
-    ...     "[solver]",
-    ...     "accuracy = 1e-2",
-    ... ]
-    >>> _ = Path("ball.toml").write_text("\n".join(lines))
-    >>> study = vf.load_study("ball.toml")
-    >>> study.title
-    'Viscoelastic friction'
+    >>> vf.load_study(files("viscofric") / "example" / "study.toml").title
+    'Synthetic fluoroelastomer on a mini-traction machine'
     """
     path = file_path(path)
     return parse_study(read_study_text(path), path)

@@ -21,6 +21,7 @@ from pydantic import (
     Tag,
     ValidationError,
     WithJsonSchema,
+    create_model,
     model_validator,
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
@@ -256,56 +257,23 @@ class _EvenRange(_Range):
     spacing: Literal["linear"] = Field("linear", description="Equal steps between the values.")
 
 
-_FROM, _TO = "First value.", "Last value."
+_FROM, _TO = Field(alias="from", description="First value."), Field(alias="to", description="Last value.")
 
 
-class SpeedRange(_Range):
-    """A range of speeds."""
-
-    first: Speed = Field(alias="from", description=_FROM)
-    last: Speed = Field(alias="to", description=_TO)
-
-
-class LengthRange(_Range):
-    """A range of lengths."""
-
-    first: Length = Field(alias="from", description=_FROM)
-    last: Length = Field(alias="to", description=_TO)
+def _range(title: str, end: Any, base: type[_Range] = _Range) -> type[_Range]:
+    """Return a range of values of a type; its title ends in "Range"."""
+    words = f"A range of {title.removesuffix('Range').lower()}s."
+    return create_model(title, __base__=base, __doc__=words, first=(end, _FROM), last=(end, _TO))
 
 
-class AngleRange(_Range):
-    """A range of angles."""
-
-    first: Angle = Field(alias="from", description=_FROM)
-    last: Angle = Field(alias="to", description=_TO)
-
-
-class LoadRange(_Range):
-    """A range of loads."""
-
-    first: Load = Field(alias="from", description=_FROM)
-    last: Load = Field(alias="to", description=_TO)
-
-
-class PressureRange(_Range):
-    """A range of pressures."""
-
-    first: Pressure = Field(alias="from", description=_FROM)
-    last: Pressure = Field(alias="to", description=_TO)
-
-
-class DirectionRange(_EvenRange):
-    """A range of directions."""
-
-    first: Direction = Field(alias="from", description=_FROM)
-    last: Direction = Field(alias="to", description=_TO)
+SpeedRange = _range("SpeedRange", Speed)
 
 
 class SeedRange(_Span):
     """All whole numbers between two ends."""
 
-    first: Seed = Field(alias="from", description=_FROM)
-    last: Seed = Field(alias="to", description=_TO)
+    first: Seed = _FROM
+    last: Seed = _TO
 
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
@@ -315,13 +283,6 @@ class SeedRange(_Span):
     def values(self) -> tuple[int, ...]:
         """Return all values."""
         return tuple(range(self.first, self.last + 1))
-
-
-class TemperatureRange(_EvenRange):
-    """A range of temperatures."""
-
-    first: Temperature = Field(alias="from", description=_FROM)
-    last: Temperature = Field(alias="to", description=_TO)
 
 
 @dataclass(frozen=True)
@@ -357,11 +318,11 @@ def _values(found: _Span | tuple[float, ...]) -> tuple[float, ...]:
 
 
 #: One value, a list of them, or ``{ from, to, points, spacing }``: all of them, SI.
-Lengths = Annotated[tuple[float, ...], _Many(Length, LengthRange)]
-Angles = Annotated[tuple[float, ...], _Many(Angle, AngleRange)]
-Loads = Annotated[tuple[float, ...], _Many(Load, LoadRange)]
-Pressures = Annotated[tuple[float, ...], _Many(Pressure, PressureRange)]
-Directions = Annotated[tuple[float, ...], _Many(Direction, DirectionRange)]
+Lengths = Annotated[tuple[float, ...], _Many(Length, _range("LengthRange", Length))]
+Angles = Annotated[tuple[float, ...], _Many(Angle, _range("AngleRange", Angle))]
+Loads = Annotated[tuple[float, ...], _Many(Load, _range("LoadRange", Load))]
+Pressures = Annotated[tuple[float, ...], _Many(Pressure, _range("PressureRange", Pressure))]
+Directions = Annotated[tuple[float, ...], _Many(Direction, _range("DirectionRange", Direction, _EvenRange))]
 Seeds = Annotated[tuple[int, ...], _Many(Seed, SeedRange, SEED_RANGE)]
 Speeds = Annotated[tuple[float, ...], _Many(Speed, SpeedRange)]
-Temperatures = Annotated[tuple[float, ...], _Many(Temperature, TemperatureRange)]
+Temperatures = Annotated[tuple[float, ...], _Many(Temperature, _range("TemperatureRange", Temperature, _EvenRange))]

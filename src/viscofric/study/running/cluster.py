@@ -32,19 +32,12 @@ _POLLING = 1.0  # s
 
 @dataclass(frozen=True)
 class BatchJobs:
-    """Workers that are started as jobs of a batch system.
-
-    Attributes
-    ----------
-    settings : dict
-        Of ``dask_jobqueue.SLURMCluster``: queue, account, cores, memory, walltime …
-    kind : str
-        Class of `dask_jobqueue`.
-    """
+    """Workers that are started as jobs of a batch system."""
 
     jobs: int
+    #: Of ``dask_jobqueue.SLURMCluster``: queue, account, cores, memory, walltime …
     settings: dict[str, Any] = field(default_factory=dict)
-    kind: str = "SLURMCluster"
+    kind: str = "SLURMCluster"  # class of `dask_jobqueue`
 
     @classmethod
     def of(cls, table: ClusterTable) -> Self:

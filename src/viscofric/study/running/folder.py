@@ -34,12 +34,8 @@ def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
 
     With `resume`, contacts in it are reused and its results replaced.
 
-    Raises
-    ------
-    StudyError
-        If another run uses it, or it has contents and `resume` is false.
-    DataFileError
-        If it cannot be written, a part of it is a link to another place, or it is removed before the end.
+    Raises `StudyError` if another run uses it, or it has contents and `resume` is false.  Raises `DataFileError`
+    if it cannot be written, a part of it is a link to another place, or it is removed before the end.
     """
     if folder.exists() and not folder.is_dir():
         raise DataFileError(folder, "is a file; results need a folder.", code="is-file")
@@ -58,24 +54,12 @@ def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
 
 @dataclass(frozen=True)
 class CheckedResults:
-    """Integrity of a folder of results.
+    """Integrity of a folder of results."""
 
-    Attributes
-    ----------
-    cases : int
-        Stored contacts.
-    finished : bool
-        Whether the results file exists, too.
-    damaged : dict of Path to str
-        Files that differ from what was stored, with the reason.
-    unverified : tuple of Path
-        Files without a checksum, written by older versions of viscofric.
-    """
-
-    cases: int
-    finished: bool
-    damaged: dict[Path, str]
-    unverified: tuple[Path, ...]
+    cases: int  # stored contacts
+    finished: bool  # whether the results file exists, too
+    damaged: dict[Path, str]  # files that differ from what was stored, with the reason
+    unverified: tuple[Path, ...]  # files without a checksum, written by older versions of viscofric
 
 
 def check_results(folder: Path) -> CheckedResults:

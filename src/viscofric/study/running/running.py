@@ -25,37 +25,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Event:
-    """One event of a run.
+    """One event of a run."""
 
-    Attributes
-    ----------
-    event : str
-        ``"stage"``: a stage began or took a step; ``"solving"``: a contact is started; ``"solved"``: it is solved and
-        stored; ``"stored"``: it was stored before; ``"damaged"``: the stored contact cannot be used; ``"failed"``: it
-        could not be solved; ``"waiting"``: a cluster has no workers for the time being.
-    stage : str, optional
-        Of the study: "measurement", "material", "contacts", "report" …
-    done, total : int, optional
-        Steps of the stage; for contacts, the number of cases with a result and of all cases.
-    solves : int, optional
-        Contacts solved so far.
-    label, key : str, optional
-        The contact in words, and the name of its file.
-    seconds : float, optional
-        Duration.
-    reason : str, optional
-        Why it failed, what is wrong with the stored contact, or what the run waits for.
-    """
-
+    #: ``"stage"``: a stage began or took a step; ``"solving"``: a contact is started; ``"solved"``: it is solved and
+    #: stored; ``"stored"``: it was stored before; ``"damaged"``: the stored contact cannot be used; ``"failed"``: it
+    #: could not be solved; ``"waiting"``: a cluster has no workers for the time being
     event: str
-    stage: str | None = None
+    stage: str | None = None  # Of the study: "measurement", "material", "contacts", "report" …
+    #: done, total: Steps of the stage; for contacts, the number of cases with a result and of all cases
     done: int | None = None
     total: int | None = None
-    solves: int | None = None
-    label: str | None = None
+    solves: int | None = None  # contacts solved so far
+    label: str | None = None  # label, key: the contact in words, and the name of its file
     key: str | None = None
-    seconds: float | None = None
-    reason: str | None = None
+    seconds: float | None = None  # duration
+    reason: str | None = None  # why it failed, what is wrong with the stored contact, or what the run waits for
 
     def as_dict(self) -> dict[str, Value]:
         """Return the attributes that are set."""
@@ -82,10 +66,7 @@ def choose_executor(
     `workers` are processes of this machine, `scheduler` is the address of a Dask scheduler, and with `finished_only`
     nothing is solved.
 
-    Raises
-    ------
-    InputError
-        If two are requested, the number is invalid, or Dask is not installed.
+    Raises `InputError` if two are requested, the number is invalid, or Dask is not installed.
     """
     if finished_only:
         if workers is not None or scheduler is not None:

@@ -27,18 +27,10 @@ _SEAL = b', "sha256": "'
 
 @dataclass(frozen=True)
 class Damaged:
-    """A stored contact that cannot be used.
+    """A stored contact that cannot be used."""
 
-    Attributes
-    ----------
-    reason : str
-        What is wrong, without its name.
-    older : bool
-        Whether it only lacks a checksum, as from an older viscofric.
-    """
-
-    reason: str
-    older: bool = False
+    reason: str  # what is wrong, without its name
+    older: bool = False  # whether it only lacks a checksum, as from an older viscofric
 
 
 @dataclass(frozen=True)
@@ -46,17 +38,10 @@ class CaseStore:
     """A folder of solved contacts: ``KEY.json`` for each, and ``KEY.npz`` with its fields if they are kept.
 
     Each file ends with a checksum (SHA-256) of its key, of its contents, and of its fields.
-
-    Attributes
-    ----------
-    folder : Path
-        Made with the first contact.
-    made : bool
-        Whether it exists already; if it is missing then, it was removed and is not made again.
     """
 
-    folder: Path
-    made: bool = False
+    folder: Path  # made with the first contact
+    made: bool = False  # whether it exists already; if it is missing then, it was removed and is not made again
 
     def get(self, key: str, with_fields: bool = False) -> Record | Failure | Damaged | None:
         """Return the stored result of a contact, None if there is none.
