@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import click
 import numpy as np
 
 from viscofric.cli.errors import placed_at
 from viscofric.cli.files import FILE
+from viscofric.cli.output import together
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-
-_INDENTER = (
+#: Options of the indenter alone.
+indenter_options = together(
     click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
     click.option(
         "--cylinder",
@@ -47,17 +45,8 @@ _INDENTER = (
 )
 #: Options, one of which says what shape it is.
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
-
-
-def indenter_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of the indenter alone."""
-    for option in reversed(_INDENTER):
-        function = option(function)
-    return function
-
-
-#: Options of a rough surface, besides --spacing and --height-unit.
-_SURFACE = (
+#: Options of a rough surface instead of an indenter, besides --spacing and --height-unit.
+surface_options = together(
     click.option(
         "--surface",
         type=FILE,
@@ -71,13 +60,6 @@ _SURFACE = (
         help="With --surface: preparation step, such as 'remove tilt', 'window' or 'shortest 40 um'; repeatable.",
     ),
 )
-
-
-def surface_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a rough surface instead of an indenter."""
-    for option in reversed(_SURFACE):
-        function = option(function)
-    return function
 
 
 def option(name: str) -> str:
@@ -202,7 +184,8 @@ direction_option = click.option(
     show_default=True,
     help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
 )
-_ELASTIC = (
+#: Options of an elastic indenter.
+elastic_options = together(
     click.option(
         "--indenter-modulus", metavar="E", help="Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."
     ),
@@ -213,9 +196,10 @@ _ELASTIC = (
         help="Poisson's ratio of an elastic indenter [default: 0.3].",
     ),
 )
-_OPTIONS = (
+#: Options of a contact.
+contact_options = together(
     direction_option,
-    *_ELASTIC,
+    elastic_options,
     click.option(
         "--coulomb",
         type=float,
@@ -230,20 +214,6 @@ _OPTIONS = (
         "--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda."
     ),
 )
-
-
-def contact_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a contact."""
-    for one in reversed(_OPTIONS):
-        function = one(function)
-    return function
-
-
-def elastic_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of an elastic indenter."""
-    for one in reversed(_ELASTIC):
-        function = one(function)
-    return function
 
 
 def inputs_of(parameters: dict[str, Any]) -> list[Path]:

@@ -71,9 +71,7 @@ def command(
 
     Quantities carry their unit. Each contact is solved to the requested accuracy.
     """
-    for target in (out, picture):
-        if target is not None:
-            refuse_to_overwrite(target, inputs_of(parameters))
+    refuse_to_overwrite(inputs_of(parameters), out, picture)
     with reported_errors():
         from viscofric.cli.progress import contact_bar
         from viscofric.friction.prediction import predict_friction
@@ -188,8 +186,7 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     from viscofric.report.texts.tables import aligned
     from viscofric.units import shown_celsius
 
-    synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
-    click.echo(f"{name}{synthetic}, {significant(float(curves.load[0]), 4)} {curves.load_unit}\n")
+    click.echo(f"{name}{rubber.mark}, {significant(float(curves.load[0]), 4)} {curves.load_unit}\n")
     kelvins = list(dict.fromkeys(curves.temperature.tolist()))
     count = len(curves) // len(kelvins)
     columns = [["speed (mm/s)", *(significant(1e3 * speed, 4) for speed in curves.speed[:count].tolist())]]

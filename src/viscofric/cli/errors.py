@@ -24,10 +24,7 @@ if TYPE_CHECKING:
 def reported_errors(reader: Reader = "shell") -> Iterator[None]:
     """Turn what viscofric raises on purpose into a message and exit status 1.
 
-    Parameters
-    ----------
-    reader : str
-        In whose words remedies are: ``"run_file"`` where what is wrong is mended there.
+    `reader`: in whose words remedies are: ``"run_file"`` where what is wrong is mended there.
     """
     from viscofric.errors import ViscofricError
 
@@ -159,12 +156,8 @@ def _typed(parameter: click.Parameter) -> str:
 def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
     """Print every check of results that did not pass, as a warning; the report has them all.
 
-    Parameters
-    ----------
-    tree : xarray.DataTree
-        The results.
-    but : iterable of str
-        Checks that are left out, by their names; of several rubbers, that of each follows the name.
+    `tree`: the results; `but`: checks that are left out, by their names; of several rubbers, that of each follows
+    the name.
     """
     from viscofric.report.texts.checks import all_checks
 
@@ -174,9 +167,9 @@ def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> Non
             click.echo(f"Warning: {check.name}: {check.sentence}", err=True)
 
 
-def print_notes(notes: Iterable[str], reader: Reader = "shell") -> None:
+def print_notes(notes: Iterable[str], reader: Reader = "shell", *, word: str = "Note") -> None:
     """Print notes on the data, on standard error, in the words of a reader."""
     from viscofric.notes import note_of
 
     for note in notes:
-        click.echo(f"Note: {plainly(note_of(note).words(reader))}", err=True)
+        click.echo(f"{word}: {plainly(note_of(note).words(reader))}", err=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import sys
 from contextlib import contextmanager
@@ -42,10 +41,12 @@ def refusal(code: str, sentence: str) -> click.ClickException:
     return error
 
 
-def refuse_to_overwrite(target: Path, inputs: Iterable[Path]) -> None:
+def refuse_to_overwrite(inputs: Iterable[Path], *targets: Path | None) -> None:
     """Stop where a file to be written is one that is read: measurements are not to be lost."""
-    if any(target.resolve() == path.resolve() for path in inputs):
-        raise refusal("is-input", f"{target} is an input and would be overwritten; choose another name.")
+    read = {path.resolve() for path in inputs}
+    for target in targets:
+        if target is not None and target.resolve() in read:
+            raise refusal("is-input", f"{target} is an input and would be overwritten; choose another name.")
 
 
 #: A file to be written, or to be read.
@@ -125,12 +126,8 @@ def write_curves(
 def write_fields(path: Path, solution: ContactSolution) -> None:
     """Write the fields of a contact.
 
-    Parameters
-    ----------
-    path : Path
-        Ends in ``.nc`` (netCDF) or ``.csv`` (a line for each cell: x, y, pressure, displacement; `-` prints it).
-        Replaced if it exists.
-    solution : ContactSolution
+    `path`: ends in ``.nc`` (netCDF) or ``.csv`` (a line for each cell: x, y, pressure, displacement; `-` prints
+    it). Replaced if it exists.
     """
     from viscofric.files import write_atomically
 
@@ -148,13 +145,10 @@ def write_dataset(path: Path, data: xarray.Dataset) -> None:
     if path.suffix.lower() == ".nc":
         write_atomically(path, _netcdf(path, data))
         return
-    from viscofric.study.results.columns import columns_of, written
+    from viscofric.study.results.columns import write_columns
 
-    names, units, columns = columns_of(data)
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
-    writer.writerows(zip(*(map(written, column) for column in columns), strict=True))
+    write_columns(text, data)
     with to_be_written(path) as target:
         write_atomically(target, text.getvalue().encode())
 

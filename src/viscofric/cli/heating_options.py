@@ -9,10 +9,10 @@ import click
 
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import placed_at, typed_as
+from viscofric.cli.output import together
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
+    from viscofric.cli.output import Decorator
     from viscofric.heat.heating import Heating
     from viscofric.thermal import ThermalProperties
 
@@ -60,15 +60,9 @@ _STEADY = (
 _NAMES = ("rubber", "coulomb", "slip", "track", "average", "branch")
 
 
-def heating_options(*, steady: bool) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def heating_options(*, steady: bool) -> Decorator:
     """Return a decorator that adds the options of heating, of steady contacts or of those over time."""
-
-    def add(function: Callable[..., Any]) -> Callable[..., Any]:
-        for one in reversed((*_BODIES, *(_STEADY if steady else ()))):
-            function = one(function)
-        return function
-
-    return add
+    return together(*_BODIES, *(_STEADY if steady else ()))
 
 
 def chosen_heating(parameters: dict[str, Any]) -> Heating | None:

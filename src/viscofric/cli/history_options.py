@@ -9,11 +9,10 @@ import click
 
 from viscofric.cli.contact_options import chosen_direction, option
 from viscofric.cli.files import Source
+from viscofric.cli.output import together
 from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from viscofric.motion.history import History
 
 _MOST_POINTS = 100_000
@@ -22,7 +21,8 @@ _OF_CURVE = 120
 #: Options that a file of the history replaces.
 _STAGES = ("load_time", "dwell", "slide", "strokes")
 _CONTROLS = ("load", "indentation", "pressure")
-_OPTIONS = (
+#: Options of a history.
+history_options = together(
     click.option(
         "--history",
         type=Source(),
@@ -64,13 +64,6 @@ _OPTIONS = (
         help="Number of times to report, instead of --times; dense after each change of load or speed.",
     ),
 )
-
-
-def history_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a history."""
-    for one in reversed(_OPTIONS):
-        function = one(function)
-    return function
 
 
 def history_inputs(parameters: dict[str, Any]) -> list[Path]:

@@ -10,13 +10,12 @@ import click
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors, typed_as
 from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import json_option, out_option, picture_option, print_json, together
 from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
 
     from viscofric.friction.identification.anchors import Anchor
@@ -28,7 +27,8 @@ _SIZES = ("indentation", "area", "half_width")
 #: What an anchor takes besides the modulus or the size.
 _OF_MODULUS, _OF_SIZE = ("frequency", "temperature"), ("speed", "temperature", "load")
 
-_ANCHOR = (
+#: Options of an anchor.
+anchor_options = together(
     click.option(
         "--anchor-modulus", metavar="E", help="Known |E| at one frequency, e.g. '8 MPa'; fixes the magnitude."
     ),
@@ -47,13 +47,6 @@ _ANCHOR = (
         "--anchor-error", type=float, metavar="SHARE", help="Relative standard error of the anchor [default: 0.01]."
     ),
 )
-
-
-def anchor_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of an anchor."""
-    for option in reversed(_ANCHOR):
-        function = option(function)
-    return function
 
 
 def check_anchor(parameters: dict[str, Any]) -> str | None:
@@ -179,9 +172,7 @@ def command(
     SOURCES are tables of friction curves (CSV, as written by `viscofric measure --out`), files of a tribometer, or
     `-` for standard input. Friction hardly determines the magnitude of the modulus: give an anchor or a prior.
     """
-    for target in (out, picture):
-        if target is not None:
-            refuse_to_overwrite(target, sources)
+    refuse_to_overwrite(sources, out, picture)
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
     settings, anchor = settings_of(parameters), check_anchor(parameters)

@@ -16,9 +16,9 @@ from viscofric.cli.contact_options import (
     indenter_options,
     inputs_of,
 )
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_dataset
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -62,9 +62,7 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
 
     Quantities carry their unit. Several speeds or temperatures give the restitution curve.
     """
-    for target in (out, picture):
-        if target is not None:
-            refuse_to_overwrite(target, inputs_of(parameters))
+    refuse_to_overwrite(inputs_of(parameters), out, picture)
     if parameters["layer"] is not None or parameters["sliding_base"]:
         raise click.UsageError("impacts are solved on a half-space only; leave out --layer and --sliding-base.")
     with reported_errors():
@@ -91,8 +89,7 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
 
             print_json(impact_record(inputs, result, seconds), indent=None)
         elif out != DASH:
-            synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
-            click.echo(f"{name}{synthetic}, {parameters['mass']}\n")
+            click.echo(f"{name}{rubber.mark}, {parameters['mass']}\n")
             _print(result, seconds)
         if out is not None:
             write_dataset(out, result.to_dataset())
@@ -102,8 +99,7 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
             said.append(f"picture  {picture}")
         for written in said:
             click.echo(written, err=as_json or out == DASH)
-        for warning in result.warnings:
-            click.echo(f"Warning: {warning}", err=True)
+        print_notes(result.warnings, word="Warning")
 
 
 def _solved(
@@ -133,10 +129,7 @@ def _print(result: ImpactSolution | RestitutionCurve, seconds: float) -> None:
         for line in restitution_lines(result):
             click.echo(line)
         return
-    lines = impact_lines(result, seconds)
-    width = max(len(quantity) for quantity, _ in lines)
-    for quantity, value in lines:
-        click.echo(f"{quantity:<{width}}  {value}")
+    print_pairs(impact_lines(result, seconds))
 
 
 def _draw(path: Path, name: str, result: ImpactSolution | RestitutionCurve, synthetic: bool) -> None:

@@ -9,7 +9,7 @@ import click
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, DASH, Source, plainly, refusal, refuse_to_overwrite, to_be_written
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
 from viscofric.cli.rubber_options import shift_factor_options
 from viscofric.cli.separation_options import separation_options, settings_of
 
@@ -71,9 +71,7 @@ def command(
     `-` for standard input. If the curves do not overlap, friction determines no shift factors: those of --shift are
     used; without --shift, that is an error.
     """
-    for target in (out, picture):
-        if target is not None:
-            refuse_to_overwrite(target, sources)
+    refuse_to_overwrite(sources, out, picture)
     settings = settings_of(parameters)
     with reported_errors():
         from viscofric.cli.friction_sources import friction_curves, shifts
@@ -166,10 +164,7 @@ def _print(
     for line in shift_lines(master, known):
         click.echo(line)
     click.echo()
-    said = shift_words(master, law, agreement, why)
-    width = max(len(name) for name, _ in said)
-    for name, value in said:
-        click.echo(f"{name:<{width}}  {value}")
+    print_pairs(shift_words(master, law, agreement, why))
 
 
 def _write(

@@ -15,7 +15,7 @@ from viscofric.cli.files import (
     refuse_to_overwrite,
     write_curves,
 )
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
 from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
@@ -45,9 +45,7 @@ def command(
     rubber, Coulomb friction with the slip, the zero offset of the force cell with neither. Several files make one
     test; `-` is standard input.
     """
-    for target in (out, picture):
-        if target is not None:
-            refuse_to_overwrite(target, runs)
+    refuse_to_overwrite(runs, out, picture)
     settings = settings_of(parameters)
     with reported_errors():
         from viscofric.cli.friction_sources import separated
@@ -73,6 +71,4 @@ def _print(curves: FrictionCurves) -> None:
     said = friction_lines(curves)
     if said:
         click.echo()
-    width = max((len(name) for name, _ in said), default=0)
-    for name, value in said:
-        click.echo(f"{name:<{width}}  {value}")
+    print_pairs(said)

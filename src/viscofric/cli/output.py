@@ -11,9 +11,21 @@ import click
 from viscofric.cli.files import DASH, FILE, OUT, PICTURES, check_ending
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+
+def together(*options: Decorator) -> Decorator:
+    """Return a decorator that adds several options, in the order of the help."""
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return add
+
 
 #: A folder to be written into.
 FOLDER = click.Path(path_type=Path, file_okay=False)
@@ -93,6 +105,14 @@ def print_json(record: dict[str, Any], indent: int | None = 2) -> None:
     from viscofric.datasets import plain
 
     click.echo(json.dumps(plain(record, digits=None), indent=indent, ensure_ascii=False, allow_nan=False))
+
+
+def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
+    """Print pairs of name and value, the values one below the other."""
+    pairs = list(pairs)
+    width = max((len(name) for name, _ in pairs), default=0)
+    for name, value in pairs:
+        click.echo(f"{name:<{width}}  {value}")
 
 
 def write_rows(path: Path, rows: Sequence[dict[str, Any]]) -> None:

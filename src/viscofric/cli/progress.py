@@ -6,11 +6,21 @@ import contextlib
 import json
 import time
 from contextlib import contextmanager
+from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Protocol
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    TaskID,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 
 from viscofric.datasets import plain
 
@@ -150,24 +160,25 @@ class JsonProgress(Silent):
 
 
 @contextmanager
+def _bar(words: str, quiet: bool, *beside: ProgressColumn, **fields: Any) -> Iterator[Callable[..., None]]:
+    """Show a bar on standard error as long as the block runs, if that is a terminal; yield what moves it."""
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(bar_width=24), *beside)
+    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
+        yield partial(bars.update, bars.add_task(words, total=None, **fields))
+
+
+@contextmanager
 def time_bar(words: str, *, quiet: bool, shown: str = _OF_TIME) -> Iterator[Callable[[float, float], None]]:
-    """Show the time reached on standard error as long as the block runs, if that is a terminal.
+    """Show the time reached, see `_bar`.
 
     `shown` has two places for numbers; without the last time as the second one, the bar has no end.
     """
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(bar_width=24),
-        TextColumn("{task.fields[reached]}"),
-        TimeRemainingColumn(elapsed_when_finished=True),
-    )
-    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
-        task = bars.add_task(words, total=None, reached="")
+    beside = TextColumn("{task.fields[reached]}"), TimeRemainingColumn(elapsed_when_finished=True)
+    with _bar(words, quiet, *beside, reached="") as move:
 
         def show(reached: float, last: float) -> None:
-            end = last if shown == _OF_TIME else None
-            bars.update(task, completed=reached, total=end, reached=shown.format(reached, last))
+            move(completed=reached, total=last if shown == _OF_TIME else None, reached=shown.format(reached, last))
 
         yield show
 
@@ -181,16 +192,10 @@ class Bar(Protocol):
 
 @contextmanager
 def contact_bar(words: str, *, quiet: bool) -> Iterator[Bar]:
-    """Show a bar on standard error as long as the block runs, if that is a terminal."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(bar_width=24), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
-        task = bars.add_task(words, total=None)
+    """Show how many contacts are solved, see `_bar`."""
+    with _bar(words, quiet, MofNCompleteColumn(), TimeElapsedColumn()) as move:
 
         def show(done: int, total: int, words: str = words) -> None:
-            bars.update(task, description=words, completed=done, total=total)
+            move(description=words, completed=done, total=total)
 
         yield show

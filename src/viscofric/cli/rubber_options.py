@@ -10,10 +10,10 @@ import click
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
+from viscofric.cli.output import together
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
+    from viscofric.cli.output import Decorator
     from viscofric.contact.bodies import Layer
     from viscofric.rheology.material import Material
     from viscofric.study.rubber import Rubber
@@ -35,18 +35,13 @@ def _headings(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
     return found
 
 
-def column_options(
-    example: str, of: str = "", condition: str = ""
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def column_options(example: str, of: str = "", condition: str = "") -> Decorator:
     """Return a decorator that adds the options of a table whose header is not understood.
 
     `of` begins their names where a command reads several tables, `condition` their help.
     """
-
-    def add(function: Callable[..., Any]) -> Callable[..., Any]:
-        sheet = f"{condition}The only sheet of a workbook to read."
-        function = click.option(f"--{of}sheet", metavar="NAME", help=sheet)(function)
-        return click.option(
+    return together(
+        click.option(
             f"--{of}column",
             f"{of.replace('-', '_')}columns",
             metavar="NAME=HEADING",
@@ -54,12 +49,13 @@ def column_options(
             callback=_headings,
             help=f"{condition}Heading of a column whose header is not understood, e.g. {example}; repeatable. "
             "A unit may follow in brackets; '#2 (Hz)' is the second column.",
-        )(function)
+        ),
+        click.option(f"--{of}sheet", metavar="NAME", help=f"{condition}The only sheet of a workbook to read."),
+    )
 
-    return add
 
-
-_MATERIAL = (
+#: Options of the rubber.
+rubber_options = together(
     click.option(
         "--material",
         metavar="NAME|FILE",
@@ -100,13 +96,6 @@ _OF_FILES = ("deformation", "modulus_unit", "columns", "sheet")
 _SINGLE = ("rubber_modulus", "glass_modulus", "tau")
 
 
-def rubber_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of the rubber."""
-    for one in reversed(_MATERIAL):
-        function = one(function)
-    return function
-
-
 class NamedRubber(NamedTuple):
     """A rubber, what it is called, whether it is made up, and what it was made of, where that is known."""
 
@@ -114,6 +103,11 @@ class NamedRubber(NamedTuple):
     name: str
     synthetic: bool
     made: Rubber | None = None
+
+    @property
+    def mark(self) -> str:
+        """What follows a name where the rubber is made up."""
+        return " (SYNTHETIC, not measured)" if self.synthetic else ""
 
     def record(self, temperature: float | None) -> dict[str, Any]:
         """Return it in plain types, with its modes at a temperature (K)."""
@@ -216,30 +210,29 @@ def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
     return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
 
 
-def shift_factor_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of a table of shift factors whose header is not understood."""
-    return column_options("'log10_shift_factor=lg'", "shift-factor-", "Of the shift factors: ")(function)
+#: Options of a table of shift factors whose header is not understood.
+shift_factor_options = column_options("'log10_shift_factor=lg'", "shift-factor-", "Of the shift factors: ")
 
-
-def reading_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options for what a DMA file may not say itself."""
-    for one in (
-        column_options("'frequency=f in Hz'"),
-        click.option("--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa."),
-        click.option(
-            "--temperature",
-            metavar="T",
-            multiple=True,
-            help="Temperature of a file that contains none, e.g. '30 degC'; once, or once for each file.",
-        ),
-        click.option(
-            "--deformation",
-            type=click.Choice(["tension", "compression", "bending", "shear"]),
-            help="Deformation of the test, if the file does not state it.",
-        ),
-    ):
-        function = one(function)
-    return function
+deformation_option = click.option(
+    "--deformation",
+    type=click.Choice(["tension", "compression", "bending", "shear"]),
+    help="Deformation of the test, if the file does not state it.",
+)
+modulus_unit_option = click.option(
+    "--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa."
+)
+#: Options for what a DMA file may not say itself.
+reading_options = together(
+    deformation_option,
+    click.option(
+        "--temperature",
+        metavar="T",
+        multiple=True,
+        help="Temperature of a file that contains none, e.g. '30 degC'; once, or once for each file.",
+    ),
+    modulus_unit_option,
+    column_options("'frequency=f in Hz'"),
+)
 
 
 def find_rubber(name: str, parameter: str = "material") -> Material:

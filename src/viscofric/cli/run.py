@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
-from viscofric.cli.errors import print_doubtful_checks
+from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option, pdf_option
 from viscofric.notes import listed
 
@@ -188,10 +188,8 @@ def print_outcome(results: StudyResults, quiet: bool = False) -> None:
     elif notes:
         many = f"{len(notes)} notes" if len(notes) > 1 else "1 note"
         click.echo(f"{many} on the data, also in the report:", err=True)
-        for note in notes:
-            click.echo(f"Note: {note.words('run_file')}", err=True)
-    for warning in results.warnings:
-        click.echo(f"Warning: {warning.words('run_file')}", err=True)
+        print_notes(notes, "run_file")
+    print_notes(results.warnings, "run_file", word="Warning")
     print_doubtful_checks(results.tree, but=_REPORTED_OTHERWISE)
     for line in grouped_failures(results.failures, _MOST_LINES):
         click.echo(f"Failed: {line}", err=True)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from viscofric.cli.output import together
 from viscofric.cli.rubber_options import column_options
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-_SEPARATION = (
+#: Settings of `viscofric.friction.measurement.tribometry.separate`.
+separation_options = together(
+    column_options("'disc_speed=V1 (mm/s)'"),
     click.option(
         "--zero",
         metavar="FORCE",
@@ -61,13 +61,6 @@ _DEFAULTS: dict[str, Any] = {
 }
 #: Setting -> its option, where that is not its name.
 _TYPED = {"outliers": "leave-out-outliers", "columns": "column"}
-
-
-def separation_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the settings of `viscofric.friction.measurement.tribometry.separate`."""
-    for option in reversed(_SEPARATION):
-        function = option(function)
-    return column_options("'disc_speed=V1 (mm/s)'")(function)
 
 
 def settings_of(parameters: dict[str, Any]) -> dict[str, Any]:

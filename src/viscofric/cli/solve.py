@@ -17,12 +17,11 @@ from viscofric.cli.contact_options import (
     indenter_options,
     inputs_of,
 )
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
-from viscofric.notes import note_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -84,9 +83,7 @@ def command(as_json: bool, picture: Path | None, out: Path | None, **parameters:
 
     Quantities carry their unit. Every result has its estimated discretisation error.
     """
-    for target in (picture, out):
-        if target is not None:
-            refuse_to_overwrite(target, inputs_of(parameters))
+    refuse_to_overwrite(inputs_of(parameters), picture, out)
     if (parameters["load"] is None) == (parameters["indentation"] is None):
         raise click.UsageError("give either --load or --indentation, one of them.")
     with reported_errors():
@@ -160,19 +157,14 @@ def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: f
         angle = math.degrees(math.atan2(solution.direction[1], solution.direction[0]))
         speed += f" towards {shown_number(angle, 'z.4g')}° from its x axis"
     where = "" if solution.temperature is None else f", {shown_celsius(solution.temperature, 'z.4g')} °C"
-    synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
-    click.echo(f"{name}{synthetic}, {speed}{where}")
+    click.echo(f"{name}{rubber.mark}, {speed}{where}")
     click.echo()
-    lines = contact_lines(solution, seconds)
-    width = max(len(quantity) for quantity, _ in lines)
-    for quantity, value in lines:
-        click.echo(f"{quantity:<{width}}  {value}")
+    print_pairs(contact_lines(solution, seconds))
     if solution.derivatives is not None:
         click.echo()
         for line in derivative_lines(solution, rubber.material.modes_at(solution.temperature)):
             click.echo(line)
-    for warning in solution.warnings:
-        click.echo(f"Warning: {note_of(warning).words('shell')}", err=True)
+    print_notes(solution.warnings, word="Warning")
 
 
 def _write(

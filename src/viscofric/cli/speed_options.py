@@ -8,15 +8,17 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
+from viscofric.cli.output import together
+
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from viscofric.cli.output import Decorator
 
 _MOST_POINTS = 10_000
 
 
-def speed_options(speed: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def speed_options(speed: str) -> Decorator:
     """Return a decorator that adds the options of several speeds, named by `speed`, and temperatures."""
-    options = (
+    return together(
         click.option(
             "--speed",
             "speeds",
@@ -40,13 +42,6 @@ def speed_options(speed: str) -> Callable[[Callable[..., Any]], Callable[..., An
             help="Temperature or list, e.g. '30 degC, 60 degC' [default: the material's reference].",
         ),
     )
-
-    def add(function: Callable[..., Any]) -> Callable[..., Any]:
-        for one in reversed(options):
-            function = one(function)
-        return function
-
-    return add
 
 
 #: Between the ends of a range: "1 mm/s to 1 m/s", and other ways in which people write it.

@@ -19,7 +19,7 @@ from viscofric.cli.contact_options import (
     inputs_of,
     surface_options,
 )
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import (
     DASH,
     DATA,
@@ -32,7 +32,7 @@ from viscofric.cli.files import (
 )
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_inputs, history_options
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
@@ -130,8 +130,7 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
             said.append(f"state    {parameters['state']}")
         for written in said:
             click.echo(written, err=as_json or out == DASH)
-        for warning in run.warnings:
-            click.echo(f"Warning: {warning}", err=True)
+        print_notes(run.warnings, word="Warning")
     if run.interrupted:
         word, status = ("Terminated", TERMINATED) if Terminated.received else ("Interrupted", INTERRUPTED)
         click.echo(f"{word} after {run.time[-1]:.4g} s of the history; the results end there.", err=True)
@@ -191,9 +190,7 @@ def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[
         check_ending(target, f"--{name}", (".gif",) if name == "animation" else PICTURES)
     check_ending(parameters["state"], "--save-state", (".npz",))
     inputs = [*inputs_of(parameters), *history_inputs(parameters)]
-    for target in (out, parameters["state"], *drawings.values()):
-        if target is not None:
-            refuse_to_overwrite(target, inputs)
+    refuse_to_overwrite(inputs, out, parameters["state"], *drawings.values())
 
 
 def _record(
@@ -226,17 +223,13 @@ def _print(
     from viscofric.motion.cycle_solution import CycleSolution
     from viscofric.report.texts.motion import cycle_lines, history_words, notes_on_errors, transient_lines
 
-    synthetic = " (SYNTHETIC, not measured)" if rubber.synthetic else ""
-    click.echo(f"{name}{synthetic}")
+    click.echo(f"{name}{rubber.mark}")
     if isinstance(result, CycleSolution):
         click.echo(f"{history_words(history, result.run.geometry)}, repeated\n")
-        lines = cycle_lines(result, seconds)
+        print_pairs(cycle_lines(result, seconds))
     else:
         click.echo(f"{history_words(history, result.geometry)}, {history.before} before\n")
-        lines = transient_lines(result, seconds)
-    width = max(len(quantity) for quantity, _ in lines)
-    for quantity, value in lines:
-        click.echo(f"{quantity:<{width}}  {value}")
+        print_pairs(transient_lines(result, seconds))
     for note in notes_on_errors(result.run if isinstance(result, CycleSolution) else result):
         click.echo(f"Note: {note}")
 

@@ -70,9 +70,7 @@ def command(
     from viscofric.readers.dma.amplitudes import read_amplitude_sweep
     from viscofric.rheology.payne.kraus_fit import fit_kraus
 
-    for target in (picture, out):
-        if target is not None:
-            refuse_to_overwrite(target, files)
+    refuse_to_overwrite(files, picture, out)
     if out is not None and chosen["material"] is None:
         raise click.UsageError("--out needs --material, and --strain or a contact.")
     with reported_errors():

@@ -66,7 +66,7 @@ def command(
     target = output or out
     if target is None or (output is not None and out is not None):
         raise click.UsageError("give the file to write, OUTPUT or --out, once.")
-    refuse_to_overwrite(target, [Path(rubber)])
+    refuse_to_overwrite([Path(rubber)], target)
     with reported_errors():
         material = find_rubber(rubber, "rubber")
         with warned() as notes:

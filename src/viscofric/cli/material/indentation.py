@@ -94,9 +94,7 @@ def command(
     loss stiffness (--depth); or of speed, and restitution, contact time, peak force or indentation (--mass).
     """
     check_ending(table, "--csv", CSV)
-    for target in (out, table, picture):
-        if target is not None:
-            refuse_to_overwrite(target, files)
+    refuse_to_overwrite(files, out, table, picture)
     if len(temperatures) not in (0, 1, len(files)):
         raise click.UsageError(f"--temperature is given {len(temperatures)} times for {len(files)} files.")
     if sum(parameters[name] is not None for name in ("control", "depth", "mass")) != 1:

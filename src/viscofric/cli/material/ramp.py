@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import Source
 from viscofric.cli.output import FOLDER, json_option, out_option, print_json
-from viscofric.cli.rubber_options import column_options
+from viscofric.cli.rubber_options import column_options, deformation_option, modulus_unit_option
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,12 +24,8 @@ if TYPE_CHECKING:
 @click.command(name="ramp")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @column_options("'frequency=f in Hz'")
-@click.option("--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa.")
-@click.option(
-    "--deformation",
-    type=click.Choice(["tension", "compression", "bending", "shear"]),
-    help="Deformation of the test, if the file does not state it.",
-)
+@modulus_unit_option
+@deformation_option
 @click.option(
     "--direction", type=click.Choice(["heating", "cooling"]), help="Part of a file with both [default: heating]."
 )

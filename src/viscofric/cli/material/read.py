@@ -29,8 +29,7 @@ def command(files: tuple[Path, ...], out: Path | None, as_json: bool, **reading:
     from viscofric.cli.material.readings import described, read_kind
     from viscofric.readers.recognise import by_kind
 
-    if out is not None:
-        refuse_to_overwrite(out, files)
+    refuse_to_overwrite(files, out)
     with reported_errors():
         stated = {name: reading[name] or None for name in ("modulus_unit", "columns", "sheet")}
         kinds = by_kind(files, temperatures=reading["temperature"], **stated)
